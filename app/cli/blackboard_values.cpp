@@ -11,6 +11,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include <base/try.h>
+
 #include "blackboard_target.h"
 #include "interrupt.h"
 
@@ -83,9 +85,8 @@ std::uint32_t wordOf(const Words& words, const Variable& variable) {
 }
 
 Result<Blackboard> openTarget(const BlackboardTarget& target, AttachMode mode) {
-  const auto key = target.resolve();
-  if (!key) return tl::unexpected(key.error());
-  return SystemVSegments::open(*key, mode);
+  const auto key = TRY(target.resolve());
+  return SystemVSegments::open(key, mode);
 }
 
 /// The variables of these names, or all of them.
@@ -143,17 +144,15 @@ void dumpJson(const VariableCatalog& catalog, const Words& words, int key,
 }
 
 Result<void> dump(DumpOptions& options) {
-  const auto catalog = loadCatalog(options.catalog);
-  if (!catalog) return tl::unexpected(catalog.error());
-  const auto board = openTarget(options.target, AttachMode::ReadOnly);
-  if (!board) return tl::unexpected(board.error());
+  const auto catalog = TRY(loadCatalog(options.catalog));
+  const auto board = TRY(openTarget(options.target, AttachMode::ReadOnly));
   Words words{};
-  board->copyWords(words);
+  board.copyWords(words);
 
   std::vector<int> unnamed;
   if (options.all) {
     std::array<bool, Blackboard::words> named{};
-    for (const Variable& variable : catalog->variables())
+    for (const Variable& variable : catalog.variables())
       named[static_cast<std::size_t>(wordIndex(variable))] = true;
     for (int word = 0; word < Blackboard::words; ++word) {
       const auto at = static_cast<std::size_t>(word);
@@ -161,10 +160,10 @@ Result<void> dump(DumpOptions& options) {
     }
   }
   if (options.json) {
-    dumpJson(*catalog, words, board->key(), unnamed);
+    dumpJson(catalog, words, board.key(), unnamed);
     return {};
   }
-  for (const Variable& variable : catalog->variables())
+  for (const Variable& variable : catalog.variables())
     std::printf("%-5s %3d  %-32s %s\n", variable.type == VariableType::Int ? "int" : "float",
                 variable.index, variable.name.c_str(),
                 valueText(variable.type, wordOf(words, variable)).c_str());
@@ -210,31 +209,27 @@ void printChange(const Variable& variable, std::uint32_t before, std::uint32_t n
 }
 
 Result<void> watch(WatchOptions& options) {
-  if (const auto taken = options.target.takeRobotFrom(options.names); !taken) return taken;
+  TRY(options.target.takeRobotFrom(options.names));
   using SteadyClock = std::chrono::steady_clock;
-  const auto catalog = loadCatalog(options.catalog);
-  if (!catalog) return tl::unexpected(catalog.error());
-  const auto variables = choose(*catalog, options.names);
-  if (!variables) return tl::unexpected(variables.error());
-  const auto board = openTarget(options.target, AttachMode::ReadOnly);
-  if (!board) return tl::unexpected(board.error());
-  const auto opened = SystemVSegments::info(board->key());
-  if (!opened) return tl::unexpected(opened.error());
+  const auto catalog = TRY(loadCatalog(options.catalog));
+  const auto variables = TRY(choose(catalog, options.names));
+  const auto board = TRY(openTarget(options.target, AttachMode::ReadOnly));
+  const auto opened = TRY(SystemVSegments::info(board.key()));
 
   const InterruptGuard signals;
 
   Words before{};
-  board->copyWords(before);
+  board.copyWords(before);
   // Whoever reads our output knows from here on that no change is missed.
-  std::fprintf(stderr, "watching blackboard %d; Ctrl+C ends\n", board->key());
+  std::fprintf(stderr, "watching blackboard %d; Ctrl+C ends\n", board.key());
   const auto end =
       SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(
                                std::chrono::duration<double>(options.duration.value_or(0.0)));
   auto nextCheck = SteadyClock::now();
   for (long long printed = 0; !interrupted;) {
     Words now{};
-    board->copyWords(now);
-    for (const Variable& variable : *variables) {
+    board.copyWords(now);
+    for (const Variable& variable : variables) {
       const std::uint32_t old = wordOf(before, variable);
       const std::uint32_t fresh = wordOf(now, variable);
       if (old == fresh) continue;
@@ -247,10 +242,10 @@ Result<void> watch(WatchOptions& options) {
     if (options.duration && time >= end) return {};
     if (time >= nextCheck) {
       // Removed, or removed and made anew: what we hold will never change again.
-      const auto there = SystemVSegments::info(board->key());
-      if (!there || there->shmid != opened->shmid)
+      const auto there = SystemVSegments::info(board.key());
+      if (!there || there->shmid != opened.shmid)
         return failure(ErrorCode::NotFound, "was removed while it was watched",
-                       "blackboard " + std::to_string(board->key()));
+                       "blackboard " + std::to_string(board.key()));
       nextCheck = time + std::chrono::milliseconds(500);
     }
     before = now;
@@ -277,9 +272,8 @@ Result<Assignment> parseAssignment(const VariableCatalog& catalog, const std::st
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     return failure(ErrorCode::InvalidArgument, "must be NAME=VALUE, as DECISION_ACTION_A=8", text);
-  const auto chosen = choose(catalog, {text.substr(0, equals)});
-  if (!chosen) return tl::unexpected(chosen.error());
-  Assignment assignment{chosen->front()};
+  const auto chosen = TRY(choose(catalog, {text.substr(0, equals)}));
+  Assignment assignment{chosen.front()};
   std::string_view value = std::string_view(text).substr(equals + 1);
   if (value.starts_with('+')) value.remove_prefix(1);
   const char* const last = value.data() + value.size();
@@ -300,25 +294,22 @@ Result<Assignment> parseAssignment(const VariableCatalog& catalog, const std::st
 }
 
 Result<void> set(SetOptions& options) {
-  if (const auto taken = options.target.takeRobotFrom(options.assignments); !taken) return taken;
+  TRY(options.target.takeRobotFrom(options.assignments));
   if (options.assignments.empty())
     return failure(ErrorCode::InvalidArgument, "nothing to write: add NAME=VALUE");
-  const auto catalog = loadCatalog(options.catalog);
-  if (!catalog) return tl::unexpected(catalog.error());
+  const auto catalog = TRY(loadCatalog(options.catalog));
   // All are checked before the first is written: a robot never sees half a command.
   std::vector<Assignment> assignments;
   for (const std::string& text : options.assignments) {
-    auto assignment = parseAssignment(*catalog, text);
-    if (!assignment) return tl::unexpected(assignment.error());
-    assignments.push_back(*std::move(assignment));
+    auto assignment = TRY(parseAssignment(catalog, text));
+    assignments.push_back(std::move(assignment));
   }
-  auto board = openTarget(options.target, AttachMode::AttachOnly);
-  if (!board) return tl::unexpected(board.error());
+  auto board = TRY(openTarget(options.target, AttachMode::AttachOnly));
   for (const Assignment& assignment : assignments) {
     if (assignment.variable.type == VariableType::Int)
-      board->write(link::IntVar{assignment.variable.index}, assignment.intValue);
+      board.write(link::IntVar{assignment.variable.index}, assignment.intValue);
     else
-      board->write(link::FloatVar{assignment.variable.index}, assignment.floatValue);
+      board.write(link::FloatVar{assignment.variable.index}, assignment.floatValue);
   }
   return {};
 }

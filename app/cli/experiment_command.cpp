@@ -9,12 +9,12 @@
 #include <thread>
 
 #include <base/duration_words.h>
+#include <base/try.h>
 #include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/experiment/run_player.h>
 #include <robotlink/processes/own_program.h>
 
 #include "commands.h"
-#include "experiment_session.h"
 #include "interrupt.h"
 #include "progress.h"
 
@@ -24,6 +24,30 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr int exitAssertionFailed = 1;
 constexpr const char* program = "pitchboard " PITCHBOARD_VERSION;
+
+/// A run of an experiment's results, played again into a session file. Error Conflict when it does
+/// not end in the state that the results say, unless a team's own programs play in it.
+Result<link::RunResult> recordRun(const std::string& folder, const link::Experiment& experiment,
+                                  std::size_t number, const std::string& path,
+                                  const link::PlaySettings& settings) {
+  const auto before = link::resultOf(folder, experiment, number);
+  if (!before) return before;
+  std::error_code code;
+  if (const auto parent = std::filesystem::path(path).parent_path(); !parent.empty()) {
+    std::filesystem::create_directories(parent, code);
+  }
+  auto player = TRY(link::RunPlayer::create(experiment, settings));
+  auto result = player.record(number, path, program);
+  if (!result) return result;
+  if (result->hash != before->hash && !experiment.ownPrograms) {
+    return failure(ErrorCode::Conflict,
+                   "run " + std::to_string(number) +
+                       " ended in another state than in the results; were they played by another "
+                       "version?",
+                   path);
+  }
+  return result;
+}
 
 struct Options {
   std::string experiment, out, shard, robotProgram;
@@ -74,18 +98,15 @@ std::string progressText(std::size_t done, std::size_t all, double seconds) {
 Result<void> recordRuns(const link::Experiment& experiment, const link::ExperimentFolder& folder,
                         const Shard& shard, const link::PlaySettings& settings) {
   if (experiment.record == link::Record::Nothing) return {};
-  const auto table = link::resultsOf(folder.path(), experiment);
-  if (!table) return tl::unexpected(table.error());
+  const auto table = TRY(link::resultsOf(folder.path(), experiment));
   for (std::size_t number = 1; number <= experiment.allRuns() && !interrupted; ++number) {
     if ((number - 1) % shard.count != shard.index - 1) continue;
     const link::RunPlace place = link::placeOf(experiment, number);
-    const bool success = table->conditions[place.condition].columns[0][place.index] != 0.0;
+    const bool success = table.conditions[place.condition].columns[0][place.index] != 0.0;
     if (!link::isRecorded(experiment, number, success)) continue;
     const std::string path = link::sessionPath(folder.path(), number);
     if (std::filesystem::exists(path)) continue;
-    if (auto done = recordRun(folder.path(), experiment, number, path, settings); !done) {
-      return tl::unexpected(done.error());
-    }
+    TRY(recordRun(folder.path(), experiment, number, path, settings));
   }
   return {};
 }
@@ -274,29 +295,6 @@ void addReplay(CLI::App& parent, int& exitCode) {
 }
 
 }  // namespace
-
-Result<link::RunResult> recordRun(const std::string& folder, const link::Experiment& experiment,
-                                  std::size_t number, const std::string& path,
-                                  const link::PlaySettings& settings) {
-  const auto before = link::resultOf(folder, experiment, number);
-  if (!before) return before;
-  std::error_code code;
-  if (const auto parent = std::filesystem::path(path).parent_path(); !parent.empty()) {
-    std::filesystem::create_directories(parent, code);
-  }
-  auto player = link::RunPlayer::create(experiment, settings);
-  if (!player) return tl::unexpected(player.error());
-  auto result = player->record(number, path, program);
-  if (!result) return result;
-  if (result->hash != before->hash && !experiment.ownPrograms) {
-    return failure(ErrorCode::Conflict,
-                   "run " + std::to_string(number) +
-                       " ended in another state than in the results; were they played by another "
-                       "version?",
-                   path);
-  }
-  return result;
-}
 
 void addExperimentCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<Options>();

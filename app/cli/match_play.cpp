@@ -9,6 +9,7 @@
 #include <thread>
 
 #include <app/command_line.h>
+#include <base/try.h>
 #include <robotlink/processes/own_program.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <robotlink/scenario/team_programs.h>
@@ -153,9 +154,8 @@ Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const Pla
                                       link::Cognition cognition) {
   if (!scenario) return scenario;
   if (!options.rules.empty()) {
-    auto rules = link::refereeRuleSet(options.rules);
-    if (!rules) return tl::unexpected(rules.error());
-    scenario->settings.referee = *rules;
+    auto rules = TRY(link::refereeRuleSet(options.rules));
+    scenario->settings.referee = rules;
   }
   if (options.duration) {
     scenario->stop.duration = options.duration;
@@ -168,19 +168,17 @@ Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const Pla
   if (!scenario || (cognition == link::Cognition::None && options.robots.runtimes.empty())) {
     return scenario;
   }
-  const auto allowed = link::usesTeamPrograms(*scenario, cognition == link::Cognition::External,
-                                              "add --cognition external");
-  if (!allowed) return tl::unexpected(allowed.error());
+  const auto allowed = TRY(link::usesTeamPrograms(*scenario, cognition == link::Cognition::External,
+                                                  "add --cognition external"));
   return scenario;
 }
 
 Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario, const PlayOptions& options,
                                          link::Cognition cognition) {
-  const auto speed = speedOf(options, cognition);
-  if (!speed) return tl::unexpected(speed.error());
+  const auto speed = TRY(speedOf(options, cognition));
   shared::warnOfIgnoredSettings(scenario);
   link::MatchOptions made;
-  made.speed = *speed;
+  made.speed = speed;
   made.cognition = cognition;
   shared::apply(options.robots, made);
   made.robotProgram = options.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")

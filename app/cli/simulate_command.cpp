@@ -4,6 +4,7 @@
 
 #include <base/file_target.h>
 #include <base/time_text.h>
+#include <base/try.h>
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/moment_reader.h>
 #include <telemetry/session/session_time.h>
@@ -13,11 +14,38 @@
 #include "match_play.h"
 #include "progress.h"
 #include "simulate_report.h"
-#include "simulate_stdio.h"
 #include "trace_writer.h"
 
 namespace pitchboard::cli {
 namespace {
+
+/// The next line, without its end; of one that is too long only the beginning, which is too long,
+/// too. False at the end of the input.
+bool nextLine(std::string& line) {
+  line.clear();
+  int byte = 0;
+  while ((byte = std::getc(stdin)) != EOF && byte != '\n') {
+    if (line.size() <= link::WorldLines::longestLine) line += static_cast<char>(byte);
+  }
+  return byte != EOF || !line.empty();
+}
+
+/// `simulate --stdio`: lines of JSON from standard input, an answer to each on standard output,
+/// until the input ends. `usual`: what worlds are made of when a request names no scenario.
+Result<void> serveWorldLines(link::Scenario usual) {
+  link::WorldLines lines(std::move(usual));
+  std::string line;
+  while (nextLine(line)) {
+    if (line.empty() || line == "\r") continue;
+    const std::string answer = lines.answer(line) + '\n';
+    if (std::fwrite(answer.data(), 1, answer.size(), stdout) != answer.size() ||
+        std::fflush(stdout) != 0) {
+      return failure(ErrorCode::SystemError,
+                     "an answer could not be written: " + systemReason(errno), "standard output");
+    }
+  }
+  return {};
+}
 
 struct Arguments {
   PlayOptions play;
@@ -55,26 +83,23 @@ Result<double> momentIn(const telemetry::SessionReader& session, const Arguments
 }
 
 Result<Recorded> recordedMoment(const Arguments& arguments) {
-  const auto session = telemetry::SessionReader::open(arguments.session);
-  if (!session) return tl::unexpected(session.error());
-  const auto at = momentIn(*session, arguments);
-  if (!at) return tl::unexpected(at.error());
-  auto moment = link::momentFromSession(*session, *at, link::VariableCatalog::published());
+  const auto session = TRY(telemetry::SessionReader::open(arguments.session));
+  const auto at = TRY(momentIn(session, arguments));
+  auto moment = link::momentFromSession(session, at, link::VariableCatalog::published());
   if (!moment) {
     Error error = moment.error();
     error.context =
         error.context.empty() ? arguments.session : arguments.session + ": " + error.context;
     return tl::unexpected(error);
   }
-  const auto text = session->attachment(link::scenarioAttachment);
+  const auto text = session.attachment(link::scenarioAttachment);
   if (!text) {
     return failure(ErrorCode::NotFound,
                    "this session has no scenario, so that nobody knows the match",
                    arguments.session);
   }
-  auto scenario = link::scenarioFromJson(*text, arguments.session + ": scenario.json");
-  if (!scenario) return tl::unexpected(scenario.error());
-  return Recorded{std::move(*scenario), std::move(*moment)};
+  auto scenario = TRY(link::scenarioFromJson(*text, arguments.session + ": scenario.json"));
+  return Recorded{std::move(scenario), std::move(*moment)};
 }
 
 Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition cognition,
@@ -122,26 +147,21 @@ class TraceRows : public link::TickObserver {
 };
 
 Result<void> simulate(const Arguments& arguments) {
-  const auto cognition = cognitionOf(arguments.play);
-  if (!cognition) return tl::unexpected(cognition.error());
-  const auto speed = speedOf(arguments.play, *cognition);
-  if (!speed) return tl::unexpected(speed.error());
+  const auto cognition = TRY(cognitionOf(arguments.play));
+  const auto speed = TRY(speedOf(arguments.play, cognition));
   std::optional<Recorded> recorded;
   if (!arguments.session.empty()) {
-    auto read = recordedMoment(arguments);
-    if (!read) return tl::unexpected(read.error());
-    recorded = std::move(*read);
+    auto read = TRY(recordedMoment(arguments));
+    recorded = std::move(read);
   }
-  const auto scenario = scenarioFrom(arguments, *cognition, recorded);
-  if (!scenario) return tl::unexpected(scenario.error());
+  const auto scenario = TRY(scenarioFrom(arguments, cognition, recorded));
   const InterruptGuard signals;
-  auto match = createMatch(*scenario, arguments.play, *cognition);
-  if (!match) return tl::unexpected(match.error());
+  auto match = TRY(createMatch(scenario, arguments.play, cognition));
   if (recorded) {
-    if (auto entered = match->reenter(recorded->moment); !entered) return entered;
+    TRY(match.reenter(recorded->moment));
   }
 
-  link::MatchPlayer player(std::move(*match));
+  link::MatchPlayer player(std::move(match));
   const IfExists ifExists = arguments.force ? IfExists::Replace : IfExists::Refuse;
   std::shared_ptr<TraceRows> trace;
   if (!arguments.trace.empty()) {
@@ -154,14 +174,14 @@ Result<void> simulate(const Arguments& arguments) {
   Outcome outcome;
   {
     Progress progress("simulated", false);
-    outcome = playToEnd(player, *speed, [&] {
+    outcome = playToEnd(player, speed, [&] {
       const double rate = player.match().simulation().state().settings.tickRate;
       progress.say(secondsToText(static_cast<double>(player.currentTick()) / rate));
       return !trace || trace->written();
     });
   }
   if (trace) {
-    if (auto finished = trace->finish(); !finished) return finished;
+    TRY(trace->finish());
   }
   if (!arguments.moment.empty()) {
     auto saved = writeFile(arguments.moment, link::scenarioToJson(player.match().toScenario()),

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include <base/file_target.h>
+#include <base/try.h>
 #include <robotlink/experiment/experiment_summary.h>
 #include <robotlink/experiment/junit_report.h>
 #include <robotlink/experiment/run_player.h>
@@ -100,16 +101,15 @@ Result<link::ExperimentSummary> played(const link::Experiment& experiment, const
 
 Result<link::TestedExperiment> tested(const Found& test, const Options& options) {
   if (test.error) return tl::unexpected(*test.error);
-  auto experiment = link::loadExperiment(test.path);
-  if (!experiment) return tl::unexpected(experiment.error());
-  if (experiment->assertions.empty()) {
+  auto experiment = TRY(link::loadExperiment(test.path));
+  if (experiment.assertions.empty()) {
     return failure(ErrorCode::InvalidArgument, "has no assertions, so it tests nothing", test.path);
   }
-  auto summary = played(*experiment, options);
+  auto summary = played(experiment, options);
   if (!summary) {
     return failure(summary.error().code, summary.error().text(), test.path);
   }
-  return link::TestedExperiment{std::move(*experiment), std::move(*summary), {}};
+  return link::TestedExperiment{std::move(experiment), std::move(*summary), {}};
 }
 
 int run(const Options& options) {

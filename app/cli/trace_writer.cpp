@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include <base/angles.h>
+#include <base/try.h>
 
 namespace pitchboard::cli {
 namespace {
@@ -23,11 +24,9 @@ constexpr std::size_t mostWaiting = 64 * 1024;  // bytes
 
 Result<TraceWriter> TraceWriter::create(const std::string& path, IfExists ifExists,
                                         const std::string& source, const sim::Snapshot& first) {
-  auto target = FileTarget::at(path, ifExists, source);
-  if (!target) return tl::unexpected(target.error());
-  auto file = target->open();
-  if (!file) return tl::unexpected(file.error());
-  TraceWriter writer(std::move(*target), std::move(*file));
+  auto target = TRY(FileTarget::at(path, ifExists, source));
+  auto file = TRY(target.open());
+  TraceWriter writer(std::move(target), std::move(file));
   writer.m_line = "tick,time_s,ball_x,ball_y,ball_vx,ball_vy,score_left,score_right";
   for (const sim::RobotSnapshot& robot : first.robots) {
     const std::string name = robot.identity.name() + '_';
@@ -35,7 +34,7 @@ Result<TraceWriter> TraceWriter::create(const std::string& path, IfExists ifExis
       writer.m_line += ',' + name + column;
     }
   }
-  if (auto written = writer.endLine(); !written) return tl::unexpected(written.error());
+  TRY(writer.endLine());
   return writer;
 }
 
@@ -72,8 +71,8 @@ Result<void> TraceWriter::flush() {
 }
 
 Result<void> TraceWriter::finish() {
-  if (auto written = flush(); !written) return written;
-  if (auto closed = m_file.close(); !closed) return closed;
+  TRY(flush());
+  TRY(m_file.close());
   return m_target.commit();
 }
 

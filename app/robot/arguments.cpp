@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <base/try.h>
 #include <robotlink/blackboard/match_number.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
@@ -205,30 +206,24 @@ Result<link::IniFile> settle(CLI::App& command, Arguments& a) {
     Result<link::IniFile> read = link::readIniFile(a.config);
     if (!read) return read;
     file = std::move(*read);
-    if (const Result<void> taken = takeOver(command, file); !taken) {
-      return tl::unexpected<Error>(taken.error());
-    }
+    TRY(takeOver(command, file));
   }
-  Result<RobotId> robot =
+  RobotId robot = TRY(
       a.robot ? link::robotFromNumber(*a.robot)
       : !a.config.empty()
           ? link::robotFromIni(file)
           : failure(ErrorCode::InvalidArgument,
-                    "whose process is this? Give --robot N, or --config FILE.ini with the number");
-  if (!robot) return tl::unexpected<Error>(robot.error());
-  a.process.robot = *robot;
-  const Result<sim::FieldSpec> field = sim::fieldFromText(a.field, "--field");
-  if (!field) return tl::unexpected<Error>(field.error());
-  a.process.field = *field;
-  const Result<sim::RobotModel> model = a.model.find('{') == std::string::npos
-                                            ? link::loadRobotModel(a.model)
-                                            : link::robotModelFromText(a.model, "--robot-model");
-  if (!model) return tl::unexpected<Error>(model.error());
-  a.process.model = *model;
-  const auto behaviour = link::behaviourFromText(a.behaviour, "--behaviour");
-  if (!behaviour) return tl::unexpected<Error>(behaviour.error());
-  a.process.behaviour = behaviour->name;
-  a.process.parameters = behaviour->parameters;
+                    "whose process is this? Give --robot N, or --config FILE.ini with the number"));
+  a.process.robot = robot;
+  const sim::FieldSpec field = TRY(sim::fieldFromText(a.field, "--field"));
+  a.process.field = field;
+  const sim::RobotModel model = TRY(a.model.find('{') == std::string::npos
+                                        ? link::loadRobotModel(a.model)
+                                        : link::robotModelFromText(a.model, "--robot-model"));
+  a.process.model = model;
+  const auto behaviour = TRY(link::behaviourFromText(a.behaviour, "--behaviour"));
+  a.process.behaviour = behaviour.name;
+  a.process.parameters = behaviour.parameters;
   if (a.distanceToKick) a.process.parameters.distanceToKick = *a.distanceToKick;
   a.process.telemetryPeriod = 1.0 / a.telemetryRate;
   a.process.setMatch(link::MatchNumber{a.match});

@@ -6,6 +6,7 @@
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/processes/guard.h>
+#include <robotlink/processes/keeper.h>
 #include <robotlink/processes/match_turns.h>
 
 #include "arguments.h"
@@ -111,10 +112,6 @@ int parseAndRun(int argc, char** argv) {
   }
   CLI::App* management = add("management", managementDescription,
                              "pitchboard-robot management --robot 1 --behaviour keeper");
-  std::string guarded;
-  CLI::App* guard = app.add_subcommand(std::string(link::guardCommand));
-  guard->group("");  // a supervisor starts it for itself
-  guard->add_option("mark", guarded)->required();
   CLI::App* list = app.add_subcommand(
       "list", "shows the processes and behaviours\nExample: pitchboard-robot list");
 
@@ -122,10 +119,6 @@ int parseAndRun(int argc, char** argv) {
   CLI::App* chosen = app.get_subcommands().front();
   if (chosen == list) {
     printList();
-    return 0;
-  }
-  if (chosen == guard) {
-    link::runGuard(guarded, STDIN_FILENO);
     return 0;
   }
   if (chosen == management) {
@@ -139,6 +132,16 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace pitchboard::robot
 
 int main(int argc, char** argv) {
+  // Those that a ProcessManager starts for itself.
+  const std::string_view command = argc > 1 ? argv[1] : "";
+  if (command == pitchboard::link::guardCommand) {
+    pitchboard::link::runGuard(STDIN_FILENO);
+    return 0;
+  }
+  if (command == pitchboard::link::keepCommand) {
+    pitchboard::link::keep({argv + 2, argv + argc});
+    return 1;
+  }
   pitchboard::robot::holdEndSignals();
   return pitchboard::robot::parseAndRun(argc, argv);
 }

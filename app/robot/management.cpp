@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <base/try.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/processes/management_config.h>
@@ -67,22 +68,18 @@ void print(link::ProcessManager& manager) {
 
 Result<void> manage(CLI::App& command, Arguments& arguments) {
   const std::vector<std::string> given = givenOptions(command);
-  Result<link::IniFile> file = settle(command, arguments);
-  if (!file) return tl::unexpected<Error>(file.error());
-  const Result<link::ManagementConfig> config =
-      link::managementFromIni(*file, referenceProcesses());
-  if (!config) return tl::unexpected<Error>(config.error());
-  const Result<std::string> program = link::ownProgram();
-  if (!program) return tl::unexpected<Error>(program.error());
+  link::IniFile file = TRY(settle(command, arguments));
+  const link::ManagementConfig config = TRY(link::managementFromIni(file, referenceProcesses()));
+  const std::string program = TRY(link::ownProgram());
 
   const std::string robot = std::to_string(arguments.process.robot.value);
   const std::string key = std::to_string(arguments.blackboardKey());
-  const bool clearedByOther = std::find(config->processes.begin(), config->processes.end(),
-                                        "communication") != config->processes.end();
+  const bool clearedByOther = std::find(config.processes.begin(), config.processes.end(),
+                                        "communication") != config.processes.end();
   std::vector<link::ManagedProcess> processes;
-  for (const std::string& name : config->processes) {
+  for (const std::string& name : config.processes) {
     std::vector<std::string> words;
-    if (const auto own = config->commands.find(name); own != config->commands.end()) {
+    if (const auto own = config.commands.find(name); own != config.commands.end()) {
       words = own->second;
       for (std::string& word : words) {
         replaceAll(word, "{robot}", robot);
@@ -90,19 +87,17 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
       }
     } else {
       // Options that this process refuses are told now, not again at every restart.
-      if (auto made = link::findProcess(name)->make(arguments.process); !made) {
-        return tl::unexpected<Error>(made.error());
-      }
-      words = {*program, name, "--robot", robot, "--key", key};
+      TRY(link::findProcess(name)->make(arguments.process));
+      words = {program, name, "--robot", robot, "--key", key};
       if (!arguments.config.empty()) words.insert(words.end(), {"--config", arguments.config});
       words.insert(words.end(), given.begin(), given.end());
     }
     link::ManagedProcess process;
     process.spec = {arguments.process.robot, name, std::move(words)};
-    process.spec.foreign = config->commands.contains(name);
-    process.restart = config->timing.restart;
-    process.delay = config->timing.startInterval.count();
-    process.silentAfter = config->timing.silentAfter;
+    process.spec.foreign = config.commands.contains(name);
+    process.restart = config.timing.restart;
+    process.delay = config.timing.startInterval.count();
+    process.silentAfter = config.timing.silentAfter;
     process.heartbeat = link::workingFlagOf(name);
     process.watch = link::isPresent(process.heartbeat) ? link::ManagedProcess::Watch::Variable
                                                        : link::ManagedProcess::Watch::Sleeps;
@@ -110,20 +105,17 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
     processes.push_back(std::move(process));
   }
 
-  Result<link::Blackboard> board =
-      link::SystemVSegments::open(arguments.blackboardKey(), link::AttachMode::AttachOrCreate);
-  if (!board) return tl::unexpected<Error>(board.error());
+  link::Blackboard board =
+      TRY(link::SystemVSegments::open(arguments.blackboardKey(), link::AttachMode::AttachOrCreate));
   std::printf("management of robot %s on key %s\n", robot.c_str(), key.c_str());
   std::fflush(stdout);
-  link::ProcessManager manager;
-  if (auto kept = manager.supervisor().keepGuard(*program); !kept) return kept;
-  manager.supervisor().guardSegment(*board);
+  link::ProcessManager manager(program);
+  TRY(manager.keepGuard());
+  manager.guardSegment(board);
   using Clock = std::chrono::steady_clock;
   Result<void> outcome;
   for (const link::ManagedProcess& process : processes) {
-    if (auto added = manager.add(process, *board, Clock::now()); !added) {
-      return tl::unexpected<Error>(added.error());
-    }
+    TRY(manager.add(process, board, Clock::now()));
   }
   do {
     outcome = manager.step(Clock::now());

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <csignal>
 
+#include <base/try.h>
+
 namespace pitchboard::robot {
 namespace {
 
@@ -95,9 +97,8 @@ Result<void> takeTurnsUntilAsked(std::unique_ptr<link::CognitiveProcess> process
     if (turn) {
       if (turn->seconds < last) {
         process.reset();  // its ports are free again
-        auto made = make();
-        if (!made) return tl::unexpected(made.error());
-        process = std::move(*made);
+        auto made = TRY(make());
+        process = std::move(made);
         process->resume(board);
       }
       last = turn->seconds;

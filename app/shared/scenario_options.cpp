@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <app/scenario_options.h>
+#include <base/try.h>
 #include <robotlink/models/robot_models.h>
 
 #include <cstdio>
@@ -18,12 +19,11 @@ Result<void> chooseModel(link::Scenario& scenario, const std::string& text) {
     only = &team;
     name = text.substr(start.size());
   }
-  const auto model = link::loadRobotModel(name);
-  if (!model) return tl::unexpected<Error>(model.error());
+  const auto model = TRY(link::loadRobotModel(name));
   bool any = false;
   for (link::ScenarioRobot& robot : scenario.robots) {
     if (only && robot.identity.team != only->color) continue;
-    robot.model = *model;
+    robot.model = model;
     any = true;
   }
   if (only && !any) {
@@ -59,14 +59,11 @@ Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& o
   if (options.seed) scenario.settings.seed = *options.seed;
   if (!options.physics.empty()) scenario.settings.physics = options.physics;
   if (!options.noise.empty()) {
-    const auto noise = link::noisePreset(options.noise);
-    if (!noise) return tl::unexpected<Error>(noise.error());
-    scenario.settings.noise = *noise;
+    const auto noise = TRY(link::noisePreset(options.noise));
+    scenario.settings.noise = noise;
   }
   for (const std::string& text : options.robotModels) {
-    if (auto chosen = chooseModel(scenario, text); !chosen) {
-      return tl::unexpected<Error>(chosen.error());
-    }
+    TRY(chooseModel(scenario, text));
   }
   return scenario;
 }

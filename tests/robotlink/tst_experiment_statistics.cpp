@@ -8,6 +8,7 @@
 #include <limits>
 
 #include <robotlink/experiment/statistics.h>
+#include <robotlink/report/quantile.h>
 
 #include "checks.h"
 

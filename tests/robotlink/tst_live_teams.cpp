@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Team setups: who is heard as whose robot, in which colour, under which name its curves stand.
-#include <QJsonArray>
-#include <QJsonDocument>
-#include <QJsonObject>
 #include <QTemporaryDir>
 #include <QtTest>
 
@@ -144,32 +141,6 @@ class TestLiveTeams : public QObject {
     const auto read = LiveBooks::read(books.text(options, 1.0, start), start);
     QVERIFY2(read, read ? "" : read.error().text().c_str());
     QVERIFY(read->options.team.teams == options.team.teams);
-    // As sessions of 0.3.0 have them.
-    const QJsonObject setup{{"name", "Guests"},
-                            {"number", 7},
-                            {"firstPort", 12000},
-                            {"lastPort", 12005},
-                            {"senders", QJsonArray{"10.0.1.0/24"}},
-                            {"profileName", "own.json"},
-                            {"attacksLeft", true},
-                            {"colour", "red"},
-                            {"robots", QJsonObject{{"3", "Ana"}}},
-                            {"profile", QString::fromStdString(profileText(publishedProfile()))}};
-    const QJsonObject kept{{"time", 1},
-                           {"robots", QString::fromStdString(books.monitor.robotsText(start))},
-                           {"options", QJsonObject{{"teams", QJsonArray{setup}}}}};
-    const std::string older = QJsonDocument(kept).toJson().toStdString();
-    const auto old = LiveBooks::read(older, start);
-    QVERIFY2(old, old ? "" : old.error().text().c_str());
-    QCOMPARE(old->options.team.teams.size(), std::size_t(1));
-    const TeamSetup& team = old->options.team.teams[0];
-    QCOMPARE(team.name, std::string("Guests"));
-    QCOMPARE(team.firstPort, 12000);
-    QCOMPARE(team.lastPort, 12005);
-    QVERIFY(team.attacksLeft && team.colour == TeamColor::Red);
-    QCOMPARE(team.senders, std::vector<std::string>{"10.0.1.0/24"});
-    QCOMPARE(team.robots.at(3), std::string("Ana"));
-    QVERIFY(team.profile == publishedProfile());
   }
 
   /// Every team writes in its own way; who spoke last makes no difference.

@@ -232,50 +232,13 @@ class TestMatchEvents : public QObject {
     }
   }
 
-  void theOldFormIsUnderstood_data() {
-    QTest::addColumn<QString>("kind");
-    QTest::addColumn<QString>("group");
-    QTest::addColumn<QString>("text");
-    QTest::addColumn<int>("wanted");
-    QTest::addColumn<QString>("sentence");
-    const auto row = [](const char* name, const char* kind, const char* group, const char* text,
-                        Kind wanted, const char* sentence) {
-      QTest::newRow(name) << kind << group << text << int(wanted) << sentence;
-    };
-    row("goal, recorded", "goal", "", "goal for the left side", Kind::Goal,
-        "goal for the left side");
-    row("goal, saved", "goal", "RED", "", Kind::Goal, "goal for RED");
-    row("kick", "kick", "B1", "B1: kick left", Kind::Kick, "B1 kicks the ball: kick left");
-    row("fall", "fall", "R2", "R2 fell", Kind::Fall, "R2 falls");
-    row("got up", "got-up", "R2", "R2 got up", Kind::GotUp, "R2 is up again");
-    row("ball", "ball-out", "", "the ball is out", Kind::BallOut, "the ball is out");
-    row("unknown action", "unknown-action", "B1", "B1: unknown action 42", Kind::UnknownAction,
-        "B1 chose the unknown action code 42, which counts as stop");
-    row("started", "process", "B1", "B1 decision started (process 71)", Kind::ProcessStarted,
-        "B1 decision started (process 71)");
-    row("ended", "process", "B1", "B1 decision ended: exit code 0", Kind::ProcessEnded,
-        "B1 decision ended: exit code 0");
-    row("died", "process", "B1", "B1 decision died: exit code 2", Kind::ProcessDied,
-        "B1 decision died: exit code 2");
-    row("died, saved", "process", "B1 decision", "exit code 2", Kind::ProcessDied,
-        "B1 decision died: exit code 2");
-    row("referee, recorded", "referee", "", "referee: SET", Kind::GameState, "SET");
-    row("referee, saved", "referee", "", "SET", Kind::GameState, "SET");
-    row("penalty, saved", "warning", "B1", "penalised: pushing", Kind::Penalised,
-        "B1 penalised: pushing");
-    row("silent", "timeout", "B1", "", Kind::RobotSilent, "B1 is not heard any more");
-    row("bookmark", "bookmark", "", "look here", Kind::Bookmark, "bookmark: look here");
-  }
-  void theOldFormIsUnderstood() {
-    QFETCH(QString, kind);
-    QFETCH(QString, group);
-    QFETCH(QString, text);
-    QFETCH(int, wanted);
-    const MatchEvent event = matchEvent(
-        telemetry::SessionEvent{1.5, kind.toStdString(), group.toStdString(), text.toStdString()});
-    QCOMPARE(int(event.kind), wanted);
-    QCOMPARE(event.time, 1.5);
-    QTEST(QString::fromStdString(sentenceOf(event)), "sentence");
+  void wordsOfOtherProgramsAreKept() {
+    const MatchEvent known = matchEvent(telemetry::SessionEvent{1.5, "kick", "B1", "with force"});
+    QCOMPARE(known.kind, Kind::Kick);
+    QCOMPARE(sentenceOf(known), std::string("B1 kicks the ball: with force"));
+    const MatchEvent unknown = matchEvent(telemetry::SessionEvent{1.5, "rain", "", "it is wet"});
+    QCOMPARE(unknown.kind, Kind::Other);
+    QCOMPARE(unknown.detail, std::string("rain: it is wet"));
   }
 };
 

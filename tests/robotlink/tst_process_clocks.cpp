@@ -48,7 +48,7 @@ class TestProcessClocks : public QObject {
 
  private slots:
   void init() {
-    m_manager = std::make_unique<ProcessManager>();
+    m_manager = std::make_unique<ProcessManager>(PITCHBOARD_BIN "/pitchboard-robot");
     m_realTime.clear();
     m_lines.clear();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The supervisor with real processes: those that die, hang, fork, flood, refuse to end.
+// The manager with real processes: those that die, hang, fork, flood, refuse to end.
 #include <unistd.h>
 #include <QProcess>
 #include <QTemporaryDir>
@@ -77,7 +77,7 @@ class TestProcessManager : public QObject {
 
  private slots:
   void init() {
-    m_manager = std::make_unique<ProcessManager>();
+    m_manager = std::make_unique<ProcessManager>(PITCHBOARD_BIN "/pitchboard-robot");
     m_news.clear();
     m_lines.clear();
   }
@@ -209,6 +209,8 @@ class TestProcessManager : public QObject {
     QTest::newRow("own session") << QByteArray("setsid sleep 600 & echo $!; wait");
     QTest::newRow("double fork, own session, parent gone")
         << QByteArray("setsid sh -c 'sleep 600 & echo $!' ; exec sleep 600");
+    QTest::newRow("own session, no environment, parent gone")
+        << QByteArray("env -i setsid sh -c 'sleep 600 & echo $!' ; exec sleep 600");
   }
   void whatItForkedEndsWithIt() {
     QFETCH(QByteArray, script);
@@ -286,12 +288,38 @@ class TestProcessManager : public QObject {
     QVERIFY(status(ids[2]).started >= status(ids[1]).started + std::chrono::milliseconds(50));
   }
 
-  // The guard of a supervisor that is killed ends grandchildren and removes segments.
-  void nothingSurvivesAKilledSupervisor() {
+  void whatItForkedEndsWhenItEndsByItself() {
+    add(shell("env -i setsid sleep 600 & echo $!; exit 3", RestartPolicy::Never));
+    QTRY_COMPARE(count(Kind::Died), 1);
+    QVERIFY(!runs(std::stoi(m_lines.front())));
+    QCOMPARE(m_news.back().detail, std::string("exit code 3"));
+  }
+
+  void removingARobotConcernsNoOther() {
+    const int first = add(shell("exec sleep 600"));
+    ManagedProcess process = shell("exec sleep 600");
+    process.spec.robot = RobotId{2};
+    const int other = add(process);
+    m_manager->remove(RobotId{1});
+    QVERIFY(!m_manager->status(first));
+    look();
+    QCOMPARE(status(other).state, ProcessState::Running);
+    QVERIFY(runs(status(other).pid));
+  }
+
+  void theDestructorEndsAll() {
+    const pid_t pid = status(add(shell("exec sleep 600"))).pid;
+    QVERIFY(runs(pid));
+    m_manager.reset();
+    QVERIFY(!runs(pid));
+  }
+
+  // Keepers of a studio that is killed end grandchildren, its guard removes segments.
+  void nothingSurvivesAKilledManager() {
     QProcess host;
     QList<pid_t> pids;
     startGuarded(host, pids);
-    QVERIFY(pids.size() >= 3);
+    QVERIFY(pids.size() >= hostPids);
     for (const pid_t pid : pids) QTRY_VERIFY(runs(pid));
     QVERIFY(SystemVSegments::info(m_key));
     host.kill();
@@ -305,7 +333,7 @@ class TestProcessManager : public QObject {
     QProcess host;
     QList<pid_t> pids;
     startGuarded(host, pids);
-    QVERIFY(pids.size() >= 3);
+    QVERIFY(pids.size() >= hostPids);
     {
       const auto used = SystemVSegments::open(m_key, AttachMode::ReadOnly);
       QVERIFY(used);
@@ -318,12 +346,13 @@ class TestProcessManager : public QObject {
   }
 
  private:
-  /// A supervisor with a guard and a segment at our key; `pids` of its children, and of theirs.
+  static constexpr int hostPids = 7;  // of process_host
+  /// A manager with a guard and a segment at our key; `pids` of its children, and of theirs.
   void startGuarded(QProcess& host, QList<pid_t>& pids) const {
-    host.start(QCoreApplication::applicationDirPath() + "/supervisor_host",
+    host.start(QCoreApplication::applicationDirPath() + "/process_host",
                {PITCHBOARD_BIN "/pitchboard-robot", QString::number(m_key)});
     QByteArray output;
-    QTRY_VERIFY((output += host.readAllStandardOutput(), output.count('\n') >= 3));
+    QTRY_VERIFY((output += host.readAllStandardOutput(), output.count('\n') >= hostPids));
     for (const QByteArray& line : output.trimmed().split('\n')) pids << line.mid(6).toInt();
   }
 };

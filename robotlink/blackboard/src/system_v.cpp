@@ -11,6 +11,7 @@
 #include <optional>
 
 #include <base/system_reason.h>
+#include <base/try.h>
 #include <robotlink/blackboard/segments.h>
 
 #include "blackboard_memory.h"
@@ -171,14 +172,13 @@ Result<Blackboard> SystemVSegments::open(int key, AttachMode mode) {
   if (key <= 0) return tl::unexpected(keyError(key));
   const bool write = mode != AttachMode::ReadOnly;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    const auto there = lookUp(key);
-    if (!there) return tl::unexpected(there.error());
+    const auto there = TRY(lookUp(key));
 
     int shmid = -1;
     bool created = false;
-    if (there->has_value()) {
-      if (const auto error = refusal(**there, write)) return tl::unexpected(*error);
-      shmid = (*there)->shmid;
+    if (there.has_value()) {
+      if (const auto error = refusal(*there, write)) return tl::unexpected(*error);
+      shmid = there->shmid;
     } else if (mode == AttachMode::AttachOrCreate) {
       shmid = shmget(key, Blackboard::bytes, IPC_CREAT | IPC_EXCL | createdMode);
       if (shmid < 0 && errno == EEXIST) continue;
@@ -199,7 +199,7 @@ Result<Blackboard> SystemVSegments::open(int key, AttachMode mode) {
       if (created) shmctl(shmid, IPC_RMID, nullptr);
       if (number == EIDRM || number == EINVAL) continue;
       if (number == EACCES)
-        return tl::unexpected(permissionError(key, (*there)->owner, (*there)->mode, write));
+        return tl::unexpected(permissionError(key, there->owner, there->mode, write));
       return tl::unexpected(systemError(key, "shmat", number));
     }
     auto memory = std::make_unique<SystemVMemory>(address, key, shmid, created);
@@ -227,8 +227,8 @@ std::vector<SegmentInfo> SystemVSegments::list(int keyBase) {
 std::vector<SegmentInfo> segmentsOfThisComputer() {
   std::vector<SegmentInfo> found = allSegments();
   std::erase_if(found, [](const SegmentInfo& info) { return info.key <= 0; });
-  std::sort(found.begin(), found.end(),
-            [](const SegmentInfo& a, const SegmentInfo& b) { return a.key < b.key; });
+  std::ranges::sort(found,
+                    [](const SegmentInfo& a, const SegmentInfo& b) { return a.key < b.key; });
   return found;
 }
 
@@ -251,14 +251,13 @@ Result<void> SystemVSegments::create(int key) {
 }
 
 Result<void> SystemVSegments::remove(int key) {
-  const auto there = info(key);
-  if (!there) return tl::unexpected(there.error());
-  if (shmctl(there->shmid, IPC_RMID, nullptr) == 0) return {};
+  const auto there = TRY(info(key));
+  if (shmctl(there.shmid, IPC_RMID, nullptr) == 0) return {};
   if (errno == EPERM || errno == EACCES)
-    return failure(ErrorCode::SystemError,
-                   "belongs to user " + std::to_string(there->owner) +
-                       "; only that user or root may remove it",
-                   keyContext(key));
+    return failure(
+        ErrorCode::SystemError,
+        "belongs to user " + std::to_string(there.owner) + "; only that user or root may remove it",
+        keyContext(key));
   if (errno == EIDRM || errno == EINVAL)
     return failure(ErrorCode::NotFound, "there is no such segment", keyContext(key));
   return tl::unexpected(systemError(key, "shmctl", errno));

@@ -14,11 +14,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include <base/try.h>
 #include <robotlink/capi/worlds.h>
-
-#include "handles.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;
@@ -27,6 +28,39 @@ namespace {
 
 static_assert(PB_KEEP == Worlds::keep && PB_ALL == Worlds::all);
 static_assert(PB_BOARD_WORDS == Blackboard::words);
+
+/// What the handles of the C interface stand for. Thread-safe; a handle is never looked into.
+/// Handles are numbers that are never used twice, so that one that was destroyed is known as such
+/// whatever memory holds now.
+template <class Thing, class Handle>
+class Handles {
+ public:
+  Handle* add(std::shared_ptr<Thing> thing) {
+    const std::lock_guard lock(m_mutex);
+    m_last += sizeof(std::max_align_t);
+    m_things.emplace(m_last, std::move(thing));
+    return reinterpret_cast<Handle*>(m_last);
+  }
+  std::shared_ptr<Thing> find(const Handle* handle) {
+    const std::lock_guard lock(m_mutex);
+    const auto found = m_things.find(reinterpret_cast<std::uintptr_t>(handle));
+    return found == m_things.end() ? nullptr : found->second;
+  }
+  /// The thing goes when nobody uses it any more.
+  std::shared_ptr<Thing> remove(const Handle* handle) {
+    const std::lock_guard lock(m_mutex);
+    const auto found = m_things.find(reinterpret_cast<std::uintptr_t>(handle));
+    if (found == m_things.end()) return nullptr;
+    auto thing = std::move(found->second);
+    m_things.erase(found);
+    return thing;
+  }
+
+ private:
+  std::mutex m_mutex;
+  std::uintptr_t m_last = 0x1000;
+  std::unordered_map<std::uintptr_t, std::shared_ptr<Thing>> m_things;
+};
 
 struct LockedWorlds {
   explicit LockedWorlds(Worlds made) : worlds(std::move(made)) {}
@@ -138,9 +172,8 @@ Result<Scenario> scenarioOf(const pb_options& options) {
                                : loadScenario(options.scenario ? options.scenario : "one-robot");
   if (!scenario) return scenario;
   if (options.noise) {
-    const auto noise = noisePreset(options.noise);
-    if (!noise) return tl::unexpected<Error>(noise.error());
-    scenario->settings.noise = *noise;
+    const auto noise = TRY(noisePreset(options.noise));
+    scenario->settings.noise = noise;
   }
   if (options.physics) scenario->settings.physics = options.physics;
   if (options.duration != 0.0) {
@@ -313,18 +346,16 @@ pb_status pb_find_variable(const char* name, std::int32_t* variable) {
 pb_status pb_read_variables(pb_worlds* worlds, const std::int32_t* variables, size_t variable_count,
                             double* out, size_t count) {
   return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
-    const auto known = variablesOf(variables, variable_count);
-    if (!known) return tl::unexpected(known.error());
-    return w.readVariables(*known, spanOf(out, count));
+    const auto known = TRY(variablesOf(variables, variable_count));
+    return w.readVariables(known, spanOf(out, count));
   });
 }
 
 pb_status pb_write_variables(pb_worlds* worlds, const std::int32_t* variables,
                              size_t variable_count, const double* values, size_t count) {
   return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
-    const auto known = variablesOf(variables, variable_count);
-    if (!known) return tl::unexpected(known.error());
-    return w.writeVariables(*known, spanOf(values, count));
+    const auto known = TRY(variablesOf(variables, variable_count));
+    return w.writeVariables(known, spanOf(values, count));
   });
 }
 
@@ -354,9 +385,8 @@ pb_status pb_take_snapshot(pb_worlds* worlds, std::int32_t world, pb_snapshot** 
   if (snapshot == nullptr) return missing("snapshot");
   *snapshot = nullptr;
   return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
-    auto taken = w.snapshot(world);
-    if (!taken) return tl::unexpected(taken.error());
-    *snapshot = snapshotHandles().add(std::make_shared<const WorldSnapshot>(std::move(*taken)));
+    auto taken = TRY(w.snapshot(world));
+    *snapshot = snapshotHandles().add(std::make_shared<const WorldSnapshot>(std::move(taken)));
     return {};
   });
 }

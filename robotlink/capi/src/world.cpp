@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <set>
 
+#include <base/try.h>
+
 #include "world_columns.h"
 
 namespace pitchboard::link {
@@ -78,9 +80,8 @@ Result<World> World::create(const Scenario& scenario, const MatchOptions& option
                             std::uint64_t seed) {
   Scenario seeded = scenario;
   seeded.settings.seed = seed;
-  auto match = SimulatedMatch::create(seeded, options);
-  if (!match) return tl::unexpected(match.error());
-  World world(std::move(*match));
+  auto match = TRY(SimulatedMatch::create(seeded, options));
+  World world(std::move(match));
   world.m_finishedBy = world.m_match.finishedBy();
   return world;
 }
@@ -166,7 +167,7 @@ Result<void> World::restore(const WorldSnapshot& snapshot) {
                    "this snapshot is of a world of another scenario; restore it into worlds of its "
                    "own");
   }
-  if (auto entered = m_match.reenter(snapshot.moment); !entered) return entered;
+  TRY(m_match.reenter(snapshot.moment));
   findBoards();
   const auto& reasons = columns::finishReasons;
   const auto found = std::find(reasons.begin(), reasons.end(), snapshot.finishedBy);

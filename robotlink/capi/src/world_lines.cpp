@@ -8,12 +8,82 @@
 #include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <type_traits>
 
 #include <base/lined_json.h>
 
-#include "world_request.h"
+#include "world_columns.h"
 
 namespace pitchboard::link {
+
+using Json = nlohmann::ordered_json;
+
+/// One line: reads what it asks for, does it, and fills the answer.
+class WorldRequest {
+ public:
+  WorldRequest(WorldLines& lines, const JsonNode& node, JsonReport& report, Json& answer)
+      : m_lines(lines),
+        m_node(node),
+        m_report(report),
+        m_answer(answer),
+        m_request(report, node, "") {}
+
+  void carryOut();
+
+  struct Verb {
+    std::string_view name;
+    void (WorldRequest::*carryOut)();
+    std::vector<std::string_view> keys;
+  };
+  static const std::vector<Verb>& verbs();
+
+ private:
+  void create();
+  void columns();
+  void behaviour();
+  void reset();
+  void step();
+  void read();
+  void write();
+  void placeRobot();
+  void placeBall();
+  void snapshot();
+  void restore();
+  void forget();
+  void hashes();
+
+  bool failed() const { return m_report.failed(); }
+  void fail(const Error& error) { m_report.fail(1, "", error.text(), error.code); }
+  void fail(std::string_view key, const std::string& text) { m_request.fail(key, text); }
+  bool check(const Result<void>& done) {
+    if (!done) fail(done.error());
+    return done.has_value();
+  }
+  /// Null, and an error, before `create`.
+  Worlds* worlds();
+  int world(int fallback);
+  RobotId robot() const;
+  double number(std::string_view key) const;
+  std::optional<std::vector<Variable>> variables();
+  /// The numbers of nested lists of this shape; `absent` stands for null.
+  template <class Value>
+  std::optional<std::vector<Value>> values(std::string_view key, std::span<const std::size_t> shape,
+                                           Value absent);
+  template <class Value>
+  void flatten(const JsonNode& node, const std::string& path, std::span<const std::size_t> shape,
+               Value absent, std::vector<Value>& out);
+  bool answerable(std::size_t size);
+  template <class Value>
+  static Json nested(std::span<const Value> values, std::span<const std::size_t> shape);
+
+  WorldLines& m_lines;
+  const JsonNode& m_node;
+  JsonReport& m_report;
+  Json& m_answer;
+  JsonObject m_request;
+};
 
 const std::vector<WorldRequest::Verb>& WorldRequest::verbs() {
   static const std::vector<Verb> list{
@@ -152,6 +222,143 @@ void WorldRequest::step() {
   Json reasons = Json::array();
   for (std::size_t i = 0; i < all->count(); ++i) reasons.push_back(all->finishedBy(i));
   m_answer["finished"] = std::move(reasons);
+}
+
+bool WorldRequest::answerable(std::size_t size) {
+  if (size <= m_lines.m_limits.values) return true;
+  fail("do", "would read " + std::to_string(size) + " values, more than the " +
+                 std::to_string(m_lines.m_limits.values) + " of one answer; make fewer worlds");
+  return false;
+}
+
+template <class Value>
+Json WorldRequest::nested(std::span<const Value> values, std::span<const std::size_t> shape) {
+  Json list = Json::array();
+  const std::size_t part = shape[0] == 0 ? 0 : values.size() / shape[0];
+  for (std::size_t i = 0; i < shape[0]; ++i) {
+    if (shape.size() == 1) {
+      list.push_back(values[i]);  // not a number becomes null
+    } else {
+      list.push_back(nested(values.subspan(i * part, part), shape.subspan(1)));
+    }
+  }
+  return list;
+}
+
+void WorldRequest::read() {
+  Worlds* const all = worlds();
+  if (!all) return;
+  constexpr std::array<std::string_view, 4> names{"percepts", "robots", "game", "boards"};
+  const auto what = m_request.choice("what", names, "array");
+  const std::size_t rows = all->count() * all->robots();
+  if (failed()) return;
+  if (what.has_value() == (m_request.find("variables") != nullptr)) {
+    return fail("do", "read needs \"what\" or \"variables\"");
+  }
+  if (!what) {
+    const auto wanted = variables();
+    if (!wanted || !answerable(rows * wanted->size())) return;
+    std::vector<double> out(rows * wanted->size());
+    const std::array shape{all->count(), all->robots(), wanted->size()};
+    if (check(all->readVariables(*wanted, out))) {
+      m_answer["values"] = nested<double>(out, shape);
+    }
+    return;
+  }
+  if (names[*what] == "boards") {
+    const std::array shape{all->count(), all->robots(), std::size_t{Blackboard::words}};
+    if (!answerable(rows * Blackboard::words)) return;
+    std::vector<std::uint32_t> out(rows * Blackboard::words);
+    if (check(all->readBoards(out))) m_answer["values"] = nested<std::uint32_t>(out, shape);
+    return;
+  }
+  const auto array = static_cast<WorldArray>(*what);
+  if (!answerable(all->sizeOf(array))) return;
+  std::vector<double> out(all->sizeOf(array));
+  if (!check(all->read(array, out))) return;
+  std::vector<std::size_t> shape{all->count(), all->robots(), columnsOf(array).size()};
+  if (array == WorldArray::Game) shape.erase(shape.begin() + 1);
+  m_answer["values"] = nested<double>(out, shape);
+}
+
+std::optional<std::vector<Variable>> WorldRequest::variables() {
+  const auto* list = m_request.array("variables", 2 * Blackboard::words);
+  if (!list) return {};
+  std::vector<Variable> found;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const auto variable = worldVariable((*list)[i].text);
+    if (!variable) {
+      m_report.fail(1, m_request.pathOf("variables", i), variable.error().message);
+      return {};
+    }
+    found.push_back(*variable);
+  }
+  if (!found.empty()) return found;
+  fail("variables", "must have at least one name");
+  return {};
+}
+
+template <class Value>
+void WorldRequest::flatten(const JsonNode& node, const std::string& path,
+                           std::span<const std::size_t> shape, Value absent,
+                           std::vector<Value>& out) {
+  if (failed()) return;
+  if (shape.empty()) {
+    if (node.kind == JsonNode::Kind::Null) return out.push_back(absent);
+    if (node.kind != JsonNode::Kind::Number) {
+      return m_report.fail(1, path, "must be a number, or null to leave what stands there");
+    }
+    if constexpr (std::is_integral_v<Value>) {
+      if (!(node.number > static_cast<double>(absent) && node.number <= 2147483647.0 &&
+            node.number == std::floor(node.number))) {
+        return m_report.fail(1, path, "must be a whole number of 32 bits");
+      }
+    }
+    return out.push_back(static_cast<Value>(node.number));
+  }
+  if (node.kind != JsonNode::Kind::Array || node.items.size() != shape[0]) {
+    return m_report.fail(1, path, "must be a list of " + std::to_string(shape[0]));
+  }
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    flatten(node.items[i], path + '[' + std::to_string(i) + ']', shape.subspan(1), absent, out);
+  }
+}
+
+template <class Value>
+std::optional<std::vector<Value>> WorldRequest::values(std::string_view key,
+                                                       std::span<const std::size_t> shape,
+                                                       Value absent) {
+  m_request.require(key);
+  if (failed()) return {};
+  std::vector<Value> out;
+  flatten(*m_request.find(key), m_request.pathOf(key), shape, absent, out);
+  if (failed()) return {};
+  return out;
+}
+
+void WorldRequest::write() {
+  Worlds* const all = worlds();
+  if (!all) return;
+  const auto asked = [this](const char* key) { return m_request.find(key) != nullptr; };
+  if (asked("variables") + asked("actions") + asked("commands") != 1) {
+    return fail("do",
+                "write needs one of \"variables\" (with \"values\"), \"actions\", \"commands\"");
+  }
+  if (asked("actions")) {
+    const std::array shape{all->count(), all->robots()};
+    const auto actions = values<std::int32_t>("actions", shape, Worlds::keep);
+    if (actions) check(all->writeActions(*actions));
+  } else if (asked("commands")) {
+    const std::array shape{all->count(), all->robots(), commandColumns().size()};
+    const auto commands = values<std::int32_t>("commands", shape, Worlds::keep);
+    if (commands) check(all->writeCommands(*commands));
+  } else {
+    const auto wanted = variables();
+    if (!wanted) return;
+    const std::array shape{all->count(), all->robots(), wanted->size()};
+    const auto numbers = values<double>("values", shape, std::numeric_limits<double>::quiet_NaN());
+    if (numbers) check(all->writeVariables(*wanted, *numbers));
+  }
 }
 
 void WorldRequest::placeRobot() {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <base/lined_json.h>
+#include <base/try.h>
 
 #include "step_team.h"
 #include "world.h"
@@ -38,9 +39,8 @@ Result<void> checkRange(std::string_view what, int value, int most) {
 /// would share their blackboards with every other world.
 Result<void> keepInside(RuntimeChoice& choice) {
   if (!choice.isChosen()) return {};
-  const auto runtime = loadRuntime(choice);
-  if (!runtime) return tl::unexpected(runtime.error());
-  const auto& all = runtime->processes;
+  const auto runtime = TRY(loadRuntime(choice));
+  const auto& all = runtime.processes;
   if (std::any_of(all.begin(), all.end(), [](const auto& p) { return !p.isReference(); })) {
     return failure(
         ErrorCode::Unsupported,
@@ -117,10 +117,10 @@ struct Worlds::Parts {
   /// Calls change(world, its index) for one or all, until one fails.
   template <class Change>
   Result<void> changeEach(int world, const Change& change) {
-    if (auto known = checkWorld(world); !known) return known;
+    TRY(checkWorld(world));
     for (std::size_t i = 0; i < worlds.size(); ++i) {
       if (world != all && static_cast<std::size_t>(world) != i) continue;
-      if (auto changed = change(worlds[i], i); !changed) return changed;
+      TRY(change(worlds[i], i));
     }
     return {};
   }
@@ -142,23 +142,22 @@ Result<Worlds> Worlds::create(const Scenario& scenario, const WorldsOptions& opt
   parts->scenario = scenario;
   if (options.seed) parts->scenario.settings.seed = *options.seed;
   for (ScenarioRobot& robot : parts->scenario.robots) {
-    if (auto kept = keepInside(robot.runtime); !kept) return tl::unexpected(kept.error());
+    TRY(keepInside(robot.runtime));
     parts->robots.push_back(robot.identity.id);
   }
   for (auto& [team, runtime] : parts->scenario.runtimes) {
-    if (auto kept = keepInside(runtime); !kept) return tl::unexpected(kept.error());
+    TRY(keepInside(runtime));
   }
   parts->options.cognition = Cognition::Inline;
   if (options.particles) parts->options.process.particles = *options.particles;
   parts->findBeginning();
   parts->worlds.reserve(static_cast<std::size_t>(options.count));
   for (int i = 0; i < options.count; ++i) {
-    auto world = parts->make(parts->scenario.settings.seed + static_cast<std::uint64_t>(i));
-    if (!world) return tl::unexpected(world.error());
-    parts->worlds.push_back(std::move(*world));
+    auto world = TRY(parts->make(parts->scenario.settings.seed + static_cast<std::uint64_t>(i)));
+    parts->worlds.push_back(std::move(world));
   }
   const int useful = std::min(options.threads, options.count);
-  if (auto started = parts->team.start(useful); !started) return tl::unexpected(started.error());
+  TRY(parts->team.start(useful));
   return Worlds(std::move(parts));
 }
 
@@ -179,7 +178,7 @@ std::span<const RobotId> Worlds::robotIds() const {
 }
 
 Result<void> Worlds::setBehaviour(RobotId robot, const std::string& behaviour) {
-  if (auto known = m_parts->checkRobot(robot); !known) return known;
+  TRY(m_parts->checkRobot(robot));
   auto changed = m_parts->changeEach(all, [&](World& world, std::size_t /*index*/) {
     return world.match().setBehaviour(robot, behaviour);
   });
@@ -196,15 +195,14 @@ Result<void> Worlds::reset(int world, std::uint64_t seed) {
   return m_parts->changeEach(world, [&](World& one, std::size_t index) -> Result<void> {
     const std::uint64_t own = world == all ? seed + index : seed;
     if (one.beginsQuickly() && one.beginAgain(*m_parts->beginning, own)) return {};
-    auto made = m_parts->make(own);
-    if (!made) return tl::unexpected(made.error());
-    one = std::move(*made);
+    auto made = TRY(m_parts->make(own));
+    one = std::move(made);
     return {};
   });
 }
 
 Result<void> Worlds::step(int ticks) {
-  if (auto checked = checkRange("the number of ticks", ticks, mostTicks); !checked) return checked;
+  TRY(checkRange("the number of ticks", ticks, mostTicks));
   auto& worlds = m_parts->worlds;
   // So few stay in a core's cache by themselves.
   constexpr std::size_t few = 200;
@@ -228,10 +226,7 @@ std::size_t Worlds::sizeOf(WorldArray array) const {
 
 Result<void> Worlds::read(WorldArray array, std::span<double> out) const {
   constexpr std::array<std::string_view, worldArrays> names{"percepts", "robots", "game"};
-  if (auto fits = checkSize(names[static_cast<std::size_t>(array)], out.size(), sizeOf(array));
-      !fits) {
-    return fits;
-  }
+  TRY(checkSize(names[static_cast<std::size_t>(array)], out.size(), sizeOf(array)));
   Filling filling{out.data()};
   for (const World& world : m_parts->worlds) {
     if (array == WorldArray::Percepts) {
@@ -273,7 +268,7 @@ Result<void> Worlds::readBoards(std::span<std::uint32_t> out) const {
 Result<void> Worlds::readVariables(std::span<const Variable> variables,
                                    std::span<double> out) const {
   const std::size_t rows = m_parts->robotRows();
-  if (auto fits = checkSize("variables", out.size(), rows * variables.size()); !fits) return fits;
+  TRY(checkSize("variables", out.size(), rows * variables.size()));
   double* to = out.data();
   for (const World& world : m_parts->worlds) {
     for (std::size_t i = 0; i < robots(); ++i) {
@@ -288,7 +283,7 @@ Result<void> Worlds::readVariables(std::span<const Variable> variables,
 }
 
 Result<void> Worlds::readHashes(std::span<std::uint64_t> out) const {
-  if (auto fits = checkSize("hashes", out.size(), count()); !fits) return fits;
+  TRY(checkSize("hashes", out.size(), count()));
   std::transform(m_parts->worlds.begin(), m_parts->worlds.end(), out.begin(),
                  [](const World& world) { return world.match().simulation().hash(); });
   return {};
@@ -343,7 +338,7 @@ Result<void> Worlds::writeCommands(std::span<const std::int32_t> commands) {
 }
 
 Result<void> Worlds::writeActions(std::span<const std::int32_t> actions) {
-  if (auto fits = checkSize("actions", actions.size(), m_parts->robotRows()); !fits) return fits;
+  TRY(checkSize("actions", actions.size(), m_parts->robotRows()));
   const IntVar variable = m_parts->variables.decisionActionA;
   const std::int32_t* from = actions.data();
   for (World& world : m_parts->worlds) {
@@ -368,7 +363,7 @@ Result<void> Worlds::placeBall(int world, const Point& place, const Velocity& ve
 }
 
 Result<WorldSnapshot> Worlds::snapshot(int world) const {
-  if (auto known = m_parts->checkWorld(world); !known) return tl::unexpected(known.error());
+  TRY(m_parts->checkWorld(world));
   if (world == all) {
     return failure(ErrorCode::InvalidArgument, "a snapshot is of one world; choose its number");
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <base/try.h>
+
 #include "planning/target.h"
 
 namespace pitchboard::link {
@@ -81,7 +83,7 @@ NaiveOutput naiveRule(int lost, float panDeg, float distance, double distanceToK
 }
 
 Result<std::unique_ptr<CognitiveProcess>> makeNaiveDecision(const ProcessOptions& options) {
-  if (auto valid = validate(options.parameters); !valid) return tl::unexpected(valid.error());
+  TRY(validate(options.parameters));
   return std::make_unique<NaiveDecision>(options.parameters.distanceToKick);
 }
 

@@ -4,22 +4,18 @@
 #include <algorithm>
 #include <array>
 
+#include <base/try.h>
 #include <robotlink/cognition/naive_decision.h>
 
-#include "localization/localization.h"
-#include "planning/planning.h"
+#include "process_makers.h"
 #include "soccer/behaviour.h"
-#include "team/communication.h"
-#include "team/team_talk.h"
 
 namespace pitchboard::link {
 namespace {
 
-using Maker = Result<std::unique_ptr<CognitiveProcess>> (*)(const ProcessOptions& options);
-
 struct NamedBehaviour {
   BehaviourInfo info;
-  Maker make;
+  ProcessMaker* make;
 };
 
 constexpr std::array behaviourList{
@@ -44,7 +40,7 @@ constexpr auto behaviourInfos = [] {
 }();
 
 Result<std::unique_ptr<CognitiveProcess>> makeDecision(const ProcessOptions& options) {
-  if (auto valid = validate(options.parameters); !valid) return tl::unexpected(valid.error());
+  TRY(validate(options.parameters));
   std::string known;
   for (const NamedBehaviour& behaviour : behaviourList) {
     if (behaviour.info.name == options.behaviour) return behaviour.make(options);

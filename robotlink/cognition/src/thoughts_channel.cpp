@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The datagrams' way over the loopback device.
+#include <base/try.h>
 #include <robotlink/cognition/robot_thoughts.h>
 
 #include <cerrno>
@@ -26,9 +27,8 @@ Result<void> checkPort(int port, int least) {
 Result<ThoughtsSender> ThoughtsSender::to(int port) {
   if (const Result<void> valid = checkPort(port, 1); !valid)
     return tl::unexpected<Error>(valid.error());
-  auto sender = telemetry::UdpSender::to({INADDR_LOOPBACK});
-  if (!sender) return tl::unexpected<Error>(sender.error());
-  return ThoughtsSender(std::move(*sender), static_cast<std::uint16_t>(port));
+  auto sender = TRY(telemetry::UdpSender::to({INADDR_LOOPBACK}));
+  return ThoughtsSender(std::move(sender), static_cast<std::uint16_t>(port));
 }
 
 void ThoughtsSender::send(const RobotThoughts& thoughts) {

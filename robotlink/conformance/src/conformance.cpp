@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include <base/try.h>
 #include <robotlink/blackboard/blackboard.h>
 #include <robotlink/blackboard/variable_catalog.h>
 #include <robotlink/cognition/naive_decision.h>
@@ -27,10 +28,9 @@ class TraceWorld {
     sim::SimulationSettings settings;
     settings.physics = "published";
     settings.afterGoal = sim::AfterGoal::StopClock;
-    auto simulation = sim::Simulation::create(settings);
-    if (!simulation) return tl::unexpected(simulation.error());
-    std::unique_ptr<TraceWorld> world(new TraceWorld(std::move(*simulation)));
-    if (auto placed = world->place(trace); !placed) return tl::unexpected(placed.error());
+    auto simulation = TRY(sim::Simulation::create(settings));
+    std::unique_ptr<TraceWorld> world(new TraceWorld(std::move(simulation)));
+    TRY(world->place(trace));
     return world;
   }
 
@@ -80,7 +80,7 @@ class TraceWorld {
       m_boards.push_back(Blackboard::onHeap());
       m_boards.back().write(m_variables.decisionSearchOn, 1);
       for (const auto& [name, value] : robot.initialInts) {
-        if (auto written = carryOut(WriteInt{i, name, value}); !written) return written;
+        TRY(carryOut(WriteInt{i, name, value}));
       }
       (void)carryOut(PlaceTraceRobot{i, robot.x, robot.y, robot.rotate, robot.rotate});
     }

@@ -12,6 +12,7 @@
 
 #include <base/lined_json.h>
 #include <base/read_file.h>
+#include <base/try.h>
 
 namespace pitchboard::link {
 namespace {
@@ -170,9 +171,8 @@ Result<std::string> readGzip(const std::string& path) {
 }
 
 Result<void> readRows(Trace& trace, const std::string& path) {
-  auto content = readGzip(path);
-  if (!content) return tl::unexpected(content.error());
-  const std::string_view all = *content;
+  auto content = TRY(readGzip(path));
+  const std::string_view all = content;
   std::size_t position = 0;
   int line = 0;
   const auto nextLine = [&]() -> std::string_view {
@@ -231,18 +231,17 @@ Result<Trace> readTrace(const std::string& jsonPath) {
   if (!jsonPath.ends_with(extension)) {
     return failure(ErrorCode::InvalidArgument, "A trace is named by its .json file.", jsonPath);
   }
-  const auto text = readFile(jsonPath, mostTextBytes, "The trace");
-  if (!text) return tl::unexpected(text.error());
+  const auto text = TRY(readFile(jsonPath, mostTextBytes, "The trace"));
   JsonReport report(jsonPath);
   Trace trace;
-  if (const auto root = parseJson(*text, report, mostTextBytes)) trace = traceFrom(report, *root);
+  if (const auto root = parseJson(text, report, mostTextBytes)) trace = traceFrom(report, *root);
   if (report.failed()) {
     Error error = report.error();
     error.message = "Not a trace: " + error.message;
     return tl::unexpected(error);
   }
   const std::string rows = jsonPath.substr(0, jsonPath.size() - extension.size()) + ".csv.gz";
-  if (auto read = readRows(trace, rows); !read) return tl::unexpected(read.error());
+  TRY(readRows(trace, rows));
   return trace;
 }
 

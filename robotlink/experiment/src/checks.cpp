@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include <base/lined_json.h>
+#include <base/try.h>
 #include <robotlink/experiment/statistics.h>
+#include <robotlink/report/quantile.h>
 
 namespace pitchboard::link {
 namespace {
@@ -113,10 +115,9 @@ Result<Check> Check::parse(std::string_view text, Over over, std::span<const Met
     }
     at = word.end;
   }
-  auto expression = telemetry::Expression::parse(translated);
-  if (!expression) return tl::unexpected(expression.error());
+  auto expression = TRY(telemetry::Expression::parse(translated));
   std::vector<Name> names;
-  for (const std::string& variable : expression->variables()) {
+  for (const std::string& variable : expression.variables()) {
     const std::size_t slash = variable.find('/');
     Name name;
     name.statistic = variable.substr(0, slash);
@@ -127,7 +128,7 @@ Result<Check> Check::parse(std::string_view text, Over over, std::span<const Met
     name.written = asWritten->second;
     names.push_back(std::move(name));
   }
-  return Check(std::move(*expression), std::move(names));
+  return Check(std::move(expression), std::move(names));
 }
 
 bool Check::holds(std::span<const double> values) {

@@ -304,8 +304,8 @@ Result<Scenario> scenarioOf(const Experiment& experiment, const RunPlace& run) {
     auto made = scenarioFromJson(patched.dump(), "run " + std::to_string(run.number));
     if (!made) return failure(made.error().code, made.error().message, "random");
     scenario = std::move(*made);
-    scenario.stop = {};
   }
+  scenario.stop = {experiment.stop.duration};
   scenario.settings.seed = seed;
   for (const StartSpread& start : experiment.starts) {
     const auto spread = [&](Point& place) {

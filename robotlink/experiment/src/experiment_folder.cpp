@@ -16,6 +16,7 @@
 #include <base/lined_json.h>
 #include <base/read_file.h>
 #include <base/system_reason.h>
+#include <base/try.h>
 #include <robotlink/experiment/junit_report.h>
 
 #include "experiment_files.h"
@@ -58,7 +59,7 @@ Result<std::uint64_t> eachResult(
                      path + ':' + std::to_string(lineNumber));
     }
     const LinePlace place{result->number, offset, line.size() + 1};
-    if (auto taken = take(*result, place); !taken) return tl::unexpected(taken.error());
+    TRY(take(*result, place));
     offset += place.size;
   }
   return offset;
@@ -79,9 +80,8 @@ Result<void> writeAll(const Descriptor& into, std::string_view text, const std::
 /// Both texts are the same experiment; where they differ is for the user to see.
 Result<void> sameExperiment(const std::string& folder, const Experiment& experiment) {
   const auto text =
-      readFile(inFolder(folder, experimentFile), mostExperimentBytes, "the experiment");
-  if (!text) return tl::unexpected(text.error());
-  if (*text == experiment.text) return {};
+      TRY(readFile(inFolder(folder, experimentFile), mostExperimentBytes, "the experiment"));
+  if (text == experiment.text) return {};
   return failure(ErrorCode::Conflict,
                  "this folder holds results of another experiment (its experiment.json differs); "
                  "choose another folder",
@@ -131,7 +131,7 @@ Result<ExperimentFolder> ExperimentFolder::begin(const std::string& path,
                    path);
   }
   if (exists) {
-    if (auto same = sameExperiment(path, experiment); !same) return tl::unexpected(same.error());
+    TRY(sameExperiment(path, experiment));
   } else if (auto wrote = writeFile(made->file(experimentFile), experiment.text, IfExists::Replace);
              !wrote) {
     return tl::unexpected(wrote.error());
@@ -169,9 +169,7 @@ bool ExperimentFolder::complete() const {
 Result<void> ExperimentFolder::add(const RunResult& result, std::optional<double> timesRealTime) {
   char& done = m_impl->finished[result.number - 1];
   if (done) return {};
-  if (auto written = writeAll(m_impl->lines, lineOf(result), m_impl->file(runsFile)); !written) {
-    return written;
-  }
+  TRY(writeAll(m_impl->lines, lineOf(result), m_impl->file(runsFile)));
   done = 1;
   ++m_impl->count;
   if (!timesRealTime) return {};
@@ -186,7 +184,7 @@ Result<void> ExperimentFolder::Impl::putTimes(std::string_view rows) {
       return failure(ErrorCode::SystemError, "cannot be written: " + systemReason(errno), name);
     }
     if (::lseek(times.get(), 0, SEEK_END) == 0) {
-      if (auto head = writeAll(times, timesHead, name); !head) return head;
+      TRY(writeAll(times, timesHead, name));
     }
   }
   return writeAll(times, rows, name);
@@ -218,62 +216,56 @@ Result<void> ExperimentFolder::Impl::sortLines() {
   if (std::is_sorted(places.begin(), places.end(), before)) return {};
   std::sort(places.begin(), places.end(), before);
   std::ifstream source(name, std::ios::binary);
-  auto target = FileTarget::at(name, IfExists::Replace);
-  if (!target) return tl::unexpected(target.error());
-  auto sorted = target->open();
-  if (!sorted) return tl::unexpected(sorted.error());
+  auto target = TRY(FileTarget::at(name, IfExists::Replace));
+  auto sorted = TRY(target.open());
   std::string line;
   for (const LinePlace& place : places) {
     line.resize(place.size);
     source.seekg(static_cast<std::streamoff>(place.offset));
     if (!source.read(line.data(), static_cast<std::streamsize>(line.size()))) return failed();
-    if (auto written = sorted->write(line); !written) return written;
+    TRY(sorted.write(line));
   }
-  if (auto closed = sorted->close(); !closed) return closed;
-  return target->commit();
+  TRY(sorted.close());
+  return target.commit();
 }
 
 Result<void> ExperimentFolder::Impl::writeReports() const {
-  const auto table = resultsOf(path, *experiment);
-  if (!table) return tl::unexpected(table.error());
+  const auto table = TRY(resultsOf(path, *experiment));
   {
-    auto target = FileTarget::at(file("runs.csv"), IfExists::Replace);
-    if (!target) return tl::unexpected(target.error());
-    auto csv = target->open();
-    if (!csv) return tl::unexpected(csv.error());
-    if (auto written = csv->write(csvHead(table->metrics)); !written) return written;
+    auto target = TRY(FileTarget::at(file("runs.csv"), IfExists::Replace));
+    auto csv = TRY(target.open());
+    TRY(csv.write(csvHead(table.metrics)));
     const auto lineByLine =
         eachResult(file(runsFile), *experiment,
                    [&](const RunResult& result, const LinePlace&) -> Result<void> {
-                     return csv->write(csvLine(*experiment, result));
+                     return csv.write(csvLine(*experiment, result));
                    });
     if (!lineByLine) return tl::unexpected(lineByLine.error());
-    if (auto closed = csv->close(); !closed) return closed;
-    if (auto done = target->commit(); !done) return done;
+    TRY(csv.close());
+    TRY(target.commit());
   }
-  const ExperimentSummary summary = summarize(*experiment, *table);
+  const ExperimentSummary summary = summarize(*experiment, table);
   const std::pair<const char*, std::string> texts[] = {
       {"summary.json", summaryJson(*experiment, summary)},
       {"junit.xml", junitReport(*experiment, summary)},
       {"report.md", reportMarkdown(*experiment, summary)},
-      {"report.html", experimentReportHtml(*experiment, *table, summary)}};
+      {"report.html", experimentReportHtml(*experiment, table, summary)}};
   for (const auto& [name, text] : texts) {
-    if (auto written = writeFile(file(name), text, IfExists::Replace); !written) return written;
+    TRY(writeFile(file(name), text, IfExists::Replace));
   }
   return {};
 }
 
 Result<void> ExperimentFolder::finish() {
-  if (auto sorted = m_impl->sortLines(); !sorted) return sorted;
+  TRY(m_impl->sortLines());
   if (!complete()) return {};
   return m_impl->writeReports();
 }
 
 Result<Experiment> experimentOf(const std::string& folder) {
   const std::string path = inFolder(folder, experimentFile);
-  const auto text = readFile(path, mostExperimentBytes, "the experiment");
-  if (!text) return tl::unexpected(text.error());
-  return experimentFromJson(*text, path);
+  const auto text = TRY(readFile(path, mostExperimentBytes, "the experiment"));
+  return experimentFromJson(text, path);
 }
 
 Result<ResultTable> resultsOf(const std::string& folder, const Experiment& experiment) {
@@ -308,7 +300,7 @@ Result<RunResult> resultOf(const std::string& folder, const Experiment& experime
 Result<ExperimentFolder> mergeFolders(const std::vector<std::string>& parts,
                                       const std::string& into, const Experiment& experiment) {
   for (const std::string& part : parts) {
-    if (auto same = sameExperiment(part, experiment); !same) return tl::unexpected(same.error());
+    TRY(sameExperiment(part, experiment));
   }
   auto folder = ExperimentFolder::begin(into, experiment, false);
   if (!folder) return folder;
@@ -329,11 +321,9 @@ Result<ExperimentFolder> mergeFolders(const std::vector<std::string>& parts,
           return folder->add(result);
         });
     if (!read) return tl::unexpected(read.error());
-    if (auto times = folder->m_impl->addTimesOf(part); !times) {
-      return tl::unexpected(times.error());
-    }
+    TRY(folder->m_impl->addTimesOf(part));
   }
-  if (auto finished = folder->finish(); !finished) return tl::unexpected(finished.error());
+  TRY(folder->finish());
   return folder;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <thread>
 
+#include <base/try.h>
 #include <robotlink/match/own_pace.h>
 
 namespace pitchboard::link {
@@ -41,7 +42,7 @@ Result<void> OwnPrograms::begin(const std::atomic<bool>* cancelled) {
     match.lookAfterProcesses(Clock::now());
     std::this_thread::sleep_for(glance);
   }
-  if (auto here = missing(); !here) return here;
+  TRY(missing());
   m_looked = m_followed = Clock::now();
   setSpeed(match.ownPace(m_speed, m_speed), m_looked);
   return {};

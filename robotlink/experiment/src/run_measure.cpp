@@ -24,7 +24,6 @@ RunMeasure::RunMeasure(const Experiment& experiment, const RunPlace& run,
     : m_experiment(experiment), m_run(run), m_rows(std::move(rows)) {}
 
 void RunMeasure::begin(const SimulatedMatch& match) {
-  m_rate = match.simulation().state().settings.tickRate;
   match.simulation().snapshot(m_now);
   if (m_run.index < m_experiment.pathsShown) m_paths.emplace_back("ball");
   for (const sim::RobotSnapshot& robot : m_now.robots) {
@@ -54,9 +53,7 @@ void RunMeasure::ticked(const SimulatedMatch& match, std::chrono::nanoseconds /*
     m_samples = m_rows->samples();
     sample(match);
   }
-  const double time = static_cast<double>(match.simulation().state().tick) / m_rate;
-  // As the match counts its own duration: a time that is a whole number of ticks but for rounding.
-  if (time >= m_experiment.stop.duration - 1e-9) end("time");
+  if (match.finishedBy() == "duration") end("time");
 }
 
 void RunMeasure::happened(std::span<const MatchEvent> events) {

@@ -68,7 +68,6 @@ class RunMeasure : public TickObserver {
   sim::Snapshot m_now;
   std::string m_endedBy;
   std::optional<Error> m_problem;
-  double m_rate = 60.0;
 
   int m_goals = 0, m_goalsAgainst = 0, m_ballsOut = 0, m_penalties = 0, m_collisions = 0;
   bool m_fell = false, m_stuck = false;

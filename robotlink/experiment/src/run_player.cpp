@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include <base/try.h>
 #include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/match/match_player.h>
 #include <robotlink/session/match_recorder.h>
@@ -75,9 +76,8 @@ RunPlayer::RunPlayer(RunPlayer&&) noexcept = default;
 RunPlayer::~RunPlayer() = default;
 
 Result<RunPlayer> RunPlayer::create(const Experiment& experiment, PlaySettings settings) {
-  auto success = Check::parse(experiment.success, Check::Over::Run, metricsOf(experiment));
-  if (!success) return tl::unexpected(success.error());
-  return RunPlayer(experiment, std::move(settings), std::make_unique<Check>(std::move(*success)));
+  auto success = TRY(Check::parse(experiment.success, Check::Over::Run, metricsOf(experiment)));
+  return RunPlayer(experiment, std::move(settings), std::make_unique<Check>(std::move(success)));
 }
 
 Result<RunResult> RunPlayer::play(std::size_t number) {
@@ -93,27 +93,24 @@ Result<RunResult> RunPlayer::record(std::size_t number, const std::string& path,
 Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* recording) {
   const Experiment& e = *m_experiment;
   const RunPlace run = placeOf(e, number);
-  const auto scenario = scenarioOf(e, run);
-  if (!scenario) return tl::unexpected(scenario.error());
+  const auto scenario = TRY(scenarioOf(e, run));
   MatchOptions options;
   options.cognition = e.separateProcesses ? Cognition::External : Cognition::Inline;
   options.robotProgram = m_settings.robotProgram;
   options.speed = e.ownPrograms ? e.speed : MatchPlayer::unlimitedSpeed;
-  auto match = SimulatedMatch::create(*scenario, options);
-  if (!match) return tl::unexpected(match.error());
+  auto match = TRY(SimulatedMatch::create(scenario, options));
 
   const auto begin = WallClock::now();
-  MatchPlayer player(std::move(*match));
+  MatchPlayer player(std::move(match));
   player.match().setPlaying(MatchPlayer::unlimitedSpeed, false, begin);
   std::shared_ptr<MatchRecorder> recorder;
   if (recording) {
     telemetry::SessionWriterOptions writing;
     writing.waitWhenFull = true;
-    auto writer = telemetry::SessionWriter::create(
+    auto writer = TRY(telemetry::SessionWriter::create(
         recording->path,
-        sessionInfo(player.match(), recording->program, telemetry::LiveClock().now()), writing);
-    if (!writer) return tl::unexpected(writer.error());
-    const std::shared_ptr<telemetry::SessionWriter> shared = std::move(*writer);
+        sessionInfo(player.match(), recording->program, telemetry::LiveClock().now()), writing));
+    const std::shared_ptr<telemetry::SessionWriter> shared = std::move(writer);
     attachMatch(*shared, player.match().scenario(), VariableCatalog::published());
     const auto every = std::make_shared<MatchSampler>();
     recorder = std::make_shared<MatchRecorder>(shared, every);
@@ -121,7 +118,7 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
     player.observe(recorder);
   }
   const auto rows = std::make_shared<LatestRows>();
-  const double rate = scenario->settings.tickRate;
+  const double rate = scenario.settings.tickRate;
   const auto sampler = std::make_shared<MatchSampler>(
       rows, MatchSamplerOptions{std::max(1, static_cast<int>(e.sampleEvery * rate + 0.5))});
   const auto measure = std::make_shared<RunMeasure>(e, run, rows);
@@ -131,14 +128,10 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
 
   std::optional<OwnPrograms> own;
   if (e.ownPrograms) own.emplace(player, e.speed);
-  if (auto begun = own ? own->begin(m_settings.cancelled) : Result<void>(); !begun) {
-    return tl::unexpected(begun.error());
-  }
+  TRY(own ? own->begin(m_settings.cancelled) : Result<void>());
   const auto firstTick = player.currentTick();
   const auto first = WallClock::now();
-  if (auto played = loop(player, *measure, run.condition, own ? &*own : nullptr); !played) {
-    return tl::unexpected(played.error());
-  }
+  TRY(loop(player, *measure, run.condition, own ? &*own : nullptr));
   RunResult result = measure->result(player.match());
   std::vector<double> values;
   for (const Check::Name& name : m_success->names()) values.push_back(result.values[name.metric]);
@@ -153,7 +146,7 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   m_wall = std::chrono::duration<double>(WallClock::now() - begin).count();
   m_simulated = static_cast<double>(result.ticks) / rate;
   if (recorder) {
-    if (auto finished = recorder->finish(); !finished) return tl::unexpected(finished.error());
+    TRY(recorder->finish());
   }
   return result;
 }
@@ -165,7 +158,7 @@ Result<void> RunPlayer::loop(MatchPlayer& player, const RunMeasure& measure, std
   Hand hand(e.conditions[condition].placed, player);
   auto looked = WallClock::now();
   while (measure.endedBy().empty() && !player.match().finished()) {
-    if (auto acted = hand.act(); !acted) return acted;
+    TRY(hand.act());
     if (own) own->wait();
     player.tick();
     if (!own && player.currentTick() % ticksBetweenLooks != 0) continue;

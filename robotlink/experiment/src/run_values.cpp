@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include <base/try.h>
 #include <robotlink/experiment/statistics.h>
+#include <robotlink/report/quantile.h>
 
 namespace pitchboard::link {
 namespace {
@@ -32,10 +34,9 @@ double MeanOf::mean() const {
 
 Result<ReducedExpression> ReducedExpression::make(const ExpressionMetric& metric,
                                                   const LatestRows& rows) {
-  auto expression = telemetry::Expression::parse(metric.expression);
-  if (!expression) return tl::unexpected(expression.error());
+  auto expression = TRY(telemetry::Expression::parse(metric.expression));
   std::vector<LatestRows::Place> places;
-  for (const std::string& variable : expression->variables()) {
+  for (const std::string& variable : expression.variables()) {
     const std::size_t slash = variable.find('/');
     const auto place = rows.find(variable.substr(0, slash), variable.substr(slash + 1));
     if (!place) {
@@ -47,7 +48,7 @@ Result<ReducedExpression> ReducedExpression::make(const ExpressionMetric& metric
     }
     places.push_back(*place);
   }
-  return ReducedExpression(std::move(*expression), std::move(places), metric.reduction);
+  return ReducedExpression(std::move(expression), std::move(places), metric.reduction);
 }
 
 void ReducedExpression::sample(double time, const LatestRows& rows) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <base/ids.h>
+#include <base/try.h>
 
 namespace pitchboard::link {
 namespace {
@@ -80,7 +81,7 @@ Result<void> put(Json& into, std::string_view name, std::span<const Step> rest, 
   if (!into.is_array()) return wrong("the scenario has no list " + std::string(name));
   if (step.name == "*") {
     for (Json& entry : into) {
-      if (auto done = put(entry, name, behind, value); !done) return done;
+      TRY(put(entry, name, behind, value));
     }
     return {};
   }
@@ -127,14 +128,13 @@ Json jsonOf(const JsonNode& node) {
 }
 
 Result<void> putValue(Json& scenario, std::string_view key, const Json& value) {
-  const auto steps = stepsOf(key);
-  if (!steps) return tl::unexpected(steps.error());
-  const std::string& first = steps->front().name;
+  const auto steps = TRY(stepsOf(key));
+  const std::string& first = steps.front().name;
   if (first == "stop" || first == "seed") {
     return wrong("\"" + first + "\" is the experiment's own key");
   }
   if (!scenario.is_object()) return wrong("the scenario is no object");
-  return put(scenario[first], first, std::span(*steps).subspan(1), value);
+  return put(scenario[first], first, std::span(steps).subspan(1), value);
 }
 
 }  // namespace pitchboard::link

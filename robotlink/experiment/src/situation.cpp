@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <base/short_name.h>
+#include <base/try.h>
 #include <robotlink/cognition/referee_word.h>
 
 namespace pitchboard::link {
@@ -100,8 +101,7 @@ Result<std::string> situationToJson(const Situation& situation) {
   out["stop"] = stopJson(situation.stop);
   out["assertions"] = situation.assertions;
   std::string text = out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-  const auto read = experimentFromJson(text, situation.name);
-  if (!read) return tl::unexpected(read.error());
+  const auto read = TRY(experimentFromJson(text, situation.name));
   return text;
 }
 

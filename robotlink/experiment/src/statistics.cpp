@@ -11,6 +11,8 @@
 #include <limits>
 #include <random>
 
+#include <robotlink/report/quantile.h>
+
 namespace pitchboard::link {
 namespace {
 
@@ -78,15 +80,6 @@ SampleMoments momentsOf(std::span<const double> values) {
   if (out.count == 0) out.mean = nan;
   if (out.count > 1) out.deviation = std::sqrt(squares / static_cast<double>(out.count - 1));
   return out;
-}
-
-double quantile(std::span<const double> sorted, double share) {
-  if (sorted.empty()) return nan;
-  const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
-  const auto low = static_cast<std::size_t>(at);
-  const std::size_t high = std::min(low + 1, sorted.size() - 1);
-  const double part = at - static_cast<double>(low);
-  return sorted[low] + part * (sorted[high] - sorted[low]);
 }
 
 std::optional<Interval> intervalOfMean(std::span<const double> all) {

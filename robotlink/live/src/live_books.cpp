@@ -32,27 +32,10 @@ Json teamJson(const telemetry::TeamSetup& team) {
               {"profile", telemetry::profileText(team.profile)}};
 }
 
-/// As 0.3.0 wrote it: members of their own in place of the setup's text.
-std::string olderSetup(const Json& json) {
-  Json setup = Json::object();
-  for (const char* key : {"name", "colour", "senders", "robots"}) {
-    if (const Json* value = member(json, key)) setup[key] = *value;
-  }
-  if (const int number = whole<int>(json, "number"); number > 0) setup["number"] = number;
-  if (const int first = whole<int>(json, "firstPort"); first > 0) {
-    setup["ports"] = {first, whole<int>(json, "lastPort")};
-  }
-  setup["profile"] = lenient::text(json, "profileName");
-  if (flag(json, "attacksLeft")) setup["attacks"] = "left";
-  return setup.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 std::optional<telemetry::TeamSetup> teamFrom(const Json& json) {
   auto profile = telemetry::parseProfile(lenient::text(json, "profile"), "profile");
   if (!profile) return std::nullopt;
-  std::string setup = lenient::text(json, "setup");
-  if (setup.empty()) setup = olderSetup(json);
-  auto team = telemetry::parseTeamSetup(setup, "setup", std::move(*profile));
+  auto team = telemetry::parseTeamSetup(lenient::text(json, "setup"), "setup", std::move(*profile));
   return team ? std::optional(std::move(*team)) : std::nullopt;
 }
 

@@ -177,7 +177,7 @@ Result<void> SimulatedMatch::startInside(Seat& seat, SeatProcess& process) {
 
 Result<void> SimulatedMatch::startReference(Seat& seat, SeatProcess& process) {
   if (auto identified = identify(); !identified) return identified;
-  if (auto guarded = needGuard(); !guarded) return guarded;
+  if (auto guarded = m_processes->keepGuard(); !guarded) return guarded;
   if (!m_turns) {
     auto made = MatchTurns::create();
     if (!made) return tl::unexpected(made.error());
@@ -210,7 +210,7 @@ Result<void> SimulatedMatch::startReference(Seat& seat, SeatProcess& process) {
 
 Result<void> SimulatedMatch::startForeign(Seat& seat, SeatProcess& process) {
   if (auto identified = identify(); !identified) return identified;
-  if (auto guarded = needGuard(); !guarded) return guarded;
+  if (auto guarded = m_processes->keepGuard(); !guarded) return guarded;
   const ProfileProcess& profile = process.profile;
   const auto values = valuesFor(seat);
   const auto replaced = [&values, &seat](std::string& text) -> Result<void> {
@@ -265,18 +265,6 @@ Result<void> SimulatedMatch::startForeign(Seat& seat, SeatProcess& process) {
   if (!id) return tl::unexpected(id.error());
   process.id = *id;
   return {};
-}
-
-/// The guard is told of each segment when that is made: see makeSeat().
-Result<void> SimulatedMatch::needGuard() {
-  ProcessSupervisor& supervisor = m_processes->supervisor();
-  if (supervisor.isGuarded()) return {};
-  if (m_options.robotProgram.empty()) {
-    return failure(ErrorCode::InvalidArgument,
-                   "the robots' processes cannot be started: the path of pitchboard-robot is not "
-                   "known; use inline cognition or give the path");
-  }
-  return supervisor.keepGuard(m_options.robotProgram);
 }
 
 /// What ${...} stands for in commands.

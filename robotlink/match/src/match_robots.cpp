@@ -55,10 +55,10 @@ Result<std::unique_ptr<SimulatedMatch::Seat>> SimulatedMatch::makeSeat(const Wis
     if (!claim) return tl::unexpected(claim.error());
     // The guard is there before the segment, so that not even a kill between the two leaves it. A
     // match without processes goes on without it; one with processes says why it cannot.
-    if (!m_options.robotProgram.empty()) (void)needGuard();
+    if (!m_options.robotProgram.empty()) (void)m_processes->keepGuard();
     auto board = SystemVSegments::open(key, AttachMode::AttachOrCreate);
     if (!board) return tl::unexpected(board.error());
-    m_processes->supervisor().guardSegment(*board);
+    m_processes->guardSegment(*board);
     fresh = board->created();
     seat->claim = std::move(*claim);
     seat->board = std::move(*board);

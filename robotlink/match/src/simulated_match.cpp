@@ -34,7 +34,7 @@ SimulatedMatch::SimulatedMatch(const Scenario& scenario, const MatchOptions& opt
       m_extendedBridge(RobotVariables(catalog.withExtension())),
       m_events(std::make_unique<MatchEvents>()),
       m_referee(std::make_unique<MatchReferee>()),
-      m_processes(std::make_unique<ProcessManager>()) {}
+      m_processes(std::make_unique<ProcessManager>(options.robotProgram)) {}
 
 SimulatedMatch::SimulatedMatch(SimulatedMatch&&) noexcept = default;
 

@@ -12,8 +12,6 @@
 
 #include <robotlink/blackboard/system_v.h>
 
-#include "process_table.h"
-
 namespace pitchboard::link {
 namespace {
 
@@ -37,15 +35,10 @@ class Guard {
     return !m_done;
   }
 
-  void tidyUp(const std::string& mark) const {
-    if (m_done) return;
+  /// The processes of the match end at the same time, and hold their segments until then.
+  void tidyUp() const {
     const auto end = std::chrono::steady_clock::now() + patience;
-    while (true) {
-      const auto left = markedProcesses(mark);
-      for (const pid_t pid : left) ::kill(pid, SIGKILL);
-      // A killed process loses its mark before it lets go of its segments, so both are waited for.
-      const bool done = left.empty() && !removeUnused();
-      if (done || std::chrono::steady_clock::now() > end) return;
+    while (!m_done && removeUnused() && std::chrono::steady_clock::now() < end) {
       std::this_thread::sleep_for(5ms);
     }
   }
@@ -82,13 +75,13 @@ class Guard {
 
 }  // namespace
 
-void runGuard(const std::string& mark, int input) {
+void runGuard(int input) {
   // The same Ctrl+C or end of a terminal that ends the others must find it at work.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_IGN);
   Guard guard;
   while (guard.read(input)) {
   }
-  guard.tidyUp(mark);
+  guard.tidyUp();
 }
 
 }  // namespace pitchboard::link

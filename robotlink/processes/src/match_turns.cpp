@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include <base/system_reason.h>
+#include <base/try.h>
 
 namespace pitchboard::link {
 namespace {
@@ -135,9 +136,8 @@ Result<std::unique_ptr<MatchTurns>> MatchTurns::create() {
     return failure(ErrorCode::SystemError,
                    "the match's clock cannot be shared: " + systemReason(errno));
   }
-  auto pages = mapped(std::move(descriptor), true);
-  if (!pages) return tl::unexpected(pages.error());
-  return std::unique_ptr<MatchTurns>(new MatchTurns(std::move(*pages)));
+  auto pages = TRY(mapped(std::move(descriptor), true));
+  return std::unique_ptr<MatchTurns>(new MatchTurns(std::move(pages)));
 }
 
 Result<int> MatchTurns::takePlace() {
@@ -214,15 +214,14 @@ Result<std::shared_ptr<ProcessTurns>> ProcessTurns::join(int place) {
                    "plays a match uses this option",
                    "--match-turns");
   }
-  auto pages = mapped(Descriptor(::fcntl(descriptor, F_DUPFD_CLOEXEC, 3)), false);
-  if (!pages) return tl::unexpected(pages.error());
-  if ((*pages)->memory().magicWord != magic) {
+  auto pages = TRY(mapped(Descriptor(::fcntl(descriptor, F_DUPFD_CLOEXEC, 3)), false));
+  if (pages->memory().magicWord != magic) {
     return failure(ErrorCode::Unsupported,
                    "the program that plays the match has another version than this one; install "
                    "both from one package",
                    "--match-turns");
   }
-  return std::shared_ptr<ProcessTurns>(new ProcessTurns(std::move(*pages), place));
+  return std::shared_ptr<ProcessTurns>(new ProcessTurns(std::move(pages), place));
 }
 
 void ProcessTurns::ready(double period) {

@@ -2,6 +2,8 @@
 // The clocks of a team's programs: who follows the match, and who keeps real time.
 #include <robotlink/processes/process_manager.h>
 
+#include <algorithm>
+#include <csignal>
 #include <thread>
 
 #include "process_table.h"
@@ -26,7 +28,7 @@ const char* whyRealTime(ProcessClock clock) {
 
 /// Before a start. At ×1 real time is the match's: nothing is loaded that could go wrong.
 void ProcessManager::giveClock(Entry& entry, ChildSpec& spec, Time now) {
-  ProcessStatus& status = statusOf(entry);
+  ProcessStatus& status = entry.status;
   entry.clock.reset();
   entry.sawLibrary = false;
   status.clock = ProcessClock::Real;
@@ -52,14 +54,13 @@ void ProcessManager::giveClock(Entry& entry, ChildSpec& spec, Time now) {
 /// A program that runs is to keep this speed from now on.
 void ProcessManager::askForSpeed(Entry& entry) {
   if (!entry.process.spec.foreign) return;
-  ProcessStatus& status = statusOf(entry);
+  ProcessStatus& status = entry.status;
   status.speed = m_speed;
   // Of clocks that keep real time it is known; of others it has to be seen.
   status.achieved = !entry.clock && m_speed > 1.0 ? 1.0 : 0.0;
   entry.cpuSeconds = 0.0;  // no second that is not half of this speed
   if (entry.clock || m_speed == 1.0 || std::exchange(entry.toldRealTime, true)) return;
-  m_news.push_back({ProcessNewsKind::RealTime, entry.process.spec.robot, entry.process.spec.name,
-                    status.pid, whyRealTime(status.clock)});
+  addNews(entry, ProcessNewsKind::RealTime, whyRealTime(status.clock));
 }
 
 void ProcessManager::setPaused(bool paused, Time now) {
@@ -68,7 +69,7 @@ void ProcessManager::setPaused(bool paused, Time now) {
   bool follows = false;
   // Their time stands still before they stop, and goes on before they go on.
   for (Entry& entry : m_entries) {
-    if (entry.handle == 0 || !entry.clock) continue;
+    if (!entry.child || !entry.clock) continue;
     entry.clock->setSpeed(paused ? 0.0 : m_speed, now);
     follows = true;
   }
@@ -76,8 +77,8 @@ void ProcessManager::setPaused(bool paused, Time now) {
   constexpr std::chrono::milliseconds forTimers{5};
   if (paused && follows) std::this_thread::sleep_for(forTimers);
   for (Entry& entry : m_entries) {
-    if (entry.handle == 0 || !entry.process.spec.foreign) continue;
-    m_supervisor.pauseChild(entry.handle, paused);
+    if (!entry.child || !entry.process.spec.foreign) continue;
+    entry.child->signal(paused ? SIGSTOP : SIGCONT);
     entry.lastSign = entry.stoppedSince = now;
   }
 }
@@ -86,7 +87,7 @@ void ProcessManager::setSpeed(double speed, Time now) {
   if (speed == m_speed) return;
   m_speed = speed;
   for (Entry& entry : m_entries) {
-    if (entry.handle == 0 || !entry.process.spec.foreign) continue;
+    if (!entry.child || !entry.process.spec.foreign) continue;
     if (entry.clock && !m_paused) entry.clock->setSpeed(speed, now);
     entry.sampled = now;
     askForSpeed(entry);
@@ -97,7 +98,7 @@ void ProcessManager::setSpeed(double speed, Time now) {
 /// A static program loads no libraries, and the system loads none into one that is setuid.
 void ProcessManager::lookForLibrary(Entry& entry, Time now) {
   constexpr std::chrono::seconds forLoading{1};
-  ProcessStatus& status = statusOf(entry);
+  ProcessStatus& status = entry.status;
   if (!entry.clock || entry.sawLibrary || now - status.started < forLoading) return;
   entry.sawLibrary = mapsFile(status.pid, ProgramClock::library);
   if (entry.sawLibrary) return;
@@ -108,16 +109,10 @@ void ProcessManager::lookForLibrary(Entry& entry, Time now) {
 }
 
 bool ProcessManager::hasSegment(int id, int shmid) const {
-  const ProcessStatus* one = status(id);
-  if (!one || one->pid == 0) return false;
-  if (mapsSegment(one->pid, shmid)) return true;
-  for (const Entry& entry : m_entries) {
-    if (entry.id != id) continue;
-    for (const pid_t pid : m_supervisor.startedBy(entry.handle)) {
-      if (mapsSegment(pid, shmid)) return true;
-    }
-  }
-  return false;
+  const Entry* entry = const_cast<ProcessManager*>(this)->find(id);
+  return entry && entry->child && std::ranges::any_of(entry->child->all(), [shmid](pid_t pid) {
+           return mapsSegment(pid, shmid);
+         });
 }
 
 }  // namespace pitchboard::link

@@ -1,24 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/processes/process_manager.h>
 
+#include <sys/socket.h>
+#include <sys/wait.h>
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <iterator>
 #include <set>
+#include <thread>
 
 #include <base/duration_words.h>
+#include <base/system_reason.h>
+#include <base/try.h>
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/processes/guard.h>
 
-#include "program_stamp.h"
+#include "process_table.h"
 
 namespace pitchboard::link {
 namespace {
 
+using namespace std::chrono_literals;
 using Seconds = RestartRule::Seconds;
 using Ticks = std::chrono::steady_clock::duration;
 
 constexpr Seconds sampleInterval{1.0};
-constexpr std::size_t mostLines = ProcessSupervisor::maxLines;
+constexpr auto grace = 500ms;      // between the stop signal and SIGKILL
+constexpr auto killPatience = 5s;  // longer than this only in a stuck system call
 
 Ticks ticks(Seconds seconds) {
   return std::chrono::duration_cast<Ticks>(seconds);
@@ -35,69 +45,99 @@ std::string inSeconds(Seconds seconds) {
 
 ProcessManager::~ProcessManager() {
   stopAll();
+  if (!m_guard) return;
+  tellGuard(guardWords::done);
+  // It ends at once; only one that was stopped would keep us.
+  const auto last = std::chrono::steady_clock::now() + killPatience;
+  while (::waitpid(m_guardPid, nullptr, WNOHANG) == 0 && std::chrono::steady_clock::now() < last) {
+    std::this_thread::sleep_for(1ms);
+  }
+}
+
+Result<void> ProcessManager::keepGuard() {
+  if (m_guard) return {};
+  if (m_program.empty()) {
+    return failure(ErrorCode::InvalidArgument,
+                   "the robots' processes cannot be started: the path of pitchboard-robot is not "
+                   "known; use inline cognition or give the path");
+  }
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+    return failure(ErrorCode::SystemError,
+                   "the robots' processes cannot be guarded: " + systemReason(errno));
+  }
+  Descriptor ours(ends[0]);
+  const Descriptor its(ends[1]);
+  SpawnRequest request{{m_program, std::string(guardCommand)}};
+  request.input = its.get();
+  request.outlives = true;
+  const auto started = TRY(spawn(request));
+  m_guardPid = started.pid;
+  m_guard = std::move(ours);
+  return {};
+}
+
+void ProcessManager::guardSegment(const Blackboard& board) {
+  if (!m_guard || !board.created()) return;
+  if (const auto info = SystemVSegments::info(board.key())) {
+    tellGuard(guardWords::segment(info->key, info->shmid));
+  }
+}
+
+void ProcessManager::tellGuard(const std::string& line) {
+  // A guard that is gone is no reason to end: MSG_NOSIGNAL instead of SIGPIPE.
+  if (m_guard) (void)::send(m_guard.get(), line.data(), line.size(), MSG_NOSIGNAL);
 }
 
 ProcessManager::Entry* ProcessManager::find(int id) {
   const auto found = std::find_if(m_entries.begin(), m_entries.end(),
-                                  [id](const Entry& entry) { return entry.id == id; });
+                                  [id](const Entry& entry) { return entry.status.id == id; });
   return found == m_entries.end() ? nullptr : &*found;
 }
 
-ProcessStatus& ProcessManager::statusOf(const Entry& entry) {
-  return m_statuses[static_cast<std::size_t>(&entry - m_entries.data())];
-}
-
 const ProcessStatus* ProcessManager::status(int id) const {
-  const auto found = std::find_if(m_statuses.begin(), m_statuses.end(),
-                                  [id](const ProcessStatus& one) { return one.id == id; });
-  return found == m_statuses.end() ? nullptr : &*found;
+  const Entry* entry = const_cast<ProcessManager*>(this)->find(id);
+  return entry ? &entry->status : nullptr;
 }
 
-const ChildStatus* ProcessManager::child(int handle) const {
-  const auto& children = m_supervisor.children();
-  const auto found = std::find_if(children.begin(), children.end(),
-                                  [handle](const ChildStatus& c) { return c.handle == handle; });
-  return found == children.end() ? nullptr : &*found;
+std::vector<ProcessStatus> ProcessManager::statuses() const {
+  std::vector<ProcessStatus> all;
+  for (const Entry& entry : m_entries) all.push_back(entry.status);
+  return all;
 }
 
 Result<int> ProcessManager::add(const ManagedProcess& process, Blackboard& board, Time now) {
   const RobotId robot = process.spec.robot;
   const bool isFirst = std::none_of(m_entries.begin(), m_entries.end(), [robot](const Entry& one) {
-    return one.process.spec.robot == robot;
+    return one.status.robot == robot;
   });
   const bool waits = std::any_of(m_entries.begin(), m_entries.end(), [robot](const Entry& one) {
-    return one.process.spec.robot == robot && !one.everStarted;
+    return one.status.robot == robot && !one.everStarted;
   });
-  Entry entry;
-  entry.id = m_nextId++;
+  Entry& entry = m_entries.emplace_back();
   entry.process = process;
   entry.board = &board;
   entry.wait = process.restart.firstWait;
-  ProcessStatus status;
-  status.id = entry.id;
-  status.robot = robot;
-  status.name = process.spec.name;
-  status.foreign = process.spec.foreign;
-  m_entries.push_back(std::move(entry));
-  m_statuses.push_back(std::move(status));
+  entry.status.id = m_nextId++;
+  entry.status.robot = robot;
+  entry.status.name = process.spec.name;
+  entry.status.foreign = process.spec.foreign;
   changed();
-  if (waits || (process.delay > 0.0 && !isFirst)) return m_entries.back().id;
-  if (auto started = startNow(m_entries.back(), now); !started) {
+  if (waits || (process.delay > 0.0 && !isFirst)) return entry.status.id;
+  if (auto started = startNow(entry, now); !started) {
     m_entries.pop_back();
-    m_statuses.pop_back();
     return tl::unexpected(started.error());
   }
-  return m_entries.back().id;
+  return entry.status.id;
 }
 
 void ProcessManager::remove(RobotId robot) {
-  m_supervisor.stop(robot);
-  takeOutput();
-  for (const Entry& entry : m_entries) {
-    if (entry.process.spec.robot == robot && entry.handle != 0) m_supervisor.forget(entry.handle);
+  std::vector<Entry*> its;
+  for (Entry& entry : m_entries) {
+    if (entry.status.robot == robot) its.push_back(&entry);
   }
-  std::erase_if(m_statuses, [robot](const ProcessStatus& one) { return one.robot == robot; });
-  std::erase_if(m_entries, [robot](const Entry& one) { return one.process.spec.robot == robot; });
+  end(its);
+  std::erase_if(m_entries, [robot](const Entry& one) { return one.status.robot == robot; });
   m_lastStart.erase(robot);
   changed();
 }
@@ -105,23 +145,20 @@ void ProcessManager::remove(RobotId robot) {
 void ProcessManager::removeOne(int id) {
   Entry* entry = find(id);
   if (!entry) return;
-  if (entry->handle != 0) endChild(*entry);
-  const auto index = entry - m_entries.data();
-  m_statuses.erase(m_statuses.begin() + index);
-  m_entries.erase(m_entries.begin() + index);
+  end({entry});
+  m_entries.erase(m_entries.begin() + (entry - m_entries.data()));
   changed();
 }
 
 void ProcessManager::stopAll() {
-  m_supervisor.stopAll();
-  takeOutput();
+  std::vector<Entry*> running;
   for (Entry& entry : m_entries) {
-    if (entry.handle == 0) continue;
-    m_supervisor.forget(entry.handle);
-    entry.handle = 0;
-    ProcessStatus& status = statusOf(entry);
-    status.state = ProcessState::Stopped;
-    status.pid = 0;
+    if (entry.child) running.push_back(&entry);
+  }
+  end(running);
+  for (Entry* entry : running) {
+    entry->status.state = ProcessState::Stopped;
+    entry->status.pid = 0;
   }
   changed();
 }
@@ -133,26 +170,68 @@ Result<void> ProcessManager::step(Time now) {
     for (Entry& entry : m_entries) entry.lastSign = entry.stoppedSince = now;
   }
   m_last = now;
-  m_supervisor.poll();
-  collectEnded(now);
+  for (Entry& entry : m_entries) {
+    if (const auto end = poll(entry)) ended(entry, now, end->failed, end->detail, false);
+  }
   const Result<void> started = startDue(now);
   for (Entry& entry : m_entries) {
-    if (entry.handle != 0) watch(entry, now);
-    if (entry.handle != 0 && now - entry.sampled >= sampleInterval) {
+    if (entry.child) watch(entry, now);
+    if (entry.child && now - entry.sampled >= sampleInterval) {
       sample(entry, now);
       if (entry.process.watchFile) watchFile(entry, now);
     }
   }
-  takeOutput();
   return started;
+}
+
+/// Takes what it wrote, and how it ended.
+std::optional<ChildProcess::End> ProcessManager::poll(Entry& entry) {
+  if (!entry.child) return {};
+  std::vector<std::string> lines;
+  const auto end = entry.child->poll(lines);
+  if (end) entry.child.reset();
+  if (!lines.empty()) changed();
+  for (std::string& line : lines) {
+    auto& last = entry.status.lastLines;
+    if (last.size() == ProcessStatus::mostLastLines) last.erase(last.begin());
+    last.push_back(line);
+    m_lines.push_back({entry.status.robot, entry.status.name, std::move(line)});
+    if (m_lines.size() <= maxLines) continue;
+    m_lines.pop_front();
+    ++m_droppedLines;
+  }
+  return end;
+}
+
+/// Their stop signals, then SIGKILL to what is left. Returns when all are gone.
+void ProcessManager::end(const std::vector<Entry*>& entries) {
+  const auto waitFor = [this, &entries](std::chrono::milliseconds patience) {
+    const auto last = std::chrono::steady_clock::now() + patience;
+    const auto runs = [this](Entry* entry) { return (void)poll(*entry), entry->child.has_value(); };
+    while (std::ranges::count_if(entries, runs) > 0 && std::chrono::steady_clock::now() < last) {
+      std::this_thread::sleep_for(1ms);
+    }
+  };
+  waitFor(0ms);
+  for (const Entry* entry : entries) {
+    if (!entry->child) continue;
+    entry->child->signal(entry->process.spec.stopSignal);
+    entry->child->signal(SIGCONT);  // one that is stopped would never learn of it
+  }
+  waitFor(grace);
+  for (const Entry* entry : entries) {
+    if (entry->child) entry->child->signal(SIGKILL);
+  }
+  waitFor(killPatience);
+  for (Entry* entry : entries) entry->child.reset();
 }
 
 Result<void> ProcessManager::startDue(Time now) {
   Result<void> outcome;
   std::set<RobotId> waiting;  // robots with a process whose turn is not yet over
   for (Entry& entry : m_entries) {
-    const RobotId robot = entry.process.spec.robot;
-    const ProcessState state = statusOf(entry).state;
+    const RobotId robot = entry.status.robot;
+    const ProcessState state = entry.status.state;
     if (state == ProcessState::Restarting) {
       if (now >= entry.due) (void)startNow(entry, now);
     } else if (state == ProcessState::Waiting && waiting.insert(robot).second) {
@@ -167,63 +246,53 @@ Result<void> ProcessManager::startDue(Time now) {
 }
 
 Result<void> ProcessManager::startNow(Entry& entry, Time now) {
-  ManagedProcess& process = entry.process;
+  const ManagedProcess& process = entry.process;
+  ProcessStatus& status = entry.status;
   if (entry.board) writeIfPresent(*entry.board, process.heartbeat, 0);  // what an earlier one left
   ChildSpec spec = process.spec;
   giveClock(entry, spec, now);
-  Result<int> handle = 0;
-  if (process.prepare) {
-    if (auto prepared = process.prepare(spec); !prepared) handle = tl::unexpected(prepared.error());
+  Result<void> outcome = process.prepare ? process.prepare(spec) : Result<void>();
+  if (outcome) {
+    auto child = ChildProcess::start(spec, m_program);
+    if (child) {
+      entry.child = std::move(*child);
+    } else {
+      outcome = tl::unexpected(child.error());
+    }
   }
-  if (handle) handle = m_supervisor.start(spec);
-  m_lastStart[spec.robot] = now;
+  m_lastStart[status.robot] = now;
   const bool again = std::exchange(entry.everStarted, true);
-  ProcessStatus& status = statusOf(entry);
   changed();
-  if (!handle) {
-    ended(entry, now, true, handle.error().text(), false);
-    return tl::unexpected<Error>(handle.error());
+  if (!outcome) {
+    ended(entry, now, true, outcome.error().text(), false);
+    return outcome;
   }
-  entry.handle = *handle;
   entry.lastSign = entry.stoppedSince = entry.sampled = now;
   entry.sleeps = 0;
   entry.cpuSeconds = entry.cyclesPerSecond = 0.0;
   entry.programStamp = process.watchFile ? programStamp(process.spec) : std::string();
   entry.newStamp.clear();
   status.state = ProcessState::Running;
-  status.pid = child(*handle)->pid;
+  status.pid = entry.child->pid();
   status.started = now;
   status.detail.clear();
   if (again) ++status.restarts;
-  if (m_paused && spec.foreign) m_supervisor.pauseChild(entry.handle, true);
-  m_news.push_back({again ? ProcessNewsKind::Restarted : ProcessNewsKind::Started,
-                    spec.robot,
-                    spec.name,
-                    status.pid,
-                    {}});
+  if (m_paused && spec.foreign) entry.child->signal(SIGSTOP);
+  addNews(entry, again ? ProcessNewsKind::Restarted : ProcessNewsKind::Started);
   askForSpeed(entry);
   return {};
 }
 
-void ProcessManager::collectEnded(Time now) {
-  takeOutput();
-  for (Entry& entry : m_entries) {
-    const ChildStatus* status = entry.handle != 0 ? child(entry.handle) : nullptr;
-    if (!status || status->state == ChildState::Running) continue;
-    const bool died = status->state == ChildState::Failed;
-    const std::string detail = status->detail;
-    m_supervisor.forget(entry.handle);
-    entry.handle = 0;
-    ended(entry, now, died, detail, false);
-  }
+void ProcessManager::addNews(const Entry& entry, ProcessNewsKind kind, const std::string& detail) {
+  m_news.push_back({kind, entry.status.robot, entry.status.name, entry.status.pid, detail});
 }
 
 /// It does not run any more, or could not be started.
 void ProcessManager::ended(Entry& entry, Time now, bool died, const std::string& detail,
                            bool byHand) {
-  ProcessStatus& status = statusOf(entry);
-  ProcessNews news{died ? ProcessNewsKind::Died : ProcessNewsKind::Ended, entry.process.spec.robot,
-                   entry.process.spec.name, status.pid, detail};
+  ProcessStatus& status = entry.status;
+  ProcessNews news{died ? ProcessNewsKind::Died : ProcessNewsKind::Ended, status.robot, status.name,
+                   status.pid, detail};
   if (died && !status.lastLines.empty()) news.lastWords = status.lastLines.back();
   status.pid = 0;
   status.cpu = 0.0;
@@ -244,12 +313,12 @@ void ProcessManager::ended(Entry& entry, Time now, bool died, const std::string&
 
 void ProcessManager::planRestart(Entry& entry, Time now, ProcessNews news) {
   const RestartRule& rule = entry.process.restart;
-  ProcessStatus& status = statusOf(entry);
+  ProcessStatus& status = entry.status;
   if (rule.giveUpAfter > 0 && entry.inARow >= rule.giveUpAfter) {
     status.state = ProcessState::GivenUp;
     m_news.push_back(std::move(news));
-    m_news.push_back({ProcessNewsKind::GivenUp, entry.process.spec.robot, entry.process.spec.name,
-                      0, std::to_string(entry.inARow) + " restarts did not help"});
+    addNews(entry, ProcessNewsKind::GivenUp,
+            std::to_string(entry.inARow) + " restarts did not help");
     return;
   }
   ++entry.inARow;
@@ -261,16 +330,9 @@ void ProcessManager::planRestart(Entry& entry, Time now, ProcessNews news) {
   m_news.push_back(std::move(news));
 }
 
-void ProcessManager::endChild(Entry& entry) {
-  m_supervisor.stopChild(entry.handle);
-  takeOutput();
-  m_supervisor.forget(entry.handle);
-  entry.handle = 0;
-}
-
 void ProcessManager::start(int id, Time now) {
   Entry* entry = find(id);
-  if (!entry || entry->handle != 0) return;
+  if (!entry || entry->child) return;
   entry->wait = entry->process.restart.firstWait;
   entry->inARow = 0;
   (void)startNow(*entry, now);
@@ -279,13 +341,12 @@ void ProcessManager::start(int id, Time now) {
 void ProcessManager::stop(int id) {
   Entry* entry = find(id);
   if (!entry) return;
-  ProcessStatus& status = statusOf(*entry);
-  if (entry->handle != 0) {
-    endChild(*entry);
+  if (entry->child) {
+    end({entry});
     ended(*entry, {}, false, "it was asked to", true);
   } else {
-    status.state = ProcessState::Stopped;
-    status.detail.clear();
+    entry->status.state = ProcessState::Stopped;
+    entry->status.detail.clear();
     changed();
   }
 }
@@ -297,24 +358,7 @@ void ProcessManager::restart(int id, Time now) {
 
 void ProcessManager::kill(int id) {
   const Entry* entry = find(id);
-  if (entry && entry->handle != 0) m_supervisor.signalChild(entry->handle, SIGKILL);
-}
-
-void ProcessManager::takeOutput() {
-  for (ChildLine& line : m_supervisor.takeLines()) {
-    const auto entry = std::find_if(m_entries.begin(), m_entries.end(), [&line](const Entry& one) {
-      return one.handle == line.handle;
-    });
-    if (entry == m_entries.end()) continue;
-    auto& last = statusOf(*entry).lastLines;
-    if (last.size() == ProcessStatus::mostLastLines) last.erase(last.begin());
-    last.push_back(line.text);
-    m_lines.push_back({entry->process.spec.robot, entry->process.spec.name, std::move(line.text)});
-    changed();
-  }
-  if (m_lines.size() > mostLines) {
-    m_lines.erase(m_lines.begin(), m_lines.end() - static_cast<std::ptrdiff_t>(mostLines));
-  }
+  if (entry && entry->child) entry->child->signal(SIGKILL);
 }
 
 std::vector<ProcessNews> ProcessManager::takeNews() {
@@ -322,7 +366,8 @@ std::vector<ProcessNews> ProcessManager::takeNews() {
 }
 
 std::vector<ProcessLine> ProcessManager::takeLines() {
-  return std::exchange(m_lines, {});
+  auto lines = std::exchange(m_lines, {});
+  return {std::make_move_iterator(lines.begin()), std::make_move_iterator(lines.end())};
 }
 
 }  // namespace pitchboard::link

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "process_table.h"
 
-#include <dirent.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <charconv>
-#include <memory>
+#include <filesystem>
 #include <sstream>
+#include <system_error>
 
 #include <base/read_file.h>
 
@@ -92,24 +93,36 @@ bool mapsFile(pid_t pid, std::string_view name) {
   return maps(pid, [name](long long, const std::string& path) { return path.ends_with(name); });
 }
 
-std::vector<pid_t> markedProcesses(std::string_view mark) {
-  std::vector<pid_t> found;
-  const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir("/proc"), &::closedir);
-  if (!folder) return found;
-  const std::string wanted = std::string(processMark) + '=' + std::string(mark);
-  while (const dirent* entry = ::readdir(folder.get())) {
-    const std::string_view name(entry->d_name);
-    pid_t pid = 0;
-    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
-    if (error != std::errc{} || end != name.data() + name.size() || pid == ::getpid()) continue;
-    const auto environment = readFile(folderOf(pid) + "/environ", mostBytes);
-    if (!environment) continue;
-    const std::size_t at = environment->find(wanted);
-    if (at == std::string::npos || (at > 0 && (*environment)[at - 1] != '\0')) continue;
-    const auto use = processUse(pid);
-    if (use && use->state != 'Z' && use->state != 'X') found.push_back(pid);
+std::vector<pid_t> descendantsOf(pid_t pid) {
+  std::vector<pid_t> found{pid};
+  for (std::size_t at = 0; at < found.size(); ++at) {
+    std::error_code error;
+    for (const auto& thread :
+         std::filesystem::directory_iterator(folderOf(found[at]) + "/task", error)) {
+      std::istringstream children(
+          readFile(thread.path().string() + "/children", mostBytes).value_or(std::string()));
+      for (pid_t child = 0; children >> child;) found.push_back(child);
+    }
   }
+  found.erase(found.begin());
   return found;
+}
+
+std::string programStamp(const ChildSpec& spec) {
+  std::string stamp;
+  for (const std::string& word : spec.command) {
+    const bool fromHere = !spec.directory.empty() && !word.starts_with('/');
+    struct stat file {};
+    if (::stat((fromHere ? spec.directory + '/' + word : word).c_str(), &file) != 0) continue;
+    if (!S_ISREG(file.st_mode)) continue;
+    for (const long long part :
+         {static_cast<long long>(file.st_ino), static_cast<long long>(file.st_size),
+          static_cast<long long>(file.st_mtim.tv_sec),
+          static_cast<long long>(file.st_mtim.tv_nsec)}) {
+      stamp += std::to_string(part) + ' ';
+    }
+  }
+  return stamp;
 }
 
 }  // namespace pitchboard::link

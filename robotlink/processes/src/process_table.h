@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the kernel tells of running processes. Every child is started with a mark in its
-// environment, which what it starts inherits: so those are found again that left its group, whose
-// parent is gone. Any thread; a look at all processes costs some milliseconds.
+// What the kernel tells of running processes. Any thread.
 
 #include <sys/types.h>
 #include <cstdint>
@@ -12,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-namespace pitchboard::link {
+#include <robotlink/processes/child_process.h>
 
-inline constexpr const char* processMark = "PITCHBOARD_RUN";
+namespace pitchboard::link {
 
 struct ProcessUse {
   char state = '?';           ///< R, S, T (stopped), Z
@@ -33,7 +31,12 @@ bool mapsSegment(pid_t pid, int shmid);
 /// It has loaded a file of this name. True where the system does not let us look.
 bool mapsFile(pid_t pid, std::string_view name);
 
-/// Living processes of this user whose mark begins with `mark`, but for ourselves.
-std::vector<pid_t> markedProcesses(std::string_view mark);
+/// What it started, and what that started, parents first. Not what was left behind by a process
+/// that is gone, unless `pid` is its keeper.
+std::vector<pid_t> descendantsOf(pid_t pid);
+
+/// Changes when the program, or a script among its arguments, is replaced; empty when there is
+/// none.
+std::string programStamp(const ChildSpec& spec);
 
 }  // namespace pitchboard::link

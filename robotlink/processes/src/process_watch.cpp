@@ -2,11 +2,9 @@
 // What the manager sees of processes that run: signs of life, use of the computer, pace, files.
 #include <robotlink/processes/process_manager.h>
 
-#include <sys/stat.h>
 #include <algorithm>
 
 #include "process_table.h"
-#include "program_stamp.h"
 
 namespace pitchboard::link {
 namespace {
@@ -20,23 +18,6 @@ std::chrono::steady_clock::duration ticks(Seconds seconds) {
 
 }  // namespace
 
-std::string programStamp(const ChildSpec& spec) {
-  std::string stamp;
-  for (const std::string& word : spec.command) {
-    const bool fromHere = !spec.directory.empty() && !word.starts_with('/');
-    struct stat file {};
-    if (::stat((fromHere ? spec.directory + '/' + word : word).c_str(), &file) != 0) continue;
-    if (!S_ISREG(file.st_mode)) continue;
-    for (const long long part :
-         {static_cast<long long>(file.st_ino), static_cast<long long>(file.st_size),
-          static_cast<long long>(file.st_mtim.tv_sec),
-          static_cast<long long>(file.st_mtim.tv_nsec)}) {
-      stamp += std::to_string(part) + ' ';
-    }
-  }
-  return stamp;
-}
-
 void ProcessManager::watch(Entry& entry, Time now) {
   const ManagedProcess& process = entry.process;
   if (process.watch == Watch::Variable && entry.board) {
@@ -45,19 +26,19 @@ void ProcessManager::watch(Entry& entry, Time now) {
       entry.lastSign = now;
     }
   } else if (process.watch == Watch::Sleeps) {
-    const auto use = processUse(statusOf(entry).pid);
+    const auto use = processUse(entry.status.pid);
     if (use && use->sleeps != entry.sleeps) {
       entry.sleeps = use->sleeps;
       entry.lastSign = now;
     }
   }
   if (m_paused && process.spec.foreign) entry.lastSign = entry.stoppedSince = now;
-  if (now - statusOf(entry).started >= ticks(process.restart.steadyAfter)) {
+  if (now - entry.status.started >= ticks(process.restart.steadyAfter)) {
     entry.wait = process.restart.firstWait;
     entry.inARow = 0;
   }
   const bool listens = process.watch == Watch::Variable || process.watch == Watch::Sleeps;
-  ProcessStatus& status = statusOf(entry);
+  ProcessStatus& status = entry.status;
   if (listens && now - entry.lastSign >= ticks(process.silentAfter)) {
     if (status.state == ProcessState::Silent) return;  // it has been told
     silenced(entry, now, "no sign of life for " + inSeconds(process.silentAfter));
@@ -68,12 +49,11 @@ void ProcessManager::watch(Entry& entry, Time now) {
 }
 
 void ProcessManager::silenced(Entry& entry, Time now, const std::string& detail) {
-  ProcessStatus& status = statusOf(entry);
+  ProcessStatus& status = entry.status;
   const bool again =
       entry.process.watch != Watch::Nobody && entry.process.restart.policy != RestartPolicy::Never;
   if (!again && status.state == ProcessState::Silent) return;
-  ProcessNews news{ProcessNewsKind::Silent, entry.process.spec.robot, entry.process.spec.name,
-                   status.pid, detail};
+  ProcessNews news{ProcessNewsKind::Silent, status.robot, status.name, status.pid, detail};
   status.detail = detail;
   changed();
   if (!again) {
@@ -81,15 +61,15 @@ void ProcessManager::silenced(Entry& entry, Time now, const std::string& detail)
     m_news.push_back(std::move(news));
     return;
   }
-  endChild(entry);
+  end({&entry});
   status.pid = 0;
   planRestart(entry, now, std::move(news));
 }
 
 void ProcessManager::setSilent(int id, bool silent, Time now) {
   Entry* entry = find(id);
-  if (!entry || entry->handle == 0) return;
-  ProcessStatus& status = statusOf(*entry);
+  if (!entry || !entry->child) return;
+  ProcessStatus& status = entry->status;
   if (silent) {
     silenced(*entry, now, "no cycle done for " + inSeconds(entry->process.silentAfter));
   } else if (status.state == ProcessState::Silent) {
@@ -100,9 +80,9 @@ void ProcessManager::setSilent(int id, bool silent, Time now) {
 }
 
 void ProcessManager::sample(Entry& entry, Time now) {
-  const auto use = processUse(statusOf(entry).pid);
+  const auto use = processUse(entry.status.pid);
   if (!use) return;
-  ProcessStatus& status = statusOf(entry);
+  ProcessStatus& status = entry.status;
   const double passed = Seconds(now - entry.sampled).count();
   if (entry.cpuSeconds > 0.0) status.cpu = (use->cpuSeconds - entry.cpuSeconds) / passed;
   if (entry.cpuSeconds > 0.0 && status.foreign && !m_paused) measurePace(entry, *use, passed);
@@ -136,7 +116,7 @@ void ProcessManager::sample(Entry& entry, Time now) {
 /// nobody can judge.
 void ProcessManager::measurePace(Entry& entry, const ProcessUse& use, double seconds) {
   constexpr double busy = 0.9, idle = 0.1;
-  ProcessStatus& status = statusOf(entry);
+  ProcessStatus& status = entry.status;
   const double speed = entry.clock ? m_speed : 1.0;
   const auto cycles = static_cast<double>(use.sleeps - entry.sampledSleeps);
   const double rate = cycles / (seconds * speed);
@@ -160,7 +140,7 @@ void ProcessManager::watchFile(Entry& entry, Time now) {
   if (entry.newStamp != stamp) {
     entry.newStamp = stamp;
   } else {
-    restart(entry.id, now);
+    restart(entry.status.id, now);
   }
 }
 

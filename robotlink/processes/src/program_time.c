@@ -276,6 +276,23 @@ static struct timespec from_now(clockid_t clock, nanoseconds duration) {
   return to_timespec(real_time(clock) + duration);
 }
 
+/* Returns what `call` gives, which is made with one `part` of the wait after the other. */
+#define RETURN_WAIT(type, start, time_of_part, call, timed_out, interrupted) \
+  do {                                                                       \
+    struct wait w = start;                                                   \
+    type result;                                                             \
+    do {                                                                     \
+      const struct timespec part = time_of_part;                             \
+      result = call;                                                         \
+    } while (goes_on(&w, timed_out, interrupted));                           \
+    end_wait(&w);                                                            \
+    return result;                                                           \
+  } while (0)
+/* The same for calls that tell errors by errno. */
+#define RETURN_ERRNO_WAIT(type, start, time_of_part, call, when_timed_out)            \
+  RETURN_WAIT(type, start, time_of_part, call, result < 0 && errno == when_timed_out, \
+              result < 0 && errno == EINTR)
+
 /* ---- Clocks -------------------------------------------------------------------------------------
  */
 
@@ -360,14 +377,8 @@ EXPORT int thrd_sleep(const struct timespec* t, struct timespec* left) {
  */
 
 static int poll_for(struct pollfd* fds, nfds_t count, nanoseconds duration, const sigset_t* mask) {
-  struct wait w = wait_for(duration);
-  int result;
-  do {
-    const struct timespec part = to_timespec(next_part(&w));
-    result = REAL(ppoll)(fds, count, &part, mask);
-  } while (goes_on(&w, result == 0, result < 0 && errno == EINTR));
-  end_wait(&w);
-  return result;
+  RETURN_WAIT(int, wait_for(duration), to_timespec(next_part(&w)),
+              REAL(ppoll)(fds, count, &part, mask), result == 0, result < 0 && errno == EINTR);
 }
 
 static nanoseconds from_milliseconds(int milliseconds) {
@@ -481,14 +492,8 @@ EXPORT int sem_clockwait(sem_t* restrict semaphore, clockid_t clock,
   if (!follows() || !is_valid(at) || !is_shifted(clock)) {
     return REAL(sem_clockwait)(semaphore, clock, at);
   }
-  struct wait w = wait_for(until(clock, at));
-  int result;
-  do {
-    const struct timespec part = from_now(clock, next_part(&w));
-    result = REAL(sem_clockwait)(semaphore, clock, &part);
-  } while (goes_on(&w, result != 0 && errno == ETIMEDOUT, result != 0 && errno == EINTR));
-  end_wait(&w);
-  return result;
+  RETURN_ERRNO_WAIT(int, wait_for(until(clock, at)), from_now(clock, next_part(&w)),
+                    REAL(sem_clockwait)(semaphore, clock, &part), ETIMEDOUT);
 }
 EXPORT int sem_timedwait(sem_t* restrict semaphore, const struct timespec* restrict at) {
   if (!follows() || !is_valid(at)) return REAL(sem_timedwait)(semaphore, at);
@@ -501,46 +506,29 @@ EXPORT int sem_timedwait(sem_t* restrict semaphore, const struct timespec* restr
     if (!follows() || at == NULL || !is_valid(at) || !is_shifted(clock)) {                    \
       return REAL(name)(lock, clock, at);                                                     \
     }                                                                                         \
-    struct wait w = sliced_wait(until(clock, at));                                            \
-    int result;                                                                               \
-    do {                                                                                      \
-      const struct timespec part = from_now(clock, next_part(&w));                            \
-      result = REAL(name)(lock, clock, &part);                                                \
-    } while (goes_on(&w, result == ETIMEDOUT, false));                                        \
-    return result;                                                                            \
+    RETURN_WAIT(int, sliced_wait(until(clock, at)), from_now(clock, next_part(&w)),           \
+                REAL(name)(lock, clock, &part), result == ETIMEDOUT, false);                  \
   }
 LOCK_UNTIL(pthread_mutex_clocklock, pthread_mutex_t)
 LOCK_UNTIL(pthread_rwlock_clockrdlock, pthread_rwlock_t)
 LOCK_UNTIL(pthread_rwlock_clockwrlock, pthread_rwlock_t)
 
-EXPORT int pthread_mutex_timedlock(pthread_mutex_t* restrict mutex,
-                                   const struct timespec* restrict at) {
-  if (!follows()) return REAL(pthread_mutex_timedlock)(mutex, at);
-  return pthread_mutex_clocklock(mutex, CLOCK_REALTIME, at);
-}
-EXPORT int pthread_rwlock_timedrdlock(pthread_rwlock_t* restrict lock,
-                                      const struct timespec* restrict at) {
-  if (!follows()) return REAL(pthread_rwlock_timedrdlock)(lock, at);
-  return pthread_rwlock_clockrdlock(lock, CLOCK_REALTIME, at);
-}
-EXPORT int pthread_rwlock_timedwrlock(pthread_rwlock_t* restrict lock,
-                                      const struct timespec* restrict at) {
-  if (!follows()) return REAL(pthread_rwlock_timedwrlock)(lock, at);
-  return pthread_rwlock_clockwrlock(lock, CLOCK_REALTIME, at);
-}
+#define REALTIME_LOCK(name, type, clocklock)                                 \
+  EXPORT int name(type* restrict lock, const struct timespec* restrict at) { \
+    if (!follows()) return REAL(name)(lock, at);                             \
+    return clocklock(lock, CLOCK_REALTIME, at);                              \
+  }
+REALTIME_LOCK(pthread_mutex_timedlock, pthread_mutex_t, pthread_mutex_clocklock)
+REALTIME_LOCK(pthread_rwlock_timedrdlock, pthread_rwlock_t, pthread_rwlock_clockrdlock)
+REALTIME_LOCK(pthread_rwlock_timedwrlock, pthread_rwlock_t, pthread_rwlock_clockwrlock)
 
 EXPORT int pthread_clockjoin_np(pthread_t thread, void** value, clockid_t clock,
                                 const struct timespec* at) {
   if (!follows() || at == NULL || !is_valid(at) || !is_shifted(clock)) {
     return REAL(pthread_clockjoin_np)(thread, value, clock, at);
   }
-  struct wait w = sliced_wait(until(clock, at));
-  int result;
-  do {
-    const struct timespec part = from_now(clock, next_part(&w));
-    result = REAL(pthread_clockjoin_np)(thread, value, clock, &part);
-  } while (goes_on(&w, result == ETIMEDOUT, false));
-  return result;
+  RETURN_WAIT(int, sliced_wait(until(clock, at)), from_now(clock, next_part(&w)),
+              REAL(pthread_clockjoin_np)(thread, value, clock, &part), result == ETIMEDOUT, false);
 }
 EXPORT int pthread_timedjoin_np(pthread_t thread, void** value, const struct timespec* at) {
   if (!follows()) return REAL(pthread_timedjoin_np)(thread, value, at);
@@ -640,28 +628,16 @@ EXPORT int sigtimedwait(const sigset_t* restrict set, siginfo_t* restrict info,
   if (!follows() || t == NULL || !is_valid(t) || from_timespec(t) == 0) {
     return REAL(sigtimedwait)(set, info, t);
   }
-  struct wait w = wait_for(from_timespec(t));
-  int result;
-  do {
-    const struct timespec part = to_timespec(next_part(&w));
-    result = REAL(sigtimedwait)(set, info, &part);
-  } while (goes_on(&w, result < 0 && errno == EAGAIN, result < 0 && errno == EINTR));
-  end_wait(&w);
-  return result;
+  RETURN_ERRNO_WAIT(int, wait_for(from_timespec(t)), to_timespec(next_part(&w)),
+                    REAL(sigtimedwait)(set, info, &part), EAGAIN);
 }
 
 EXPORT int semtimedop(int id, struct sembuf* operations, size_t count, const struct timespec* t) {
   if (!follows() || t == NULL || !is_valid(t) || from_timespec(t) == 0) {
     return REAL(semtimedop)(id, operations, count, t);
   }
-  struct wait w = wait_for(from_timespec(t));
-  int result;
-  do {
-    const struct timespec part = to_timespec(next_part(&w));
-    result = REAL(semtimedop)(id, operations, count, &part);
-  } while (goes_on(&w, result != 0 && errno == EAGAIN, result != 0 && errno == EINTR));
-  end_wait(&w);
-  return result;
+  RETURN_ERRNO_WAIT(int, wait_for(from_timespec(t)), to_timespec(next_part(&w)),
+                    REAL(semtimedop)(id, operations, count, &part), EAGAIN);
 }
 
 EXPORT ssize_t mq_timedreceive(mqd_t queue, char* restrict message, size_t length,
@@ -669,28 +645,18 @@ EXPORT ssize_t mq_timedreceive(mqd_t queue, char* restrict message, size_t lengt
   if (!follows() || !is_valid(at)) {
     return REAL(mq_timedreceive)(queue, message, length, priority, at);
   }
-  struct wait w = wait_for(until(CLOCK_REALTIME, at));
-  ssize_t result;
-  do {
-    const struct timespec part = from_now(CLOCK_REALTIME, next_part(&w));
-    result = REAL(mq_timedreceive)(queue, message, length, priority, &part);
-  } while (goes_on(&w, result < 0 && errno == ETIMEDOUT, result < 0 && errno == EINTR));
-  end_wait(&w);
-  return result;
+  RETURN_ERRNO_WAIT(ssize_t, wait_for(until(CLOCK_REALTIME, at)),
+                    from_now(CLOCK_REALTIME, next_part(&w)),
+                    REAL(mq_timedreceive)(queue, message, length, priority, &part), ETIMEDOUT);
 }
 EXPORT int mq_timedsend(mqd_t queue, const char* message, size_t length, unsigned priority,
                         const struct timespec* at) {
   if (!follows() || !is_valid(at)) {
     return REAL(mq_timedsend)(queue, message, length, priority, at);
   }
-  struct wait w = wait_for(until(CLOCK_REALTIME, at));
-  int result;
-  do {
-    const struct timespec part = from_now(CLOCK_REALTIME, next_part(&w));
-    result = REAL(mq_timedsend)(queue, message, length, priority, &part);
-  } while (goes_on(&w, result != 0 && errno == ETIMEDOUT, result != 0 && errno == EINTR));
-  end_wait(&w);
-  return result;
+  RETURN_ERRNO_WAIT(int, wait_for(until(CLOCK_REALTIME, at)),
+                    from_now(CLOCK_REALTIME, next_part(&w)),
+                    REAL(mq_timedsend)(queue, message, length, priority, &part), ETIMEDOUT);
 }
 
 /* ---- System calls made by hand: futexes of C++'s atomics, semaphores, futures
@@ -708,15 +674,9 @@ static long futex(long address, long operation, long value, const struct timespe
                               ? CLOCK_REALTIME
                               : CLOCK_MONOTONIC;
   const bool relative = command == FUTEX_WAIT;
-  struct wait w = wait_for(relative ? from_timespec(t) : until(clock, t));
-  long result;
-  do {
-    const nanoseconds real = next_part(&w);
-    const struct timespec part = relative ? to_timespec(real) : from_now(clock, real);
-    result = real_futex(address, operation, value, &part, address2, value3);
-  } while (goes_on(&w, result != 0 && errno == ETIMEDOUT, result != 0 && errno == EINTR));
-  end_wait(&w);
-  return result;
+  RETURN_ERRNO_WAIT(long, wait_for(relative ? from_timespec(t) : until(clock, t)),
+                    relative ? to_timespec(next_part(&w)) : from_now(clock, next_part(&w)),
+                    real_futex(address, operation, value, &part, address2, value3), ETIMEDOUT);
 }
 
 EXPORT long syscall(long number, ...) {
@@ -825,6 +785,12 @@ static struct itimerspec remaining_of(const struct timer* t) {
   return left;
 }
 
+static struct itimerval remaining_timeval(const struct timer* t) {
+  const struct itimerspec left = t != NULL ? remaining_of(t) : (struct itimerspec){{0, 0}, {0, 0}};
+  return (struct itimerval){to_timeval(from_timespec(&left.it_interval)),
+                            to_timeval(from_timespec(&left.it_value))};
+}
+
 static void set_all_timers(void) {
   const sigset_t before = lock_timers();
   for (int i = 0; i < most_timers; ++i) {
@@ -880,12 +846,7 @@ EXPORT int setitimer(__itimer_which_t which, const struct itimerval* restrict va
     return REAL(setitimer)(which, value, old);
   const sigset_t before = lock_timers();
   struct timer* t = find_timer(Interval, NULL, 0);
-  if (old != NULL) {
-    const struct itimerspec left =
-        t != NULL ? remaining_of(t) : (struct itimerspec){{0, 0}, {0, 0}};
-    *old = (struct itimerval){to_timeval(from_timespec(&left.it_interval)),
-                              to_timeval(from_timespec(&left.it_value))};
-  }
+  if (old != NULL) *old = remaining_timeval(t);
   t = make_timer(Interval, NULL, 0);
   const struct itimerspec set = {to_timespec(from_timeval(&value->it_interval)),
                                  to_timespec(from_timeval(&value->it_value))};
@@ -898,10 +859,8 @@ EXPORT int getitimer(__itimer_which_t which, struct itimerval* value) {
   if (!follows() || which != ITIMER_REAL) return REAL(getitimer)(which, value);
   const sigset_t before = lock_timers();
   const struct timer* t = find_timer(Interval, NULL, 0);
-  const struct itimerspec left = t != NULL ? remaining_of(t) : (struct itimerspec){{0, 0}, {0, 0}};
+  *value = remaining_timeval(t);
   unlock_timers(&before);
-  *value = (struct itimerval){to_timeval(from_timespec(&left.it_interval)),
-                              to_timeval(from_timespec(&left.it_value))};
   return 0;
 }
 EXPORT unsigned alarm(unsigned seconds) {

@@ -7,6 +7,7 @@
 
 #include <base/read_file.h>
 #include <base/system_reason.h>
+#include <base/try.h>
 
 namespace pitchboard::link {
 namespace {
@@ -97,9 +98,8 @@ Result<IniFile> iniFromText(std::string_view text, std::string_view source) {
 }
 
 Result<IniFile> readIniFile(const std::string& path) {
-  const auto text = readFile(path, mostBytes);
-  if (!text) return tl::unexpected(text.error());
-  return iniFromText(*text, path);
+  const auto text = TRY(readFile(path, mostBytes));
+  return iniFromText(text, path);
 }
 
 Result<RobotId> robotFromIni(const IniFile& file) {

@@ -9,6 +9,7 @@
 #include <base/lined_json.h>
 #include <base/read_file.h>
 #include <base/short_name.h>
+#include <base/try.h>
 #include <resources/resources.h>
 
 namespace pitchboard::link {
@@ -168,9 +169,8 @@ Result<RuntimeProfile> named(const std::string& nameOrPath) {
     return failure(ErrorCode::NotFound,
                    unknownName("built-in runtime profile and no file", name, runtimeNames()));
   }
-  const auto text = readFile(name, mostBytes, "the runtime profile");
-  if (!text) return tl::unexpected(text.error());
-  auto profile = runtimeProfileFromJson(*text, name);
+  const auto text = TRY(readFile(name, mostBytes, "the runtime profile"));
+  auto profile = runtimeProfileFromJson(text, name);
   if (!profile) return profile;
   // A folder, and a program with a folder, are meant from where the profile lies.
   const std::filesystem::path here = std::filesystem::path(name).parent_path();

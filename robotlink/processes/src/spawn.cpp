@@ -17,6 +17,7 @@
 
 #include <base/descriptor.h>
 #include <base/system_reason.h>
+#include <base/try.h>
 
 namespace pitchboard::link {
 namespace {
@@ -196,24 +197,26 @@ Result<std::string> pathOf(const SpawnRequest& request) {
 }  // namespace
 
 Result<Spawned> spawn(const SpawnRequest& request) {
-  const auto path = pathOf(request);
-  if (!path) return tl::unexpected(path.error());
+  const auto path = TRY(pathOf(request));
   const std::string& program = request.command.front();
 
   Ends output, report;
+  const bool collects = request.output < 0;
   const Descriptor nothing = aboveStandard(::open("/dev/null", O_RDWR | O_CLOEXEC));
-  if (!nothing || !makePipe(output) || !makePipe(report)) return cannotStart(program, errno);
-  if (::fcntl(output.read.get(), F_SETFL, O_NONBLOCK) != 0) return cannotStart(program, errno);
+  if (!nothing || !makePipe(report)) return cannotStart(program, errno);
+  if (collects && (!makePipe(output) || ::fcntl(output.read.get(), F_SETFL, O_NONBLOCK) != 0)) {
+    return cannotStart(program, errno);
+  }
 
   const std::vector<std::string> environment = environmentOf(request);
   const std::vector<char*> arguments = pointersTo(request.command);
   const std::vector<char*> variables = pointersTo(environment);
-  const ChildPlan plan{path->c_str(),
+  const ChildPlan plan{path.c_str(),
                        arguments.data(),
                        variables.data(),
                        request.directory.empty() ? nullptr : request.directory.c_str(),
                        request.input >= 0 ? request.input : nothing.get(),
-                       request.outlives ? nothing.get() : output.write.get(),
+                       collects ? output.write.get() : request.output,
                        request.inherited,
                        report.write.get(),
                        ::getpid(),

@@ -7,6 +7,7 @@
 
 #include <base/angles.h>
 #include <robotlink/frame/working_flags.h>
+#include <robotlink/report/quantile.h>
 #include <robotlink/session/row_slot.h>
 
 #include "live_statistics.h"
@@ -16,13 +17,6 @@ namespace {
 
 constexpr double longestStep = 2.5;  // s; a longer gap between rows counts as absence
 constexpr double centimetres = 100.0;
-
-double quantile(std::vector<float>& values, double share) {
-  const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
-  std::nth_element(values.begin(), at, values.end());
-  return static_cast<double>(*at);
-}
 
 /// Grows with a counter that may start anew.
 struct Counted {
@@ -245,6 +239,7 @@ SessionStatistics StatisticsBuilder::finish() {
     if (r.kicks.present()) s.kicks = static_cast<std::uint32_t>(std::min(r.kicked.total, 4e9));
     if (r.falls.present()) s.falls = static_cast<std::uint32_t>(std::min(r.fell.total, 4e9));
     if (!r.errors.empty()) {
+      std::ranges::sort(r.errors);
       s.errorMedian = quantile(r.errors, 0.5);
       s.error90 = quantile(r.errors, 0.9);
       for (std::size_t i = 0; i < parts; ++i) {

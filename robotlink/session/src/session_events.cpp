@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/session/session_events.h>
 
-#include <charconv>
 #include <map>
 #include <string_view>
 
@@ -24,101 +23,10 @@ MatchEvent begun(const telemetry::SessionEvent& event) {
   return out;
 }
 
-/// What stands behind this, or nothing when the text does not begin so.
-std::optional<std::string_view> behind(std::string_view text, std::string_view start) {
-  if (!text.starts_with(start)) return {};
-  return text.substr(start.size());
-}
-
-// Before 0.2 a process had one kind of event, and the words told which: "B1 decision started
-// (process 71)", "B1 decision ended: exit code 0", "B1 decision died: exit code 2". The studio
-// wrote "B1 decision" as the group and, of those that died, only how.
-void readOldProcess(MatchEvent& out, std::string_view text) {
-  struct Word {
-    std::string_view word;
-    Kind kind;
-  };
-  constexpr Word words[] = {{" started", Kind::ProcessStarted},
-                            {" ended: ", Kind::ProcessEnded},
-                            {" died: ", Kind::ProcessDied}};
-  if (const auto space = out.name.find(' '); space != std::string::npos) {
-    out.process = out.name.substr(space + 1);
-    out.name.resize(space);
-  }
-  out.kind = Kind::ProcessDied;
-  out.detail = text;
-  for (const Word& word : words) {
-    const auto at = text.find(word.word);
-    if (at == std::string_view::npos) continue;
-    out.kind = word.kind;
-    out.detail = text.substr(at + word.word.size());
-    const std::string_view who = text.substr(0, at);
-    if (out.process.empty()) out.process = behind(who, out.name + ' ').value_or(who);
-    break;
-  }
-  if (out.kind != Kind::ProcessStarted) return;
-  if (const auto number = behind(out.detail, " (process ")) {
-    int pid = 0;
-    if (std::from_chars(number->data(), number->data() + number->size(), pid).ec == std::errc()) {
-      out.value = pid;
-    }
-  }
-  out.detail.clear();
-}
-
-/// The only place that reads words: of events that were recorded before 0.2.
-MatchEvent fromOldForm(const telemetry::SessionEvent& event) {
-  if (event.kind == "process") {
-    MatchEvent out = begun({event.time, {}, event.group, {}});
-    readOldProcess(out, event.text);
-    return out;
-  }
+/// Of another program: its words are all that there is.
+MatchEvent wordsOnly(const telemetry::SessionEvent& event) {
   MatchEvent out = begun(event);
-  const std::string_view text = event.text;
-  switch (out.kind) {
-    case Kind::Goal:
-      // The recorder's sentence, or the team's name as the studio saved it.
-      if (text.find("left") != std::string_view::npos) {
-        out.side = Side::Left;
-      } else if (text.find("right") != std::string_view::npos) {
-        out.side = Side::Right;
-      }
-      for (const TeamColorInfo& team : teamColors) {
-        std::string name(team.name);
-        for (char& c : name) c = static_cast<char>(c - 'a' + 'A');
-        if (out.name == name) out.colour = team.name;
-      }
-      out.name.clear();
-      break;
-    case Kind::Kick:
-      out.detail = behind(text, out.name + ": ").value_or(std::string_view());
-      break;
-    case Kind::UnknownAction:
-      if (const auto code = behind(text, out.name + ": unknown action ")) {
-        int value = 0;
-        if (std::from_chars(code->data(), code->data() + code->size(), value).ec == std::errc()) {
-          out.value = value;
-        }
-      }
-      break;
-    case Kind::GameState:
-      out.detail = behind(text, "referee: ").value_or(text);
-      break;
-    case Kind::Other:
-      if (event.kind != info(Kind::Other).name) break;
-      if (const auto penalty = behind(text, "penalised: ")) {
-        out.kind = Kind::Penalised;
-        out.detail = *penalty;
-      } else {
-        out.detail = text;
-      }
-      break;
-    case Kind::Bookmark:
-      out.detail = text;
-      break;
-    default:
-      break;  // the kind says it all
-  }
+  if (matchEventKind(event.kind)) out.detail = event.text;
   return out;
 }
 
@@ -140,7 +48,7 @@ telemetry::SessionEvent sessionEvent(const MatchEvent& event) {
 }
 
 MatchEvent matchEvent(const telemetry::SessionEvent& event) {
-  if (!event.facts) return fromOldForm(event);
+  if (!event.facts) return wordsOnly(event);
   const telemetry::EventFacts& facts = *event.facts;
   MatchEvent out = begun(event);
   out.robot.value = facts.robot;

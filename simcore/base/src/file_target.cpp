@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <utility>
 
+#include <base/try.h>
+
 #include "file_errors.h"
 
 namespace pitchboard {
@@ -136,13 +138,11 @@ Result<void> FileTarget::commit() {
 
 Result<void> writeFile(const std::string& path, std::string_view bytes, IfExists ifExists,
                        const std::string& source) {
-  auto target = FileTarget::at(path, ifExists, source);
-  if (!target) return tl::unexpected(target.error());
-  auto file = target->open();
-  if (!file) return tl::unexpected(file.error());
-  if (auto written = file->write(bytes); !written) return written;
-  if (auto closed = file->close(); !closed) return closed;
-  return target->commit();
+  auto target = TRY(FileTarget::at(path, ifExists, source));
+  auto file = TRY(target.open());
+  TRY(file.write(bytes));
+  TRY(file.close());
+  return target.commit();
 }
 
 }  // namespace pitchboard

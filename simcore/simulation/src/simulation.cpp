@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include <base/try.h>
 #include <simcore/rules/published_rules.h>
 #include <simcore/world/parameters.h>
 #include <simcore/world/places.h>
@@ -64,16 +65,14 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 Result<Simulation> Simulation::create(const SimulationSettings& settings) {
-  if (auto valid = validate(settings); !valid) return tl::unexpected(valid.error());
+  TRY(validate(settings));
   Simulation simulation;
   simulation.m_model = makePhysicsModel(settings.physics);
   if (!simulation.m_model) return noSuchPhysics(settings.physics);
   simulation.m_state.settings = settings;
   simulation.m_model->reset(simulation.m_state);
   if (settings.referee) {
-    if (auto made = simulation.setReferee(settings.referee); !made) {
-      return tl::unexpected(made.error());
-    }
+    TRY(simulation.setReferee(settings.referee));
   }
   simulation.m_state.robots.reserve(maxRobots);
   simulation.m_state.models.reserve(maxRobots);
@@ -118,16 +117,14 @@ Result<void> Simulation::call(const RefereeCall& call) {
   }
   snapshot(m_seen);
   m_placements.clear();
-  if (auto called = callReferee(m_state, m_seen, call, m_placements, m_called); !called) {
-    return called;
-  }
+  TRY(callReferee(m_state, m_seen, call, m_placements, m_called));
   carryOut();
   return {};
 }
 
 Result<void> Simulation::setReferee(const std::optional<RefereeRules>& rules) {
   if (rules) {
-    if (auto valid = sim::validate(*rules); !valid) return valid;
+    TRY(sim::validate(*rules));
   }
   m_state.settings.referee = rules;
   m_state.game.reset();
@@ -140,9 +137,9 @@ Result<void> Simulation::setReferee(const std::optional<RefereeRules>& rules) {
 }
 
 Result<void> Simulation::restore(const WorldState& state) {
-  if (auto valid = validate(state.settings); !valid) return valid;
+  TRY(validate(state.settings));
   if (state.settings.referee) {
-    if (auto valid = sim::validate(*state.settings.referee); !valid) return valid;
+    TRY(sim::validate(*state.settings.referee));
   }
   if (state.game && (!state.settings.referee || !isPlausible(*state.game, state.robots.size()))) {
     return failure(ErrorCode::InvalidArgument, "This saved moment has a game that no referee has.");
@@ -151,7 +148,7 @@ Result<void> Simulation::restore(const WorldState& state) {
   const bool fits =
       state.models.size() == state.robots.size() && state.statistics.size() == state.robots.size();
   for (const RobotModel& robot : state.models) {
-    if (auto valid = validate(robot); !valid) return valid;
+    TRY(validate(robot));
   }
   if (!fits || !model || !model->owns(state)) {
     return failure(ErrorCode::InvalidArgument, "This saved moment does not fit its physics model.");
@@ -215,7 +212,7 @@ Result<void> Simulation::addRobot(const RobotIdentity& identity, const Pose& pos
   if (!isFinite(pose)) {
     return failure(ErrorCode::InvalidArgument, "A robot's pose must be finite numbers.");
   }
-  if (auto valid = validate(model); !valid) return valid;
+  TRY(validate(model));
   m_state.robots.push_back(identity);
   m_state.models.push_back(model);
   m_state.statistics.emplace_back();
@@ -272,7 +269,7 @@ Result<void> Simulation::placeBall(const Point& position, const Velocity& veloci
 }
 
 Result<void> Simulation::setNoise(const NoiseParameters& noise) {
-  if (auto valid = validate(noise); !valid) return valid;
+  TRY(validate(noise));
   m_state.settings.noise = noise;
   m_model->settingsChanged(m_state);
   return {};
@@ -281,14 +278,14 @@ Result<void> Simulation::setNoise(const NoiseParameters& noise) {
 Result<void> Simulation::setRobotModel(RobotId id, const RobotModel& model) {
   const auto index = indexOf(id);
   if (!index) return noSuchRobot(id);
-  if (auto valid = validate(model); !valid) return valid;
+  TRY(validate(model));
   m_state.models[*index] = model;
   m_model->settingsChanged(m_state);
   return {};
 }
 
 Result<void> Simulation::setRigidBody(const RigidBodySettings& settings) {
-  if (auto valid = validate(settings); !valid) return valid;
+  TRY(validate(settings));
   m_state.settings.rigidBody = settings;
   m_model->settingsChanged(m_state);
   return {};

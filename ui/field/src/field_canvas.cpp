@@ -132,10 +132,7 @@ void FieldCanvas::paintEmptyState(QPainter* painter) const {
   if (frame && !empty) return;
   QString text = m_emptyText ? m_emptyText() : QString();
   if (text.isEmpty()) {
-    text =
-        frame
-            ? QStringLiteral("Press A to add a robot where the cursor is, B to put the ball there.")
-            : QStringLiteral("No match is open. Choose a scenario in the toolbar.");
+    text = QStringLiteral("Press A to add a robot where the cursor is, B to put the ball there.");
   }
   const bool longer = text.contains(QLatin1Char('\n'));
   const QFont& font = fieldFont(scaled(this, longer ? 12 : 13), !longer);

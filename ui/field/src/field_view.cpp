@@ -270,7 +270,8 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
   connect(source, &FrameSource::restarted, this, begin);
   d->setReadOnly(source->kind() != SourceKind::Simulate);
   d->canvas->setEmptyText([source] {
-    return source->kind() == SourceKind::Simulate ? QString() : source->emptyText();
+    const bool open = source->kind() == SourceKind::Simulate && source->frame();
+    return open ? QString() : source->emptyText();
   });
 }
 

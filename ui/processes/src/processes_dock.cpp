@@ -19,10 +19,7 @@ namespace pitchboard::ui {
 namespace {
 
 QString emptyText(const MatchController& controller) {
-  if (controller.isOpening()) return QStringLiteral("Opening…");
-  if (!controller.isOpen()) {
-    return QStringLiteral("No match is open. Choose a scenario in the tool bar.");
-  }
+  if (!controller.isOpen()) return controller.emptyText();
   switch (controller.cognition()) {
     case link::Cognition::Inline:
       if (controller.options().cognition != link::Cognition::Inline) {

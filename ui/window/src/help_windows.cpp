@@ -35,7 +35,7 @@ constexpr Keys shortcuts[] = {
     {nullptr, "Orders to the selected robot"},
     {"F, K, V, R", "forward fast, slow, backward fast, slow"},
     {"M, N, E, D", "walk left, right, turn left, right"},
-    {"O, Q", "around the ball, clockwise, anticlockwise"},
+    {"O, Q", "around the ball, left, right"},
     {"L, P, I, J", "kick left, right, pass left, right"},
     {"S, T", "gait in place, stop"},
     {"Y, Z", "ball search on, off"},

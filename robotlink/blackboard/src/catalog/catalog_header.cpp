@@ -11,13 +11,88 @@
 #include <algorithm>
 #include <map>
 
+#include <base/try.h>
 #include <robotlink/blackboard/variable_catalog.h>
 
 #include "catalog/catalog_reading.h"
-#include "catalog/header_lines.h"
 
 namespace pitchboard::link {
 namespace {
+
+/// A line of a C header as a preprocessor sees it: its comments taken aside.
+struct HeaderLine {
+  int number = 0;       ///< of its first line, from 1
+  std::string code;     ///< continued lines joined, a blank for each comment
+  std::string comment;  ///< text of all comments that end or run on this line
+};
+
+/// Fails, with the line, when a comment is never closed.
+Result<std::vector<HeaderLine>> headerLines(std::string_view text, std::string_view source) {
+  enum class State { Code, String, Character, LineComment, BlockComment } state = State::Code;
+  std::vector<HeaderLine> lines;
+  HeaderLine line{1, {}, {}};
+  int number = 1;
+  int commentStart = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const char next = i + 1 < text.size() ? text[i + 1] : '\0';
+    if (c == '\r') continue;
+    if (c == '\\' && (next == '\n' || (next == '\r' && text.substr(i + 1, 2) == "\r\n"))) {
+      i += next == '\n' ? 1 : 2;
+      ++number;
+      continue;
+    }
+    if (c == '\n') {
+      ++number;
+      // Literals and line comments end here whatever is missing.
+      if (state != State::BlockComment) state = State::Code;
+      lines.push_back(std::move(line));
+      line = HeaderLine{number, {}, {}};
+      continue;
+    }
+    switch (state) {
+      case State::Code:
+        if (c == '/' && (next == '/' || next == '*')) {
+          state = next == '/' ? State::LineComment : State::BlockComment;
+          commentStart = number;
+          line.code += ' ';
+          line.comment += ' ';
+          ++i;
+        } else {
+          if (c == '"') state = State::String;
+          if (c == '\'') state = State::Character;
+          line.code += c;
+        }
+        break;
+      case State::String:
+      case State::Character:
+        line.code += c;
+        if (c == '\\' && next != '\0') {
+          line.code += next;
+          ++i;
+        } else if (c == (state == State::String ? '"' : '\'')) {
+          state = State::Code;
+        }
+        break;
+      case State::LineComment:
+        line.comment += c;
+        break;
+      case State::BlockComment:
+        if (c == '*' && next == '/') {
+          state = State::Code;
+          ++i;
+        } else {
+          line.comment += c;
+        }
+        break;
+    }
+  }
+  if (state == State::BlockComment)
+    return failure(ErrorCode::ParseError, "the comment that begins here is never closed",
+                   atLine(source, commentStart));
+  lines.push_back(std::move(line));
+  return lines;
+}
 
 struct Defined {
   CatalogEntry entry;
@@ -266,15 +341,13 @@ class HeaderReader {
 Result<VariableCatalog> VariableCatalog::fromHeader(std::string_view text,
                                                     std::string_view source) {
   if (const auto error = checkCatalogText(text, source)) return tl::unexpected(*error);
-  const auto lines = headerLines(text, source);
-  if (!lines) return tl::unexpected(lines.error());
+  const auto lines = TRY(headerLines(text, source));
   HeaderReader reader(source);
-  for (const HeaderLine& line : *lines) {
+  for (const HeaderLine& line : lines) {
     if (const auto error = reader.read(line)) return tl::unexpected(*error);
   }
-  const auto entries = reader.take();
-  if (!entries) return tl::unexpected(entries.error());
-  return make(*entries, source);
+  const auto entries = TRY(reader.take());
+  return make(entries, source);
 }
 
 }  // namespace pitchboard::link

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include <base/read_file.h>
+#include <base/try.h>
 #include <resources/resources.h>
 
 #include "catalog/catalog_reading.h"
@@ -146,16 +147,14 @@ Result<VariableCatalog> VariableCatalog::fromFile(const std::string& path) {
     return failure(ErrorCode::Unsupported,
                    "a variable map is a .json, .h, .hpp or .py file; this name ends otherwise",
                    path);
-  const auto text = readFile(path, maxCatalogBytes, "The variable map");
-  if (!text) return tl::unexpected(text.error());
-  return reader(*text, path);
+  const auto text = TRY(readFile(path, maxCatalogBytes, "The variable map"));
+  return reader(text, path);
 }
 
 Result<VariableCatalog> VariableCatalog::fromFile(const std::string& path, SegmentLayout& layout) {
   if (std::filesystem::path(path).extension() != ".json") return fromFile(path);
-  const auto text = readFile(path, maxCatalogBytes, "The variable map");
-  if (!text) return tl::unexpected(text.error());
-  return readJson(*text, path, layout, true);
+  const auto text = TRY(readFile(path, maxCatalogBytes, "The variable map"));
+  return readJson(text, path, layout, true);
 }
 
 Result<VariableCatalog> VariableCatalog::make(const std::vector<CatalogEntry>& entries,

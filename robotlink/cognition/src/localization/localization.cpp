@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "localization/localization.h"
+#include "process_makers.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include <base/angles.h>
+#include <base/try.h>
 #include <robotlink/blackboard/robot_variables.h>
 #include <simcore/world/published_frame.h>
 #include "localization/monte_carlo_localization.h"
@@ -149,10 +150,9 @@ Result<std::unique_ptr<CognitiveProcess>> makeLocalization(const ProcessOptions&
   const ImuZero zero = !options.facesLeft   ? ImuZero::Unknown
                        : *options.facesLeft ? ImuZero::Left
                                             : ImuZero::Right;
-  auto filter = MonteCarloLocalization::create(options.field, parameters, zero, options.seed,
-                                               options.robot.value);
-  if (!filter) return tl::unexpected<Error>(filter.error());
-  return std::make_unique<Localization>(std::move(*filter), options.field, options.model);
+  auto filter = TRY(MonteCarloLocalization::create(options.field, parameters, zero, options.seed,
+                                                   options.robot.value));
+  return std::make_unique<Localization>(std::move(filter), options.field, options.model);
 }
 
 }  // namespace pitchboard::link

@@ -10,6 +10,7 @@
 #include <base/angles.h>
 #include <base/random.h>
 #include <base/repeatable_math.h>
+#include <base/try.h>
 
 #include "localization/monte_carlo_imu.h"
 
@@ -79,9 +80,7 @@ Result<MonteCarloLocalization> MonteCarloLocalization::create(const sim::FieldSp
                                                               const LocalizationParameters& p,
                                                               ImuZero imuZero, std::uint64_t seed,
                                                               int robot) {
-  if (const Result<void> valid = sim::validate(field); !valid) {
-    return tl::unexpected<Error>(valid.error());
-  }
+  TRY(sim::validate(field));
   const auto refuse = [](const char* why) {
     return failure(ErrorCode::InvalidArgument, why, "localization");
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "planning/planning.h"
+#include "process_makers.h"
 
+#include <base/try.h>
 #include <simcore/world/published_frame.h>
 
 #include "planning/known_robots.h"
@@ -76,12 +77,8 @@ class Planning final : public CognitiveProcess {
 }  // namespace
 
 Result<std::unique_ptr<CognitiveProcess>> makePlanning(const ProcessOptions& options) {
-  if (const Result<void> valid = sim::validate(options.field); !valid) {
-    return tl::unexpected<Error>(valid.error());
-  }
-  if (const Result<void> valid = sim::validate(options.model); !valid) {
-    return tl::unexpected<Error>(valid.error());
-  }
+  TRY(sim::validate(options.field));
+  TRY(sim::validate(options.model));
   sim::FieldSpec field = options.field;
   if (options.model.radius > 0.0) field.robotRadius = options.model.radius;
   return std::make_unique<Planning>(field, options.field.robotRadius, options.model);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The decision process of the soccer behaviours: world model, behaviour, blackboard, ten times a
 // second. Where to walk it leaves to planning.
+#include <base/try.h>
+
 #include "soccer/behaviour.h"
 
 #include <typeinfo>
@@ -75,15 +77,9 @@ class SoccerDecision final : public CognitiveProcess {
 Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision(
     const ProcessOptions& options,
     std::unique_ptr<Behaviour> (*make)(const BehaviourParameters& parameters)) {
-  if (const Result<void> valid = sim::validate(options.field); !valid) {
-    return tl::unexpected<Error>(valid.error());
-  }
-  if (const Result<void> valid = sim::validate(options.model); !valid) {
-    return tl::unexpected<Error>(valid.error());
-  }
-  if (const Result<void> valid = validate(options.parameters); !valid) {
-    return tl::unexpected<Error>(valid.error());
-  }
+  TRY(sim::validate(options.field));
+  TRY(sim::validate(options.model));
+  TRY(validate(options.parameters));
   sim::FieldSpec field = options.field;
   if (options.model.radius > 0.0) field.robotRadius = options.model.radius;
   return std::make_unique<SoccerDecision>(options, field, make(options.parameters));

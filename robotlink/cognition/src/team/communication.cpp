@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "team/communication.h"
+#include "process_makers.h"
 
 #include <array>
 
+#include <base/try.h>
 #include <robotlink/blackboard/robot_variables.h>
 #include <telemetry/wire/socket_address.h>
 #include <telemetry/wire/text_protocol.h>
@@ -125,21 +126,18 @@ Result<std::unique_ptr<CognitiveProcess>> makeCommunication(const ProcessOptions
                    options.teamPortBase + teamPorts)}) {
     if (!ports) return tl::unexpected<Error>(ports.error());
   }
-  const auto address = telemetry::parseAddress(options.udpAddress);
-  if (!address) return tl::unexpected<Error>(address.error());
-  auto sender = telemetry::UdpSender::to(*address);
-  if (!sender) return tl::unexpected<Error>(sender.error());
+  const auto address = TRY(telemetry::parseAddress(options.udpAddress));
+  auto sender = TRY(telemetry::UdpSender::to(address));
   if (!(options.telemetryPeriod >= cycle && options.telemetryPeriod <= 60.0)) {
     return failure(ErrorCode::InvalidArgument,
                    "telemetry can be sent every 0.05 to 60 seconds, not more often or seldom");
   }
   std::unique_ptr<RefereeListener> referee;
   if (options.refereeTeam) {
-    auto started = RefereeListener::start(options);
-    if (!started) return tl::unexpected<Error>(started.error());
-    referee = std::move(*started);
+    auto started = TRY(RefereeListener::start(options));
+    referee = std::move(started);
   }
-  return std::make_unique<Communication>(options, std::move(*sender), std::move(referee));
+  return std::make_unique<Communication>(options, std::move(sender), std::move(referee));
 }
 
 }  // namespace pitchboard::link

@@ -9,6 +9,7 @@
 
 #include <base/descriptor.h>
 #include <base/system_reason.h>
+#include <base/try.h>
 #include <robotlink/processes/match_turns.h>
 #include <telemetry/wire/socket_address.h>
 #include <telemetry/wire/udp_sender.h>
@@ -128,8 +129,7 @@ Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& addre
                                                    "\" is not an IPv4 address; use for example "
                                                    "127.0.0.1 or 192.168.1.255");
   }
-  auto sender = telemetry::UdpSender::to(*to);
-  if (!sender) return tl::unexpected<Error>(sender.error());
+  auto sender = TRY(telemetry::UdpSender::to(*to));
   Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket) return tl::unexpected<Error>(systemError("The system gives no UDP socket"));
   const int on = 1;
@@ -142,7 +142,7 @@ Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& addre
     return tl::unexpected<Error>(
         systemError("Port " + std::to_string(port) + " cannot be listened to"));
   }
-  return std::make_unique<UdpTeamChannel>(std::move(socket), std::move(*sender), port);
+  return std::make_unique<UdpTeamChannel>(std::move(socket), std::move(sender), port);
 }
 
 }  // namespace pitchboard::link

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "team/team_talk.h"
+#include "process_makers.h"
 
 #include <charconv>
 #include <cmath>
 #include <tuple>
 
 #include <base/repeatable_math.h>
+#include <base/try.h>
 #include "team/team_variables.h"
 
 namespace pitchboard::link {
@@ -170,9 +171,8 @@ class TeamTalk final : public CognitiveProcess {
 Result<std::unique_ptr<CognitiveProcess>> makeTeamTalk(const ProcessOptions& options) {
   std::shared_ptr<TeamChannel> channel = options.teamChannel;
   if (!channel) {
-    auto udp = makeUdpTeamChannel(options.udpAddress, options.team, options.channelPortBase);
-    if (!udp) return tl::unexpected<Error>(udp.error());
-    channel = options.turns ? makeTurnsChannel(options.turns, std::move(*udp)) : std::move(*udp);
+    auto udp = TRY(makeUdpTeamChannel(options.udpAddress, options.team, options.channelPortBase));
+    channel = options.turns ? makeTurnsChannel(options.turns, std::move(udp)) : std::move(udp);
   }
   return std::make_unique<TeamTalk>(options.robot, std::move(channel));
 }

@@ -29,9 +29,6 @@ struct SampleMoments {
 };
 SampleMoments momentsOf(std::span<const double> values);
 
-/// Of `sorted` values, linear between neighbours (numpy's default, R's type 7); NaN without any.
-double quantile(std::span<const double> sorted, double share);
-
 /// 95 % of the mean: percentile bootstrap; where all values are equal, that value. Nothing for
 /// fewer than two values.
 std::optional<Interval> intervalOfMean(std::span<const double> values);

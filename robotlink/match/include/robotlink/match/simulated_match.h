@@ -251,7 +251,6 @@ class SimulatedMatch {
   Result<void> startInside(Seat& seat, SeatProcess& process);
   Result<void> startReference(Seat& seat, SeatProcess& process);
   Result<void> startForeign(Seat& seat, SeatProcess& process);
-  Result<void> needGuard();
   void endProcesses(Seat& seat);
   void runSeparate(Seat& seat, SeatProcess& process);
   void runFreely(Seat& seat, SeatProcess& process);

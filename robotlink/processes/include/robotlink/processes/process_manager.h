@@ -16,6 +16,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -23,7 +24,7 @@
 #include <vector>
 
 #include <robotlink/blackboard/robot_variables.h>
-#include <robotlink/processes/process_supervisor.h>
+#include <robotlink/processes/child_process.h>
 #include <robotlink/processes/program_clock.h>
 #include <robotlink/processes/runtime_profile.h>
 
@@ -120,17 +121,22 @@ struct ProcessLine {
   std::string process, text;
 };
 
-/// Use from one thread, which must live as long as the processes (see ProcessSupervisor).
+/// Use from one thread, which must live as long as the processes (see ChildProcess).
 class ProcessManager {
  public:
   using Time = std::chrono::steady_clock::time_point;
+  static constexpr std::size_t maxLines = 10'000;
 
-  ProcessManager() = default;
+  /// `robotProgram` (pitchboard-robot) runs the guard, and the keepers of foreign programs.
+  explicit ProcessManager(std::string robotProgram = {}) : m_program(std::move(robotProgram)) {}
   ProcessManager(const ProcessManager&) = delete;
   ProcessManager& operator=(const ProcessManager&) = delete;
   ~ProcessManager();  ///< ends all
 
-  ProcessSupervisor& supervisor() { return m_supervisor; }
+  /// From now on a guard removes the segments of guardSegment() when this process is killed.
+  Result<void> keepGuard();
+  /// One that we made.
+  void guardSegment(const Blackboard& board);
 
   /// Behind those that the robot has. Starts it at once when it need not wait for its turn; fails
   /// when it cannot be started, and is then forgotten. `board` must outlive it.
@@ -166,23 +172,24 @@ class ProcessManager {
   void setClocksFollow(bool follow) { m_clocksFollow = follow; }
 
   /// All, in the order in which they were added. A new `version()` tells that something changed.
-  const std::vector<ProcessStatus>& statuses() const { return m_statuses; }
+  std::vector<ProcessStatus> statuses() const;
   std::uint64_t version() const { return m_version; }
   const ProcessStatus* status(int id) const;
   /// It, or a program that it started, has attached to this System V segment. True where the system
   /// does not let us see it. Costs some milliseconds while it has not.
   bool hasSegment(int id, int shmid) const;
   std::vector<ProcessNews> takeNews();
-  /// What they wrote, the newest 10 000 lines.
+  /// What they wrote since the last call, the newest 10 000 lines.
   std::vector<ProcessLine> takeLines();
-  std::uint64_t droppedLines() const { return m_supervisor.droppedLines(); }
+  /// How many lines were dropped because nobody took them.
+  std::uint64_t droppedLines() const { return m_droppedLines; }
 
  private:
   struct Entry {
-    int id = 0;
+    ProcessStatus status;
     ManagedProcess process;
     Blackboard* board = nullptr;
-    int handle = 0;  // of the running child, 0 = none
+    std::optional<ChildProcess> child;  // while it runs
     bool everStarted = false;
     Time due{};  // of the next start
     Time lastSign{}, stoppedSince{};
@@ -200,13 +207,12 @@ class ProcessManager {
     bool toldRealTime = false;
   };
   Entry* find(int id);
-  ProcessStatus& statusOf(const Entry& entry);
   Result<void> startDue(Time now);
   Result<void> startNow(Entry& entry, Time now);
-  void collectEnded(Time now);
+  std::optional<ChildProcess::End> poll(Entry& entry);
+  void end(const std::vector<Entry*>& entries);
   void ended(Entry& entry, Time now, bool died, const std::string& detail, bool byHand);
   void planRestart(Entry& entry, Time now, ProcessNews news);
-  void endChild(Entry& entry);
   void watch(Entry& entry, Time now);
   void watchFile(Entry& entry, Time now);
   void sample(Entry& entry, Time now);
@@ -215,22 +221,24 @@ class ProcessManager {
   void askForSpeed(Entry& entry);
   void lookForLibrary(Entry& entry, Time now);
   void silenced(Entry& entry, Time now, const std::string& detail);
-  void takeOutput();
+  void addNews(const Entry& entry, ProcessNewsKind kind, const std::string& detail = {});
+  void tellGuard(const std::string& line);
   void changed() { ++m_version; }
-  const ChildStatus* child(int handle) const;
 
+  std::string m_program;
+  Descriptor m_guard;  // to the guard; empty: there is none
+  pid_t m_guardPid = 0;
   std::vector<Entry> m_entries;
-  std::vector<ProcessStatus> m_statuses;  // same order
-  std::map<RobotId, Time> m_lastStart;    // of a robot's processes, for their order
+  std::map<RobotId, Time> m_lastStart;  // of a robot's processes, for their order
   std::optional<Time> m_last;
   std::vector<ProcessNews> m_news;
-  std::vector<ProcessLine> m_lines;
+  std::deque<ProcessLine> m_lines;
+  std::uint64_t m_droppedLines = 0;
   std::uint64_t m_version = 1;
   int m_nextId = 1;
   bool m_paused = false;
   bool m_clocksFollow = false;
   double m_speed = 1.0;
-  ProcessSupervisor m_supervisor;  // last: its children end before the rest goes
 };
 
 /// Words for a time of waiting: "0.2 s".

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// fork and exec of one child with a clean start: see process_supervisor.h for what it gets.
+// fork and exec of one child with a clean start: see child_process.h for what it gets.
 
 #include <sys/types.h>
 #include <string>
@@ -19,12 +19,13 @@ struct SpawnRequest {
   std::vector<std::pair<std::string, std::string>> environment{};  ///< added to ours
   int inherited = -1;                                              ///< becomes its descriptor 3
   int input = -1;         ///< its standard input; else it reads /dev/null
-  bool outlives = false;  ///< not ended with us; its output is not collected
+  int output = -1;        ///< its standard output and error; else a pipe to us
+  bool outlives = false;  ///< a session of its own, and not ended with us
 };
 
 struct Spawned {
   pid_t pid = 0;      ///< also its process group
-  Descriptor output;  ///< read end of its standard output and error; non-blocking, close-on-exec
+  Descriptor output;  ///< read end of its pipe to us; non-blocking, close-on-exec
 };
 
 /// Starts a program. From a process with any number of threads: nothing but async-signal-safe calls

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Events as a session file keeps them, and back, also from sessions of before 0.2. Plain functions;
-// any thread.
+// Events as a session file keeps them, and back. Plain functions; any thread.
 
 #include <vector>
 
@@ -13,8 +12,8 @@
 namespace pitchboard::link {
 
 telemetry::SessionEvent sessionEvent(const MatchEvent& event);
-/// A kind that nobody knows becomes Other, which says what it was called. An event without facts is
-/// of a session before 0.2: what it was stands in its words there.
+/// A kind that nobody knows becomes Other, which says what it was called. Of an event without facts
+/// the words are kept.
 MatchEvent matchEvent(const telemetry::SessionEvent& event);
 
 /// All of a session in order of time. Where old events have no number of their robot, it is that of
