@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <base/short_name.h>
-#include <robotlink/cognition/referee_word.h>
+#include <robotlink/cognition/referee_orders.h>
 
 namespace pitchboard::link {
 namespace {
