@@ -47,8 +47,8 @@ int wordInPlay(const QString& name, const QJsonObject& state, int team) {
   const bool ofStandardPlatform = name.contains("spl"), ofHumanoids = name.contains("hl");
   if (!ofStandardPlatform && !ofHumanoids && state["setPlay"].toInt() != 0) return hasBall ? 2 : 11;
   const bool kickOff = !ofStandardPlatform && state["secondaryTime"].toInt() > 0 &&
-                       state.contains("kickOffTeamNumber") && secondary == 0 &&
-                       state["gamePhase"].toInt() == 0;
+                       state.contains("kickOffTeamNumber") && secondary != 1 &&
+                       state["gamePhase"].toInt() != 1;  // not in a shoot-out
   return kickOff && !hasBall ? 12 : 2;
 }
 

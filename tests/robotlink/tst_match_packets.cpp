@@ -4,7 +4,7 @@
 #include <QtTest>
 #include <map>
 
-#include <robotlink/cognition/referee_word.h>
+#include <robotlink/cognition/referee_orders.h>
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <simcore/rules/referee.h>

@@ -281,6 +281,41 @@ class TestRuntimeProfile : public QObject {
     match.tick();
   }
 
+  // What the referee says reaches a robot of somebody else as it reaches one of ours.
+  void aRobotOfSomebodyElseHearsTheReferee() {
+    QTemporaryDir folder;
+    QFile file(folder.filePath("hears.json"));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(R"({"version": 1, "name": "hears", "referee": "own", "processes": []})");
+    file.close();
+    Scenario scenario = loadScenario("match").value();
+    scenario.settings.referee->beforeMatch = 1.0;
+    scenario.settings.referee->readyTime = 1.0;
+    for (ScenarioRobot& robot : scenario.robots) robot.behaviour = std::string(noBehaviour);
+    auto inside = SimulatedMatch::create(scenario, {}).value();
+    scenario.robots[0].runtime = choice("own");
+    scenario.robots[1].runtime.profile = file.fileName().toStdString();
+    auto match = SimulatedMatch::create(scenario, separate()).value();
+    const IntVar word = match.variables().comReferee;
+    std::set<int> told;
+    for (int i = 0; i < 60 * 15; ++i) {
+      if (i == 60 * 9) {
+        const sim::RefereeCall call{.kind = sim::CallKind::SetPlay,
+                                    .team = 1,
+                                    .setPlay = sim::SetPlay::ThrowIn,
+                                    .place = Point{0.0, 3.0}};
+        QVERIFY(inside.call(call) && match.call(call));
+      }
+      inside.tick();
+      match.tick();
+      const int one = match.blackboard(RobotId{1})->read(word);
+      QCOMPARE(one, inside.blackboard(RobotId{1})->read(word));
+      told.insert(one);
+    }
+    QCOMPARE(told, (std::set<int>{1, 2, 11, 12}));
+    QCOMPARE(match.blackboard(RobotId{2})->read(word), 0);  // its own program would write it
+  }
+
   void aRobotWithoutABehaviourHasNoProcessesOfOurs() {
     Scenario scenario = loadScenario("one-robot").value();
     scenario.robots[0].behaviour = std::string(noBehaviour);

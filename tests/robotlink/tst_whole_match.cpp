@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The default scenario from kick-off to the final whistle, with short halves, by each rule set. The
 // long version is the tool whole_matches (docs/REFEREE.md).
-#include <robotlink/cognition/referee_word.h>
+#include <robotlink/cognition/referee_orders.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 
 #include <QFile>
@@ -124,6 +124,39 @@ class TestWholeMatch : public QObject {
                         .penalty = sim::PenaltyKind::Manual}));
     for (int i = 0; i < 31; ++i) match.tick();
     QCOMPARE(word(1), refereeStop);
+  }
+
+  // The one who had the kick-off does not take the other's throw-in.
+  void aSetPlayIsItsTakersUntilTheBallIsFree() {
+    Scenario scenario = shortMatch("humanoid-2021");
+    scenario.settings.referee->readyTime = 1;
+    scenario.settings.referee->placingTime = 1;
+    scenario.settings.referee->prepareTime = 2;
+    for (ScenarioRobot& robot : scenario.robots) robot.behaviour = std::string(noBehaviour);
+    auto match = make(scenario);
+    const sim::GameState& game = *match.simulation().state().game;
+    while (game.state != sim::PlayState::Playing) match.tick();
+    for (int i = 0; i < 60 * 11; ++i) match.tick();
+    QCOMPARE(game.kickOff, 0);
+    QVERIFY(match.call({.kind = sim::CallKind::SetPlay,
+                        .team = 1,
+                        .setPlay = sim::SetPlay::ThrowIn,
+                        .place = Point{0.0, 3.0}}));
+    const auto word = [&](int robot) {
+      return match.blackboard(RobotId{robot})->read(match.variables().comReferee);
+    };
+    int executed = 0;
+    for (int i = 0; i < 60 * 12; ++i) {
+      match.tick();
+      if (i < 31 || match.simulation().state().tick % 30 != 0) continue;  // as robots hear it
+      const bool taken = game.setPlay == sim::SetPlay::None;
+      if (taken && game.secondary > 0) ++executed;
+      if (game.secondary > 0 || !taken) {
+        QVERIFY(word(1) != refereePlay);
+        if (taken) QCOMPARE(word(4), refereePlay);
+      }
+    }
+    QVERIFY(executed > 10);
   }
 
   void itsPacketsAreHeardOnTheMatchsPort() {

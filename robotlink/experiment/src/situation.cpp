@@ -7,7 +7,7 @@
 
 #include <base/short_name.h>
 #include <base/try.h>
-#include <robotlink/cognition/referee_word.h>
+#include <robotlink/cognition/referee_orders.h>
 
 namespace pitchboard::link {
 namespace {

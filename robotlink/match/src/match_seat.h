@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include <robotlink/cognition/referee_orders.h>
 #include <robotlink/match/simulated_match.h>
 
 namespace pitchboard::link {
@@ -45,6 +46,7 @@ struct SimulatedMatch::Seat {
   bool facesLeft = false;            // what its processes were told
   std::optional<BridgeClaim> claim;  // given back after the segment is gone
   Blackboard board;
+  RefereeOrders orders;
   std::vector<std::unique_ptr<SeatProcess>> processes;
   std::size_t turn = 0;  ///< of `processes`, within a tick
 

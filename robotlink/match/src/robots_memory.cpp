@@ -27,6 +27,7 @@ std::shared_ptr<const RobotsMemory> SimulatedMatch::robotsMemory() const {
     RobotsMemory::Robot& robot = all->robots.emplace_back();
     robot.id = seat->id;
     robot.behaviour = seat->behaviour;
+    robot.orders = seat->orders;
     seat->board.copyWords(robot.board);
     all->bytes += sizeof robot;
     for (const auto& process : seat->processes) {
@@ -44,6 +45,7 @@ void SimulatedMatch::startAnew() {
     if (channel) channel->clear();
   }
   for (const auto& seat : m_seats) {
+    seat->orders = {};
     for (const auto& process : seat->processes) {
       if (!process->inside) continue;
       seat->facesLeft = identityOf(seat->id).imuStartsAt180;
@@ -61,6 +63,7 @@ void SimulatedMatch::recall(const RobotsMemory& memory) {
   for (const RobotsMemory::Robot& robot : memory.robots) {
     Seat* known = seat(robot.id);
     if (!known) continue;
+    known->orders = robot.orders;
     for (int word = 0; word < Blackboard::words; ++word) {
       const std::uint32_t bits = robot.board[static_cast<std::size_t>(word)];
       known->board.write(IntVar{word}, std::bit_cast<std::int32_t>(bits));

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <robotlink/cognition/referee_word.h>
 #include <robotlink/match/match_drawings.h>
 
 #include "match_events.h"
@@ -131,24 +130,17 @@ Result<void> SimulatedMatch::beginGame() {
   return {};
 }
 
-/// Inline robots have no communication process, and that of a robot that takes turns would hear the
-/// packets at a time of its own: the match writes what it would.
-bool SimulatedMatch::hearsThroughMatch(const Seat& seat) const {
-  return m_options.cognition == Cognition::Inline ||
-         std::any_of(seat.processes.begin(), seat.processes.end(), [](const auto& process) {
-           return process->profile.reference == "communication";
-         });
-}
-
+/// Our communication process would hear the packets at a time of its own, and many a program hears
+/// none: the match writes what they mean.
 void SimulatedMatch::hearReferee(bool again) {
   if (!m_referee->tick(m_simulation, again)) return;
   const sim::WorldState& world = m_simulation.state();
   for (std::size_t i = 0; i < m_seats.size(); ++i) {
     const sim::RobotIdentity& robot = world.robots[i];
     const int team = world.game->teamOf(robot.team);
-    if (team < 0 || !hearsThroughMatch(*m_seats[i])) continue;
+    if (team < 0 || m_seats[i]->runtime.hearsReferee) continue;
     const int number = world.game->teams[static_cast<std::size_t>(team)].number;
-    if (const auto word = refereeWord(m_referee->packet(), number, robot.number)) {
+    if (const auto word = m_seats[i]->orders.take(m_referee->packet(), number, robot.number)) {
       m_seats[i]->board.write(m_variables.comReferee, *word);
     }
   }

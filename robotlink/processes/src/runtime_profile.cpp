@@ -24,6 +24,7 @@ constexpr double longestTime = 3600.0;  // s
 
 constexpr std::array<std::string_view, 3> policies{"never", "on_failure", "always"};
 constexpr std::array<std::string_view, 2> clocks{"match", "real"};
+constexpr std::array<std::string_view, 2> hearers{"match", "own"};
 constexpr std::array<std::string_view, 5> conditions{"everyone", "behaviour", "pose", "separate",
                                                      "target"};
 
@@ -48,7 +49,7 @@ class Reader {
   Reader(const JsonNode& root, JsonReport& report)
       : m_report(report),
         m_root(report, root, "",
-               {"version", "name", "title", "description", "values", "processes"}) {}
+               {"version", "name", "title", "description", "values", "referee", "processes"}) {}
 
   RuntimeProfile read() {
     m_root.require("version");
@@ -58,6 +59,8 @@ class Reader {
     m_profile.title = m_root.text("title", m_profile.name, 200);
     m_profile.description = m_root.text("description", "", 5000);
     for (auto& [name, value] : texts(m_root, "values")) m_profile.values[name] = value;
+    m_profile.hearsReferee =
+        m_root.choice("referee", hearers, "hearer of the referee") == std::size_t{1};
     m_root.require("processes");
     const auto* items = m_root.array("processes", mostProcesses);
     for (std::size_t i = 0; items && i < items->size() && !m_report.failed(); ++i) {

@@ -8,7 +8,7 @@
 
 #include <base/ids.h>
 #include <robotlink/cognition/process_registry.h>
-#include <robotlink/cognition/referee_word.h>
+#include <robotlink/cognition/referee_orders.h>
 #include <robotlink/frame/belief.h>
 #include <robotlink/scenario/moment_writes.h>
 #include <simcore/world/limits.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "team/referee_listener.h"
 
-#include <robotlink/cognition/referee_word.h>
 #include <telemetry/wire/socket_address.h>
 
 namespace pitchboard::link {
@@ -41,7 +40,7 @@ std::optional<int> RefereeListener::newWord() {
     if (!packet) continue;
     const auto* state = std::get_if<telemetry::RefereeState>(&*packet);
     if (state == nullptr || !m_tracker.accept(*state, datagram.sender, datagram.time)) continue;
-    if (const auto meant = refereeWord(*state, m_team, m_player)) word = meant;
+    if (const auto meant = m_orders.take(*state, m_team, m_player)) word = meant;
   }
   return word;
 }

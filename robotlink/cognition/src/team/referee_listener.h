@@ -8,6 +8,7 @@
 #include <optional>
 
 #include <robotlink/cognition/cognitive_process.h>
+#include <robotlink/cognition/referee_orders.h>
 #include <telemetry/wire/referee_tracker.h>
 #include <telemetry/wire/udp_receiver.h>
 
@@ -31,6 +32,7 @@ class RefereeListener {
 
   int m_team, m_player;
   std::unique_ptr<telemetry::UdpReceiver> m_receiver;
+  RefereeOrders m_orders;
   telemetry::RefereeTracker m_tracker;  // two versions at once, a second controller
   telemetry::DatagramBatch m_batch;
 };

@@ -16,6 +16,7 @@
 #include <base/ids.h>
 #include <robotlink/blackboard/blackboard.h>
 #include <robotlink/cognition/cognitive_process.h>
+#include <robotlink/cognition/referee_orders.h>
 #include <robotlink/cognition/team_channel.h>
 #include <simcore/world/robot_io.h>
 #include <simcore/world/world_state.h>
@@ -38,6 +39,7 @@ struct RobotsMemory {
     RobotId id;
     std::string behaviour;
     std::array<std::uint32_t, Blackboard::words> board{};
+    RefereeOrders orders;
     std::vector<Process> processes;
   };
   std::uint64_t tick = 0;

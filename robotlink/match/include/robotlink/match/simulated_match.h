@@ -234,7 +234,6 @@ class SimulatedMatch {
   std::uint64_t nextDueTick(double period, std::uint64_t after) const;
   Result<void> beginGame();
   void hearReferee(bool again = false);
-  bool hearsThroughMatch(const Seat& seat) const;
   void followSides();
   Seat* seat(RobotId id) const;
   Result<RuntimeProfile> runtimeFor(const Wish& wish) const;

@@ -65,6 +65,7 @@ struct RuntimeProfile {
   std::string name, title, description;
   std::map<std::string, std::string> values;  ///< of ${...} in commands; a choice may set them
   std::vector<ProfileProcess> processes;      ///< in the order of starting
+  bool hearsReferee = false;  ///< one of them writes COM_REFEREE; else a refereed match does
   /// It has programs that are not ours, or leaves the robot to somebody else's.
   bool hasOwn() const;
   /// Its decision is ours, which knows the extension of the map.
