@@ -7,6 +7,7 @@
 #include <memory>
 
 #include <robotlink/session/live_moments.h>
+#include <robotlink/session/session_choice.h>
 
 #include "commands.h"
 #include "interrupt.h"
@@ -79,19 +80,21 @@ int run(const Options& options) {
   ExportSelection selection;
   selection.range.begin = part->from.value_or(selection.range.begin);
   selection.range.end = part->until.value_or(selection.range.end);
-  if (const auto good = checkRange(selection.range); !good) return reportError(good.error());
+  selection.robots = options.robots;
+  if (const auto good = checkSelection(*session, selection); !good) {
+    return reportError(good.error());
+  }
   if (asReport || asPicture) {
-    const auto done =
-        asReport
-            ? exportReport(*session, selection.range, options.output)
-            : exportPictures(
-                  *session, {options.format, part->from, part->until, options.rate, options.output},
-                  std::ref(progress));
+    const auto done = asReport
+                          ? exportReport(*session, selection.range, options.robots, options.output)
+                          : exportPictures(*session,
+                                           {options.format, part->from, part->until, options.rate,
+                                            options.output, options.robots},
+                                           std::ref(progress));
     for (const std::string& note : session->notes())
       std::fprintf(stderr, "warning: %s\n", note.c_str());
     return done ? 0 : reportError(done.error());
   }
-  selection.robots = options.robots;
   selection.variables = options.variables;
   selection.messages = !options.rowsOnly;
   selection.clock = options.clock;
@@ -99,6 +102,7 @@ int run(const Options& options) {
   if (*format == ExportFormat::Mcap) {
     selection.opening = link::openingAt(*session, selection.range.begin);
   }
+  link::chooseRobots(*session, *format, selection);
   const auto report = [&] {
     if (!options.output.empty()) {
       return exportFile(*session, *format, selection, options.output, std::ref(progress));
@@ -148,7 +152,8 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
   command->add_option("--from", options->from, std::string("Begin: ") + sessionTimeForms)
       ->type_name("T");
   command->add_option("--until", options->until, "End, in the same forms")->type_name("T");
-  command->add_option("--robots", options->robots, "Only these, e.g. B1,R2 or match")
+  command
+      ->add_option("--robots", options->robots, "Only what belongs to these, e.g. B1,R2 or match")
       ->type_name("NAMES")
       ->delimiter(',');
   command->add_option("--variables", options->variables, "Only these; * stands for any letters")

@@ -120,7 +120,7 @@ Result<void> exportPictures(const telemetry::SessionReader& session, const Pictu
   }
   auto target = FileTarget::at(request.output, IfExists::Refuse, session.file().name());
   if (!target) return tl::unexpected(target.error());
-  link::RecordedFrames frames(link::backdropOf(session));
+  link::RecordedFrames frames(link::backdropOf(session, request.robots));
   if (format.arguments.empty()) {
     if (auto written = writeFile(target->partPath(), link::fieldSvg(frames.frameAt(session, from)),
                                  IfExists::Replace);

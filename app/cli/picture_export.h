@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <telemetry/session/session_export.h>
 
@@ -20,6 +21,7 @@ struct PictureRequest {
   std::optional<double> from, until;  ///< s; a picture is of `from`
   double rate = 10.0;                 ///< pictures a second of a video
   std::string output;
+  std::vector<std::string> robots;  ///< only these; empty: all
 };
 
 /// The file appears when it is whole. Error InvalidArgument, NotFound without ffmpeg, or as

@@ -12,7 +12,7 @@
 namespace pitchboard::cli {
 
 Result<void> exportReport(const telemetry::SessionReader& session, telemetry::TimeRange range,
-                          const std::string& output) {
+                          const std::vector<std::string>& robots, const std::string& output) {
   if (output.empty()) {
     return failure(ErrorCode::InvalidArgument, "a report needs a file; add -o FILE.html");
   }
@@ -27,10 +27,11 @@ Result<void> exportReport(const telemetry::SessionReader& session, telemetry::Ti
   content.title = session.info().title;
   content.statistics = link::statisticsOf(session, part);
   content.events = link::eventsOf(session);
+  link::keepRobots(content, robots);
   content.notes = session.notes();
   if (!session.complete()) content.notes.push_back("The recording broke off.");
 
-  link::RecordedFrames frames(link::backdropOf(session));
+  link::RecordedFrames frames(link::backdropOf(session, robots));
   const link::MatchFrame frame = frames.frameAt(session, part.end);
   if (!frame.robots.empty()) {
     content.picture = link::fieldSvg(frame);

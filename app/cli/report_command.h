@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <telemetry/session/session_reader.h>
 
@@ -13,6 +14,6 @@ namespace pitchboard::cli {
 /// The part of the session in the closed range (s; may reach beyond it) as an HTML page. Never over
 /// an existing file.
 Result<void> exportReport(const telemetry::SessionReader& session, telemetry::TimeRange range,
-                          const std::string& output);
+                          const std::vector<std::string>& robots, const std::string& output);
 
 }  // namespace pitchboard::cli

@@ -44,6 +44,40 @@ class TestCliExport : public QObject {
     QVERIFY2(run.exitCode == 0, run.err.constData());
   }
 
+  /// One robot of six, in everything that can be written.
+  void chosenRobotsOnly() {
+    const QString clip = path("one.mcap");
+    const auto picture = [&](const QString& session, const QStringList& more, const char* name) {
+      const ProgramRun run = cli(
+          QStringList{"export", session, "--to", "svg", "--from", "3", "-o", path(name)} + more);
+      return run.exitCode == 0 ? contents(path(name)) : QByteArray();
+    };
+    // Labels of robots: "1", or "B1".
+    const auto robotsIn = [](const QByteArray& svg) {
+      static const QRegularExpression label(QStringLiteral(">[A-Z]?[1-9]<"));
+      auto found = label.globalMatch(QString::fromUtf8(svg));
+      int count = 0;
+      for (; found.hasNext(); found.next()) ++count;
+      return count;
+    };
+    QCOMPARE(robotsIn(picture(m_session, {}, "all.svg")), 6);
+    QCOMPARE(
+        cli({"export", m_session, "--to", "mcap", "--robots", "B1,match", "-o", clip}).exitCode, 0);
+    QCOMPARE(robotsIn(picture(m_session, {"--robots", "B1"}, "chosen.svg")), 1);
+    QCOMPARE(robotsIn(picture(clip, {}, "clip.svg")), 1);
+    const ProgramRun report =
+        cli({"export", m_session, "--to", "report", "--robots", "B1", "-o", path("chosen.html")});
+    QVERIFY2(report.exitCode == 0, report.err.constData());
+    QVERIFY(contents(path("chosen.html")).contains("B1"));
+    QVERIFY(!contents(path("chosen.html")).contains(">R2<"));
+    const ProgramRun lines = cli({"export", m_session, "--to", "jsonl", "--robots", "B1"});
+    QVERIFY(lines.out.contains("\"B1\"") && !lines.out.contains("\"R2\""));
+    QVERIFY(!lines.out.contains("\"checkpoints\""));
+    QCOMPARE(
+        cli({"export", m_session, "--to", "svg", "--robots", "B9", "-o", path("no.svg")}).exitCode,
+        2);
+  }
+
   void evenTimesAndTimesOfDay() {
     const ProgramRun run = cli({"export", m_session, "--to", "csv-even", "--rate", "4", "--robots",
                                 "B1,match", "--variables", "TRUE_X,BALL_X", "--clock"});

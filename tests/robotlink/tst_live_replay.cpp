@@ -11,6 +11,7 @@
 #include <robotlink/report/report.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/recorded_frame.h>
+#include <robotlink/session/session_choice.h>
 #include <robotlink/session/session_events.h>
 #include <telemetry/wire/text_protocol.h>
 
@@ -248,6 +249,55 @@ class TestLiveReplay : public QObject {
     }
     // Its first moment is there also when a sum of seconds is rounded to just before it.
     QVERIFY(frames.frameAt(*session, std::nextafter(session->range()->begin, 0.0)).referee);
+  }
+
+  void aClipOfOneRobotHoldsNothingOfOthers_data() {
+    QTest::addColumn<bool>("fromTheMiddle");
+    QTest::newRow("whole") << false;
+    QTest::newRow("from the middle") << true;
+  }
+  void aClipOfOneRobotHoldsNothingOfOthers() {
+    QFETCH(bool, fromTheMiddle);
+    const auto session = telemetry::SessionReader::open(m_path);
+    QVERIFY(session);
+    telemetry::ExportSelection selection;
+    selection.robots = {"Robot 1"};
+    if (fromTheMiddle) selection.range.begin = m_frames[m_frames.size() / 2].snapshot.time;
+    chooseRobots(*session, telemetry::ExportFormat::Mcap, selection);
+    const std::string path =
+        m_folder.filePath(fromTheMiddle ? "one.mcap" : "part.mcap").toStdString();
+    const auto report =
+        telemetry::exportFile(*session, telemetry::ExportFormat::Mcap, selection, path);
+    QVERIFY2(report, report ? "" : report.error().text().c_str());
+    const auto clip = telemetry::SessionReader::open(path);
+    QVERIFY(clip);
+    for (const telemetry::SessionGroup& group : clip->groups()) {
+      QVERIFY2(group.info.name.starts_with("Robot 1"), group.info.name.c_str());
+    }
+    std::size_t datagrams = 0;
+    clip->messages(SessionStream::Telemetry, *clip->range(), [&](double, std::string_view json) {
+      ++datagrams;
+      return telemetry::sessionDatagram(json)->payload.starts_with("1 ");
+    });
+    QCOMPARE(datagrams, static_cast<std::size_t>(clip->count(SessionStream::Telemetry)));
+    QVERIFY(datagrams >= (fromTheMiddle ? 2U : 8U));
+    for (const telemetry::SessionEvent& event : clip->events()) {
+      QVERIFY2(event.group.empty() || event.group.ends_with("1"), event.group.c_str());
+    }
+    RecordedFrames frames(backdropOf(*clip)), only(backdropOf(*session, {"Robot 1"}));
+    for (const MatchFrame& seen : m_frames) {
+      if (seen.snapshot.time < selection.range.begin) continue;
+      // Pictures and videos of the session show what the clip shows.
+      for (const MatchFrame& frame : {frames.frameAt(*clip, seen.snapshot.time),
+                                      only.frameAt(*session, seen.snapshot.time)}) {
+        QCOMPARE(frame.robots.size(), std::size_t{1});
+        QCOMPARE(frame.robots[0].identity, seen.robots[0].identity);
+        QCOMPARE(frame.robots[0].pose, seen.robots[0].pose);
+        QCOMPARE(frame.robots[0].health->messages, seen.robots[0].health->messages);
+        QCOMPARE(frame.referee.has_value(), seen.referee.has_value());
+        QVERIFY(frame.snapshot.score == seen.snapshot.score);
+      }
+    }
   }
 
   void theReportKnowsRobotsScoreAndLink() {

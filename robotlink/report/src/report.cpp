@@ -8,6 +8,7 @@
 #include <ctime>
 
 #include <robotlink/report/report_page.h>
+#include <robotlink/session/session_choice.h>
 #include <telemetry/wire/base64.h>
 
 #include "report_charts.h"
@@ -237,6 +238,14 @@ std::string reportHtml(const ReportContent& c) {
          (c.session.program.empty() ? "" : ", recorded by " + escaped(c.session.program)) +
          ".</footer>\n</main></body></html>\n";
   return out;
+}
+
+void keepRobots(ReportContent& content, std::span<const std::string> robots) {
+  std::erase_if(content.statistics.robots,
+                [&](const RobotSummary& robot) { return !isChosen(robot.name, robots); });
+  std::erase_if(content.events, [&](const MatchEvent& event) {
+    return !event.name.empty() && !isChosen(event.name, robots);
+  });
 }
 
 Result<void> writeReport(const std::string& path, const ReportContent& content, IfExists ifExists,

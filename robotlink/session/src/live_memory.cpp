@@ -65,7 +65,7 @@ void LiveRecords::remembered(double time, std::string_view books) {
   keep(std::move(record));
 }
 
-void LiveMemory::keep(LiveRecord record) {
+void RecordMemory::remember(LiveRecord record) {
   auto kept = std::make_shared<const LiveRecord>(std::move(record));
   const std::lock_guard lock(m_mutex);
   m_bytes += bytesOf(*kept);
@@ -76,13 +76,21 @@ void LiveMemory::keep(LiveRecord record) {
   }
 }
 
-double LiveMemory::begin() const {
+void RecordMemory::forgetAfter(double time) {
+  const std::lock_guard lock(m_mutex);
+  while (!m_records.empty() && m_records.back()->time > time) {
+    m_bytes -= bytesOf(*m_records.back());
+    m_records.pop_back();
+  }
+}
+
+double RecordMemory::begin() const {
   const std::lock_guard lock(m_mutex);
   return m_records.empty() ? 0.0 : m_records.front()->time;
 }
 
-void LiveMemory::walk(std::span<const SessionStream> streams, telemetry::TimeRange range,
-                      const std::function<bool(const LiveRecord&)>& visit) const {
+void RecordMemory::walk(std::span<const SessionStream> streams, telemetry::TimeRange range,
+                        const std::function<bool(const LiveRecord&)>& visit) const {
   std::vector<Kept> wanted;
   {
     const std::lock_guard lock(m_mutex);

@@ -15,6 +15,7 @@
 #include <robotlink/live/live_rows.h>
 #include <robotlink/scenario/scenario.h>
 #include <robotlink/session/live_recorder.h>
+#include <robotlink/session/session_choice.h>
 #include <simcore/world/published_frame.h>
 
 #include "recorded_layout.h"
@@ -62,8 +63,9 @@ struct RecordedFrames::Flags {
   std::array<double, Layout::flagCount> seen;
 };
 
-FrameBackdrop backdropOf(const telemetry::SessionReader& session) {
+FrameBackdrop backdropOf(const telemetry::SessionReader& session, std::vector<std::string> robots) {
   FrameBackdrop out;
+  out.robots = std::move(robots);
   if (const auto field = session.info().more.find("field"); field != session.info().more.end()) {
     if (auto known = sim::fieldByName(field->second)) out.field = *known;
   }
@@ -134,6 +136,12 @@ MatchFrame RecordedFrames::frameAt(const telemetry::SeriesStore& rows, double ti
 }
 
 MatchFrame RecordedFrames::frameAt(const telemetry::SessionReader& session, double time) {
+  MatchFrame frame = wholeFrameAt(session, time);
+  keepRobots(frame, m_backdrop.robots);
+  return frame;
+}
+
+MatchFrame RecordedFrames::wholeFrameAt(const telemetry::SessionReader& session, double time) {
   if (session.count(telemetry::SessionStream::LiveState) == 0) return rowFrameAt(session, time);
   auto seen = m_live.frameAt(SessionHistory(session), time);
   if (!seen) return rowFrameAt(session, time);

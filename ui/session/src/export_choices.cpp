@@ -85,14 +85,16 @@ void ExportDialog::showClock() {
 
 /// False: it has said what is missing.
 bool ExportDialog::takeChoices(telemetry::ExportSelection& selection) {
+  const bool numbers = form().kind == ExportKind::Numbers;
   const QStringList robots = m_robots->checked(), variables = m_variables->checked();
   if (m_source.groups.empty()) return true;  // nothing to choose from yet: everything
-  if (robots.isEmpty() || variables.isEmpty()) {
+  if (robots.isEmpty() || (numbers && variables.isEmpty())) {
     fail(robots.isEmpty() ? QStringLiteral("Tick at least one robot.")
                           : QStringLiteral("Tick at least one variable."));
     return false;
   }
   if (!m_robots->isAllChecked()) selection.robots = textsOf(robots);
+  if (!numbers) return true;
   if (!m_variables->isAllChecked()) {
     // Those that the ticked robots have.
     QStringList known;

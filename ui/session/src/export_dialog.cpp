@@ -160,7 +160,7 @@ void ExportDialog::showRows() {
                      form().format != telemetry::ExportFormat::JsonLines;
   const bool even = numbers && form().format == telemetry::ExportFormat::CsvEven;
   m_rows->setRowVisible(m_when, !picture && m_source.clock.has_value());
-  m_rows->setRowVisible(m_robots, numbers);
+  m_rows->setRowVisible(m_robots, !picture);
   m_rows->setRowVisible(m_variables, numbers);
   m_rows->setRowVisible(m_lines, even);
   m_rows->setRowVisible(m_between, even);
@@ -190,7 +190,7 @@ void ExportDialog::exportTo(const QString& path) {
   request.session = m_source.session;
   request.path = path;
   request.selection.range = {m_begin->moment(), m_end->moment()};
-  if (chosen.kind == ExportKind::Numbers && !takeChoices(request.selection)) return;
+  if (!takeChoices(request.selection)) return;
   if (request.selection.range.begin > request.selection.range.end) {
     fail(QStringLiteral("The range ends before it begins."));
     return;
@@ -270,7 +270,8 @@ void ExportDialog::writeVideo(const ExportRequest& request) {
   options.program = m_program;
   options.overwrite = true;
   const auto range = request.selection.range;
-  if (const auto started = m_video->start(request.session, {range.begin, range.end}, options);
+  if (const auto started = m_video->start(request.session, {range.begin, range.end}, options,
+                                          request.selection.robots);
       !started) {
     setWriting(false);
     fail(QString::fromStdString(started.error().text()));

@@ -9,6 +9,7 @@ namespace pitchboard::ui {
 
 struct VideoExport::Reader {
   QString path;
+  std::vector<std::string> robots;
   std::optional<telemetry::SessionReader> session;
   std::optional<link::RecordedFrames> frames;
   std::string problem;
@@ -21,7 +22,7 @@ struct VideoExport::Reader {
         return nullptr;
       }
       session.emplace(std::move(*opened));
-      frames.emplace(link::backdropOf(*session));
+      frames.emplace(link::backdropOf(*session, robots));
     }
     return std::make_shared<link::MatchFrame>(frames->frameAt(*session, time));
   }
@@ -47,7 +48,8 @@ VideoExport::~VideoExport() {
 }
 
 Result<void> VideoExport::start(const QString& session, telemetry::TimeRange range,
-                                const VideoOptions& options) {
+                                const VideoOptions& options,
+                                const std::vector<std::string>& robots) {
   if (!(range.end >= range.begin) || !std::isfinite(range.end - range.begin)) {
     return tl::unexpected(Error{ErrorCode::InvalidArgument, "the range ends before it begins", {}});
   }
@@ -56,6 +58,7 @@ Result<void> VideoExport::start(const QString& session, telemetry::TimeRange ran
   if (auto started = m_writer.start(own); !started) return started;
   m_reader = std::make_shared<Reader>();
   m_reader->path = session;
+  m_reader->robots = robots;
   m_range = range;
   m_rate = options.framesPerSecond;
   m_pictures = static_cast<qint64>((range.end - range.begin) * m_rate) + 1;

@@ -23,10 +23,11 @@ class VideoExport : public QObject {
   VideoExport(std::unique_ptr<FramePainter> painter, QObject* parent);
   ~VideoExport() override;  ///< as cancel()
 
-  /// One second of the session is one second of the video. Errors as VideoWriter::start(), and
-  /// InvalidArgument for a range that ends before it begins; later ones come by failed().
+  /// Of these robots (session_choice.h). One second of the session is one second of the video.
+  /// Errors as VideoWriter::start(), and InvalidArgument for a range that ends before it begins;
+  /// later ones come by failed().
   Result<void> start(const QString& session, telemetry::TimeRange range,
-                     const VideoOptions& options);
+                     const VideoOptions& options, const std::vector<std::string>& robots = {});
   /// Ends at once and leaves no file. No signal follows.
   void cancel();
 

@@ -4,6 +4,7 @@
 // A match on one page: an HTML file that needs nothing but itself (style, curves and the picture
 // are in it), for a browser of any kind, light or dark, and for printing.
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct ReportContent {
   std::string pictureCaption;
   std::vector<std::string> notes;  ///< what a reader must know, e.g. that the recording broke off
 };
+
+/// Takes other robots out of it: their figures and events (session_choice.h).
+void keepRobots(ReportContent& content, std::span<const std::string> robots);
 
 /// The page. Everything that came from a file or the network is escaped; an SVG picture is shown as
 /// an image, so that nothing in it can run.

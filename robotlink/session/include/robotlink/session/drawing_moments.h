@@ -5,11 +5,8 @@
 // datagrams, which a DrawingMemory keeps of a match that is played, and a session file of one that
 // was recorded. (Of a live match LiveMoments does the same.) Times are seconds of the match.
 
-#include <deque>
-#include <mutex>
-
 #include <robotlink/match/tick_observer.h>
-#include <robotlink/session/live_moments.h>
+#include <robotlink/session/live_memory.h>
 
 namespace pitchboard::link {
 
@@ -27,24 +24,13 @@ class DrawingMoments {
 /// A datagram that was drawn, as a session keeps it.
 LiveRecord drawingRecord(const HeardDrawing& drawing);
 
-/// The newest drawings of a match that fit into `bytes`. Observes it; asked from any thread.
-class DrawingMemory : public TickObserver, public LiveHistory {
+/// Of a match, which it observes.
+class DrawingMemory : public TickObserver, public RecordMemory {
  public:
-  static constexpr std::size_t usualBytes = std::size_t{64} << 20;
-  explicit DrawingMemory(std::size_t bytes = usualBytes) : m_room(bytes) {}
+  explicit DrawingMemory(std::size_t bytes = std::size_t{64} << 20) : RecordMemory(bytes) {}
 
   void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) override;
   void drew(std::span<const HeardDrawing> drawings) override;
-
-  void walk(std::span<const telemetry::SessionStream> streams, telemetry::TimeRange range,
-            const std::function<bool(const LiveRecord&)>& visit) const override;
-  double begin() const override;
-
- private:
-  const std::size_t m_room;
-  mutable std::mutex m_mutex;
-  std::deque<std::shared_ptr<const LiveRecord>> m_records;  // in order of time
-  std::size_t m_bytes = 0;
 };
 
 }  // namespace pitchboard::link

@@ -36,26 +36,36 @@ class LiveRecords : public LiveObserver {
   std::optional<telemetry::RefereeState> m_refereeNews;  // not in a frame yet
 };
 
-/// The newest records that fit into `bytes`. Any thread.
-class LiveMemory : public LiveRecords, public LiveHistory {
+/// The newest records that fit into so many bytes, about in order of time: what is looked back to.
+/// Any thread.
+class RecordMemory : public LiveHistory {
  public:
-  static constexpr std::size_t usualBytes = std::size_t{128} << 20;
-  explicit LiveMemory(int refereePort, std::size_t bytes = usualBytes)
-      : LiveRecords(refereePort), m_room(bytes) {}
+  explicit RecordMemory(std::size_t bytes) : m_room(bytes) {}
+
+  void remember(LiveRecord record);
+  /// What was put back is not the past.
+  void forgetAfter(double time);
 
   void walk(std::span<const telemetry::SessionStream> streams, telemetry::TimeRange range,
             const std::function<bool(const LiveRecord&)>& visit) const override;
   double begin() const override;
 
- protected:
-  void keep(LiveRecord record) override;
-
  private:
   using Kept = std::shared_ptr<const LiveRecord>;
   const std::size_t m_room;
   mutable std::mutex m_mutex;
-  std::deque<Kept> m_records;  // about in order of time
+  std::deque<Kept> m_records;
   std::size_t m_bytes = 0;
+};
+
+/// Of a live match.
+class LiveMemory : public LiveRecords, public RecordMemory {
+ public:
+  explicit LiveMemory(int refereePort, std::size_t bytes = std::size_t{128} << 20)
+      : LiveRecords(refereePort), RecordMemory(bytes) {}
+
+ protected:
+  void keep(LiveRecord record) override { remember(std::move(record)); }
 };
 
 }  // namespace pitchboard::link

@@ -30,11 +30,13 @@ struct FrameBackdrop {
   std::uint64_t seed = 0;
   double tickRate = 60.0;
   std::optional<telemetry::Profile> profile;  ///< what live robots' fields mean
+  std::vector<std::string> robots;            ///< only these are shown (session_choice.h)
 };
 
 /// From the scenario and the profile that the session holds; the published field where there is
 /// none.
-FrameBackdrop backdropOf(const telemetry::SessionReader& session);
+FrameBackdrop backdropOf(const telemetry::SessionReader& session,
+                         std::vector<std::string> robots = {});
 
 class RecordedFrames {
  public:
@@ -55,6 +57,7 @@ class RecordedFrames {
   struct Flags;
   template <class LookBack>
   MatchFrame build(double time, LookBack&& lookBack);
+  MatchFrame wholeFrameAt(const telemetry::SessionReader& session, double time);
   MatchFrame rowFrameAt(const telemetry::SessionReader& session, double time);
   const Layout& layoutOf(std::size_t group);
   void addReferee(const telemetry::SessionReader& session, double time, MatchFrame& frame);

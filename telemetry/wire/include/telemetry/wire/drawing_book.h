@@ -6,6 +6,7 @@
 // its owner. Times are seconds of the source and are handed in.
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -38,6 +39,10 @@ class DrawingBook {
   /// Why the last one was refused; empty: none was.
   const std::string& lastProblem() const { return m_lastProblem; }
   void clear() { *this = {}; }
+  /// Drops the layers of the robots for which it says true.
+  void forget(const std::function<bool(int robot)>& which) {
+    std::erase_if(m_robots, [&](const auto& robot) { return which(robot.first); });
+  }
 
   /// What makes this book again, layer by layer: the text, and when it was heard.
   struct Page {
