@@ -81,12 +81,11 @@ int run(const Options& options) {
   selection.range.end = part->until.value_or(selection.range.end);
   if (const auto good = checkRange(selection.range); !good) return reportError(good.error());
   if (asReport || asPicture) {
-    const auto done =
-        asReport
-            ? exportReport(*session, selection.range, options.output)
-            : exportPictures(
-                  *session, {options.format, part->from, part->until, options.rate, options.output},
-                  std::ref(progress));
+    const auto done = asReport ? exportReport(*session, selection.range, options.output)
+                               : exportPictures(*session,
+                                                {options.format, part->from, part->until,
+                                                 options.rate, options.output, options.robots},
+                                                std::ref(progress));
     for (const std::string& note : session->notes())
       std::fprintf(stderr, "warning: %s\n", note.c_str());
     return done ? 0 : reportError(done.error());
@@ -141,8 +140,8 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       ->add_option("--to", options->format,
                    "csv-wide: a line per time; csv-even: the same at even times; csv-long: a line "
                    "per value; jsonl; mcap; report: an HTML page with score, statistics and "
-                   "events; svg, png: the field at --from; mp4, webm: a video of the field (png "
-                   "and videos need ffmpeg)")
+                   "events; svg, png: the field at --from; mp4, webm: a video of the field "
+                   "(the studio paints; videos need ffmpeg, too)")
       ->type_name("FORMAT")
       ->capture_default_str();
   command->add_option("--from", options->from, std::string("Begin: ") + sessionTimeForms)

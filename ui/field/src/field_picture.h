@@ -10,7 +10,12 @@
 
 namespace pitchboard::ui {
 
-/// The whole field as large as it fits into `size` pixels, without selection marks. UI thread; the
+/// The largest picture within `size` pixels that the field with its border fills; both sides are
+/// even, as videos want them.
+QSize pictureSize(const sim::FieldSpec& field, QSize within);
+
+/// The whole field as large as it fits into `size` pixels, without selection marks, and over it
+/// score, match clock and state: a file has no window round it that tells them. UI thread; the
 /// scene is as before afterwards.
 QImage paintPicture(FieldScene& scene, QSize size);
 

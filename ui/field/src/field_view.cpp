@@ -361,6 +361,9 @@ bool FieldView::isFlipped() const {
   return d->tools->flip()->isChecked();
 }
 
+QSize FieldView::pictureSize(QSize within) const {
+  return ui::pictureSize(d->scene->style().field, within);
+}
 QImage FieldView::picture(QSize size) const {
   return paintPicture(*d->scene, size);
 }

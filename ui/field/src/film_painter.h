@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Pictures of a video: each moment on a field of its own, with score and time in the picture. UI
-// thread only.
+// Pictures of a video: each moment on a field of its own, with the layers of a style. UI thread
+// only.
 
 #include <ui/sources/field_pictures.h>
 

@@ -14,9 +14,9 @@
 #include <ui/base/number_box.h>
 #include <ui/session/export_dialog.h>
 
+#include <ui/session/video_export.h>
 #include "check_list.h"
 #include "moment_box.h"
-#include "video_export.h"
 
 namespace pitchboard::ui {
 namespace {

@@ -21,13 +21,12 @@
 #include <base/file_target.h>
 #include <ui/base/dialog_size.h>
 #include <ui/base/number_box.h>
-#include <ui/base/picture_bytes.h>
 #include <ui/base/theme.h>
 #include <ui/sources/field_pictures.h>
 
+#include <ui/session/video_export.h>
 #include "check_list.h"
 #include "moment_box.h"
-#include "video_export.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -90,6 +89,8 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
        {QSize(1280, 720), QSize(1920, 1080), QSize(640, 360), QSize(3840, 2160)}) {
     m_size->addItem(QStringLiteral("%1 × %2").arg(size.width()).arg(size.height()), size);
   }
+  m_size->setToolTip(
+      QStringLiteral("The picture takes the shape of the field, as large as it fits in here."));
   m_rate->setRange(1, 60);
   m_rate->setValue(30);
   m_rate->setSuffix(QStringLiteral(" pictures a second"));
@@ -231,7 +232,7 @@ void ExportDialog::write(const ExportRequest& request) {
   }
   QByteArray picture;
   if (form().kind == ExportKind::Report) {
-    picture = pictureBytes(m_pictures->picture({1040, 740}));
+    picture = m_pictures->pictureFile({1040, 740}, QStringLiteral("png"));
   }
   m_worker.start([this, request, chosen = form(), picture] {
     const auto done = writeExport(request, chosen, picture, [this](double part) {
@@ -265,12 +266,13 @@ void ExportDialog::writeVideo(const ExportRequest& request) {
   });
   VideoOptions options;
   options.path = request.path;
-  options.size = m_size->currentData().toSize();
+  options.size = m_pictures->pictureSize(m_size->currentData().toSize());
   options.framesPerSecond = m_rate->value();
   options.program = m_program;
   options.overwrite = true;
   const auto range = request.selection.range;
-  if (const auto started = m_video->start(request.session, {range.begin, range.end}, options);
+  if (const auto started = m_video->start(request.session, {range.begin, range.end},
+                                          request.selection.robots, options);
       !started) {
     setWriting(false);
     fail(QString::fromStdString(started.error().text()));
@@ -278,13 +280,8 @@ void ExportDialog::writeVideo(const ExportRequest& request) {
 }
 
 void ExportDialog::writePicture(const QString& path) {
-  const QSize size = m_size->currentData().toSize();
-  QByteArray bytes;
-  if (form().kind == ExportKind::Svg) {
-    bytes = m_pictures->svgPicture(size);
-  } else {
-    bytes = pictureBytes(m_pictures->picture(size));
-  }
+  const QByteArray bytes = m_pictures->pictureFile(m_size->currentData().toSize(),
+                                                   suffix().mid(1));  // without its dot
   const auto written =
       writeFile(path.toStdString(), {bytes.constData(), static_cast<std::size_t>(bytes.size())},
                 IfExists::Replace, m_source.session.toStdString());

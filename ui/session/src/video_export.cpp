@@ -1,14 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "video_export.h"
+#include <ui/session/video_export.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <robotlink/session/recorded_frame.h>
+#include <ui/base/robot_words.h>
 
 namespace pitchboard::ui {
 
+void keepRobots(link::MatchFrame& frame, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  std::erase_if(frame.robots, [&names](const link::RobotFrame& robot) {
+    return std::ranges::find(names, robotName(robot.identity).toStdString()) == names.end();
+  });
+  std::erase_if(frame.drawings, [&frame](const telemetry::RobotDrawings& drawn) {
+    return frame.robot(RobotId{drawn.robot}) == nullptr;
+  });
+}
+
 struct VideoExport::Reader {
   QString path;
+  std::vector<std::string> robots;
   std::optional<telemetry::SessionReader> session;
   std::optional<link::RecordedFrames> frames;
   std::string problem;
@@ -23,7 +36,9 @@ struct VideoExport::Reader {
       session.emplace(std::move(*opened));
       frames.emplace(link::backdropOf(*session));
     }
-    return std::make_shared<link::MatchFrame>(frames->frameAt(*session, time));
+    auto frame = std::make_shared<link::MatchFrame>(frames->frameAt(*session, time));
+    keepRobots(*frame, robots);
+    return frame;
   }
 };
 
@@ -47,6 +62,7 @@ VideoExport::~VideoExport() {
 }
 
 Result<void> VideoExport::start(const QString& session, telemetry::TimeRange range,
+                                const std::vector<std::string>& robots,
                                 const VideoOptions& options) {
   if (!(range.end >= range.begin) || !std::isfinite(range.end - range.begin)) {
     return tl::unexpected(Error{ErrorCode::InvalidArgument, "the range ends before it begins", {}});
@@ -56,6 +72,7 @@ Result<void> VideoExport::start(const QString& session, telemetry::TimeRange ran
   if (auto started = m_writer.start(own); !started) return started;
   m_reader = std::make_shared<Reader>();
   m_reader->path = session;
+  m_reader->robots = robots;
   m_range = range;
   m_rate = options.framesPerSecond;
   m_pictures = static_cast<qint64>((range.end - range.begin) * m_rate) + 1;
