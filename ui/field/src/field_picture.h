@@ -6,6 +6,8 @@
 #include <QByteArray>
 #include <QImage>
 
+#include <ui/sources/field_pictures.h>
+
 #include "field_scene.h"
 
 namespace pitchboard::ui {
@@ -22,5 +24,16 @@ QImage paintPicture(FieldScene& scene, QSize size);
 /// The same as an SVG document, whose user unit is one pixel of `size`. Empty when it cannot be
 /// made.
 QByteArray svgPicture(FieldScene& scene, QSize size);
+
+/// Moments one after another, each on a field of its own. UI thread only.
+class FilmPainter : public FramePainter {
+ public:
+  /// Side and layers are taken from `style`.
+  explicit FilmPainter(const FieldStyle& style);
+  QImage paint(const FramePtr& frame, QSize size) override;
+
+ private:
+  FieldScene m_scene;
+};
 
 }  // namespace pitchboard::ui

@@ -22,7 +22,6 @@
 #include "field_menu.h"
 #include "field_pointer.h"
 #include "field_tools.h"
-#include "film_painter.h"
 #include "help_overlay.h"
 #include "hover_text.h"
 #include "pose_editor.h"
