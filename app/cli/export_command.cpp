@@ -145,8 +145,8 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       ->add_option("--to", options->format,
                    "csv-wide: a line per time; csv-even: the same at even times; csv-long: a line "
                    "per value; jsonl; mcap; report: an HTML page with score, statistics and "
-                   "events; svg, png: the field at --from; mp4, webm: a video of the field (png "
-                   "and videos need ffmpeg)")
+                   "events; svg, png: the field at --from; mp4, webm: a video of the field "
+                   "(the studio paints; videos need ffmpeg, too)")
       ->type_name("FORMAT")
       ->capture_default_str();
   command->add_option("--from", options->from, std::string("Begin: ") + sessionTimeForms)

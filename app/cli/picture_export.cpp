@@ -1,46 +1,114 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture_export.h"
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cmath>
-#include <cstdio>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <vector>
+#include <utility>
 
+#include <app/command_line.h>
+#include <base/descriptor.h>
 #include <base/file_target.h>
+#include <base/read_file.h>
 #include <base/system_reason.h>
-#include <robotlink/report/field_svg.h>
-#include <robotlink/session/recorded_frame.h>
+#include <robotlink/processes/own_program.h>
+
+#include "interrupt.h"
 
 extern char** environ;
 
 namespace pitchboard::cli {
 namespace {
 
-constexpr double mostRate = 120.0;
-constexpr double mostPictures = 200'000;
+constexpr std::array<std::string_view, 4> formats{"svg", "png", "mp4", "webm"};
 
-struct Format {
-  std::string_view name;
-  std::vector<std::string> arguments;  // of ffmpeg, behind what it reads
+std::string studioProgram() {
+  if (const char* named = std::getenv("PITCHBOARD_STUDIO")) return named;
+  const std::string beside = link::besideOwnProgram("pitchboard");
+  return access(beside.c_str(), X_OK) == 0 ? beside : "pitchboard";
+}
+
+/// What the studio prints: the share that is done, or why it failed.
+struct StudioOutput {
+  std::string line, last;
+
+  void take(std::string_view text, const telemetry::ExportProgress& progress) {
+    for (const char c : text) {
+      if (c != '\n') {
+        line += c;
+        continue;
+      }
+      if (const auto part = shared::numberFrom(line); part && progress)
+        progress(*part);
+      else if (!last.starts_with("error: "))
+        last = line;
+      line.clear();
+    }
+  }
 };
 
-const std::array<Format, 4>& formats() {
-  static const std::array<Format, 4> all{{
-      {"svg", {}},
-      {"png", {"-frames:v", "1", "-c:v", "png", "-f", "image2"}},
-      {"mp4",
-       {"-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags",
-        "+faststart", "-f", "mp4"}},
-      {"webm",
-       {"-c:v", "libvpx-vp9", "-crf", "32", "-b:v", "0", "-pix_fmt", "yuv420p", "-f", "webm"}},
-  }};
-  return all;
+Result<void> runStudio(std::vector<std::string> arguments,
+                       const telemetry::ExportProgress& progress) {
+  std::vector<char*> plain;
+  for (std::string& argument : arguments) plain.push_back(argument.data());
+  plain.push_back(nullptr);
+  setenv("QT_QPA_PLATFORM", "offscreen", 1);
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) {
+    return failure(ErrorCode::SystemError, "no pipe can be made: " + systemReason(errno));
+  }
+  const Descriptor output(ends[0]);
+  Descriptor input(ends[1]);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, input.get(), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, input.get(), STDERR_FILENO);
+  pid_t process = 0;
+  const int failed = posix_spawnp(&process, plain[0], &actions, nullptr, plain.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  input.reset();
+  if (failed != 0) {
+    return failure(failed == ENOENT ? ErrorCode::NotFound : ErrorCode::SystemError,
+                   "The studio paints pictures and videos, and " + arguments[0] +
+                       " cannot be started (" + systemReason(failed) +
+                       "). Install the studio, or name its program in PITCHBOARD_STUDIO.");
+  }
+  StudioOutput said;
+  std::array<char, 4096> buffer{};
+  for (bool asked = false;;) {
+    if (interrupted && !std::exchange(asked, true)) kill(process, SIGTERM);
+    const ssize_t count = read(output.get(), buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    said.take({buffer.data(), static_cast<std::size_t>(count)}, progress);
+  }
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+  if (interrupted) return failure(ErrorCode::Conflict, "The export was stopped.");
+  constexpr std::string_view error = "error: ";
+  const bool told = said.last.starts_with(error);
+  return failure(ErrorCode::SystemError,
+                 told ? said.last.substr(error.size())
+                      : "The studio ended without painting. Its last words: " + said.last);
+}
+
+std::vector<std::string> paintArguments(const std::string& session, const std::string& picture,
+                                        double from, const std::vector<std::string>& robots) {
+  // The colours are those of the dark theme on every desktop.
+  std::vector<std::string> arguments{studioProgram(), "--theme", "dark",
+                                     "--paint",       session,   "--picture",
+                                     picture,         "--from",  std::to_string(from)};
+  for (const std::string& robot : robots) arguments.insert(arguments.end(), {"--only", robot});
+  return arguments;
 }
 
 /// Gone with everything in it.
@@ -62,105 +130,47 @@ class Folder {
   std::string m_path;
 };
 
-/// The file that ffmpeg read: places count from 0.
-std::string pictureName(const std::string& folder, std::uint64_t number) {
-  char name[32];
-  std::snprintf(name, sizeof name, "/%08llu.svg", static_cast<unsigned long long>(number));
-  return folder + name;
-}
-
-Result<void> runFfmpeg(std::vector<std::string> arguments) {
-  std::vector<char*> plain;
-  for (std::string& argument : arguments) plain.push_back(argument.data());
-  plain.push_back(nullptr);
-  pid_t process = 0;
-  const int failed = posix_spawnp(&process, "ffmpeg", nullptr, nullptr, plain.data(), environ);
-  if (failed == ENOENT) {
-    return failure(ErrorCode::NotFound,
-                   "Pictures and videos are made by ffmpeg, which is not installed here. Install "
-                   "the package ffmpeg and try again, or choose svg.");
-  }
-  if (failed != 0) {
-    return failure(ErrorCode::SystemError, "ffmpeg cannot be started: " + systemReason(failed));
-  }
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    return failure(ErrorCode::SystemError,
-                   "ffmpeg ended with an error; what it said stands above.");
-  }
-  return {};
-}
-
 }  // namespace
 
 bool isPictureFormat(std::string_view format) {
-  return std::ranges::find(formats(), format, &Format::name) != formats().end();
+  return std::ranges::find(formats, format) != formats.end();
 }
 
 Result<void> exportPictures(const telemetry::SessionReader& session, const PictureRequest& request,
                             const telemetry::ExportProgress& progress) {
-  const Format& format = *std::ranges::find(formats(), request.format, &Format::name);
-  const bool video = format.name == "mp4" || format.name == "webm";
   if (request.output.empty()) {
     return failure(ErrorCode::InvalidArgument, "a picture needs a file; add -o FILE");
   }
   const auto all = session.range();
   if (!all) return failure(ErrorCode::NotFound, "there is nothing in this session");
-  const double from = std::clamp(request.from.value_or(all->begin), all->begin, all->end);
-  const double until = std::clamp(request.until.value_or(all->end), all->begin, all->end);
-  if (video && (!(request.rate >= 1.0) || request.rate > mostRate)) {
-    return failure(ErrorCode::InvalidArgument, "a video has 1 to 120 pictures a second");
-  }
-  const double count = video ? std::floor((until - from) * request.rate) + 1.0 : 1.0;
-  if (count < 1.0 || count > mostPictures) {
-    return failure(ErrorCode::InvalidArgument,
-                   "a video has 1 to 200000 pictures; choose --from, --until and --rate");
-  }
-  auto target = FileTarget::at(request.output, IfExists::Refuse, session.file().name());
+  const std::string& file = session.file().name();
+  auto target = FileTarget::at(request.output, IfExists::Refuse, file);
   if (!target) return tl::unexpected(target.error());
-  link::RecordedFrames frames(link::backdropOf(session, request.robots));
-  if (format.arguments.empty()) {
-    if (auto written = writeFile(target->partPath(), link::fieldSvg(frames.frameAt(session, from)),
-                                 IfExists::Replace);
-        !written) {
-      return written;
-    }
-    return target->commit();
+  // The studio knows the format by the name.
+  const std::string picture = target->partPath() + '.' + request.format;
+  auto arguments = paintArguments(file, picture, request.from.value_or(all->begin), request.robots);
+  for (const auto& [option, value] :
+       {std::pair{"--until", request.until.value_or(all->end)}, {"--rate", request.rate}}) {
+    arguments.insert(arguments.end(), {option, std::to_string(value)});
   }
+  if (auto painted = runStudio(std::move(arguments), progress); !painted) return painted;
+  if (std::rename(picture.c_str(), target->partPath().c_str()) != 0) {
+    return failure(ErrorCode::SystemError, "the picture cannot be named: " + systemReason(errno));
+  }
+  return target->commit();
+}
+
+Result<std::string> svgPicture(const telemetry::SessionReader& session, double time,
+                               const std::vector<std::string>& robots) {
+  constexpr std::size_t mostBytes = std::size_t{64} << 20;
   const Folder folder;
   if (folder.path().empty()) {
     return failure(ErrorCode::SystemError, "the folder for temporary files cannot be used");
   }
-  const auto pictures = static_cast<std::uint64_t>(count);
-  for (std::uint64_t i = 0; i < pictures; ++i) {
-    const double time = from + static_cast<double>(i) / request.rate;
-    const auto written =
-        writeFile(pictureName(folder.path(), i), link::fieldSvg(frames.frameAt(session, time)),
-                  IfExists::Replace);
-    if (!written) return written;
-    if (progress && !progress(0.5 * static_cast<double>(i) / count)) {
-      return failure(ErrorCode::Conflict, "The export was stopped.");
-    }
-  }
-  // Codecs want an even number of pixels.
-  std::vector<std::string> arguments{"ffmpeg",
-                                     "-nostdin",
-                                     "-loglevel",
-                                     "error",
-                                     "-xerror",  // no room for the end of the file is an error
-                                     "-y",
-                                     "-framerate",
-                                     std::to_string(request.rate),
-                                     "-i",
-                                     folder.path() + "/%08d.svg",
-                                     "-vf",
-                                     "scale=trunc(iw/2)*2:trunc(ih/2)*2"};
-  arguments.insert(arguments.end(), format.arguments.begin(), format.arguments.end());
-  arguments.push_back(target->partPath());
-  if (auto made = runFfmpeg(std::move(arguments)); !made) return made;
-  return target->commit();
+  const std::string picture = folder.path() + "/field.svg";
+  const auto painted = runStudio(paintArguments(session.file().name(), picture, time, robots), {});
+  if (!painted) return tl::unexpected(painted.error());
+  return readFile(picture, mostBytes);
 }
 
 }  // namespace pitchboard::cli

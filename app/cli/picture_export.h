@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Pictures and videos of the field from a session, without a display: drawn as SVG here, made into
-// pixels by ffmpeg. The command's thread, which waits.
+// Pictures and videos of the field from a session. The studio program paints them, offscreen: then
+// they look like the studio, and nothing here needs Qt. The command's thread, which waits.
 
 #include <optional>
 #include <string>
@@ -21,12 +21,16 @@ struct PictureRequest {
   std::optional<double> from, until;  ///< s; a picture is of `from`
   double rate = 10.0;                 ///< pictures a second of a video
   std::string output;
-  std::vector<std::string> robots;  ///< only these; empty: all
+  std::vector<std::string> robots = {};  ///< only these; empty: all
 };
 
-/// The file appears when it is whole. Error InvalidArgument, NotFound without ffmpeg, or as
-/// FileTarget.
+/// The file appears when it is whole. Error InvalidArgument, NotFound without the studio, Conflict
+/// when interrupted, or SystemError with what the studio said.
 Result<void> exportPictures(const telemetry::SessionReader& session, const PictureRequest& request,
                             const telemetry::ExportProgress& progress);
+
+/// A picture of a moment (s) as the text of an SVG document.
+Result<std::string> svgPicture(const telemetry::SessionReader& session, double time,
+                               const std::vector<std::string>& robots = {});
 
 }  // namespace pitchboard::cli

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <robotlink/report/field_svg.h>
 #include <robotlink/report/report.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_events.h>
+
+#include "picture_export.h"
 
 namespace pitchboard::cli {
 
@@ -34,12 +35,16 @@ Result<void> exportReport(const telemetry::SessionReader& session, telemetry::Ti
   link::RecordedFrames frames(link::backdropOf(session, robots));
   const link::MatchFrame frame = frames.frameAt(session, part.end);
   if (!frame.robots.empty()) {
-    content.picture = link::fieldSvg(frame);
-    char caption[96];
-    std::snprintf(
-        caption, sizeof caption, "The field at %.1f s%s", part.end,
-        frame.truthKnown ? "; dashed: where the robots believe to be." : ", as the robots say.");
-    content.pictureCaption = caption;
+    if (const auto picture = svgPicture(session, part.end)) {
+      content.picture = *picture;
+      char caption[96];
+      std::snprintf(
+          caption, sizeof caption, "The field at %.1f s%s", part.end,
+          frame.truthKnown ? "; dashed: where the robots believe to be." : ", as the robots say.");
+      content.pictureCaption = caption;
+    } else {
+      content.notes.push_back("The picture of the field is missing: " + picture.error().text());
+    }
   }
   return link::writeReport(output, content, IfExists::Refuse, session.file().name());
 }

@@ -84,9 +84,26 @@ void addOptions(CLI::App& app, Arguments& a) {
   CLI::Option* render = app.add_option("--render-scenario", a.renderScenario,
                                        "Draw a scenario's start to --picture, without a window")
                             ->type_name("NAME|FILE");
-  app.add_option("--picture", a.picture, "Where --render-scenario writes")
-      ->type_name("FILE.png")
-      ->needs(render);
+  CLI::Option* paint =
+      app.add_option("--paint", a.paint,
+                     "Paint the field at --from of this session, or a video from --from until "
+                     "--until, to --picture, without a window")
+          ->type_name("FILE.mcap")
+          ->excludes(render);
+  app.add_option("--picture", a.picture,
+                 "Where --render-scenario and --paint write: .png or .svg; --paint: also .mp4 or "
+                 ".webm")
+      ->type_name("FILE");
+  app.add_option("--from", a.from, "Time in the session")->type_name("SECONDS")->needs(paint);
+  app.add_option("--until", a.until, "End of a video")->type_name("SECONDS")->needs(paint);
+  app.add_option("--rate", a.rate, "Pictures a second of a video")
+      ->type_name("N")
+      ->capture_default_str()
+      ->needs(paint);
+  app.add_option("--only", a.paintRobots, "Paint only these robots, e.g. B1,R2")
+      ->type_name("NAMES")
+      ->delimiter(',')
+      ->needs(paint);
 }
 
 /// A file named without an option is a scenario when it ends in .json, else a session. False when
@@ -128,9 +145,12 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
   arguments.scenarioGiven = app.count("--scenario") > 0 || arguments.file.ends_with(".json");
   arguments.onlySession =
       !arguments.session.empty() && onlyGiven(app, {"--session", "file", "--settings"});
-  if (arguments.renderScenario.empty() != arguments.picture.empty()) {
-    return shared::reportError(
-        {ErrorCode::InvalidArgument, "--render-scenario needs --picture FILE.png to write to", {}});
+  const bool paints = !arguments.renderScenario.empty() || !arguments.paint.empty();
+  if (paints == arguments.picture.empty()) {
+    return shared::reportError({ErrorCode::InvalidArgument,
+                                "--render-scenario and --paint need --picture FILE to write to, "
+                                "and --picture needs one of them",
+                                {}});
   }
   if (!arguments.record.empty() && !arguments.session.empty()) {
     return shared::reportError({ErrorCode::InvalidArgument,

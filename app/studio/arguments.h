@@ -31,7 +31,11 @@ struct Arguments {
   double after = 2.0;
   std::string size;
   std::string renderScenario;
+  std::string paint;  ///< session to paint into `picture`
   std::string picture;
+  std::optional<double> from, until;     ///< s of the session
+  double rate = 10.0;                    ///< pictures a second of a video
+  std::vector<std::string> paintRobots;  ///< only these; empty: all
   std::string settings;
   std::string file;          ///< named without an option: a session or a scenario to open
   std::string session;       ///< a recorded session to open in Replay

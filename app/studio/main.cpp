@@ -14,7 +14,6 @@
 #include <robotlink/processes/own_program.h>
 #include <ui/base/save_file.h>
 #include <ui/base/theme.h>
-#include <ui/field/field_view.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/window/main_window.h>
@@ -22,10 +21,13 @@
 
 #include "arguments.h"
 #include "end_signals.h"
+#include "paint.h"
 #include "running_studio.h"
 
 namespace pitchboard::studio {
 namespace {
+
+constexpr WindowSize pictureSize{1280, 960};  // of which the field takes its shape
 
 QIcon programIcon() {
   QIcon icon;
@@ -84,31 +86,6 @@ Result<void> checkRecordFolder(const Arguments& arguments) {
       ErrorCode::SystemError,
       "no file can be made in the folder " + folder.path().toStdString() + "; choose another one",
       "--record");
-}
-
-int renderScenario(const Arguments& arguments, const link::Scenario& scenario, WindowSize size) {
-  link::MatchOptions options;
-  options.cognition = link::Cognition::Inline;
-  ui::MatchController controller(options);
-  bool failed = false;
-  QObject::connect(&controller, &ui::MatchController::errorOccurred, &controller,
-                   [&failed](const QString& sentence) {
-                     failed = true;
-                     std::fprintf(stderr, "error: %s\n", qPrintable(sentence));
-                   });
-  ui::FieldView field(&controller);
-  field.resize(size.width, size.height);
-  controller.open(scenario, true);
-  constexpr int longestWait = 10000;
-  QTimer limit;
-  limit.setSingleShot(true);
-  limit.start(longestWait);
-  while (!failed && !controller.frame() && limit.isActive()) {
-    QApplication::processEvents(QEventLoop::WaitForMoreEvents);
-  }
-  if (failed || !controller.frame()) return 2;
-  const QImage picture = field.picture({size.width, size.height});
-  return save(QPixmap::fromImage(picture), arguments.picture) ? 0 : 2;
 }
 
 int showWindow(QApplication& application, const Arguments& arguments,
@@ -197,7 +174,7 @@ int run(int argc, char** argv) {
   const auto scenario = scenarioOf(arguments);
   if (!scenario) return shared::reportError(scenario.error());
 
-  const bool render = !arguments.renderScenario.empty();
+  const bool render = !arguments.renderScenario.empty() || !arguments.paint.empty();
   if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM") && qEnvironmentVariableIsEmpty("DISPLAY") &&
       qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY")) {
     if (!render && arguments.screenshotFile.empty()) {
@@ -226,7 +203,8 @@ int run(int argc, char** argv) {
     return shared::reportError(good.error());
   const auto settings = makeSettings(arguments);
   ui::setTheme(application, themeOf(arguments, *settings));
-  if (render) return renderScenario(arguments, *scenario, size->value_or(WindowSize{1040, 740}));
+  if (!arguments.paint.empty()) return paintSession(arguments, size->value_or(pictureSize));
+  if (render) return paintScenario(arguments, *scenario, size->value_or(pictureSize));
   return showWindow(application, arguments, *scenario, *speed, *size, *settings);
 }
 

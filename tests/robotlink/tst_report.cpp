@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <QXmlStreamReader>
 #include <QtTest>
-#include <map>
-#include <numbers>
 
 #include <robotlink/report/field_svg.h>
 #include <robotlink/report/report.h>
@@ -137,54 +134,20 @@ class TestReport : public QObject {
     }
   }
 
-  /// What a robot's program drew stands in the picture where the field shows it.
-  void thePictureHasWhatProgramsDrew() {
-    MatchFrame frame;
-    RobotFrame robot;
-    robot.identity = {RobotId{1}, TeamColor::Red, 1};
-    robot.pose = {{1.0, 0.5}, std::numbers::pi / 2};
-    frame.robots = {robot};
-    const auto layer = [](const char* text) {
-      const auto drawing = telemetry::parseDrawing(std::string("PBD1 1\n") + text);
-      if (!drawing) qFatal("%s", drawing.error().text().c_str());
-      return std::make_shared<const telemetry::DrawingLayer>(drawing->layers.at(0));
+  /// The lines are those of the studio's field; a field without penalty marks has none.
+  void trajectoriesLieOnTheField() {
+    sim::FieldSpec field;
+    const std::vector<FieldTrajectory> ball{{{{0.0, 0.0}, {1.0, 0.5}}, "#f0a35e", 0.5, 0.02}};
+    const auto count = [&](const char* what) {
+      return QString::fromStdString(fieldSvg(field, ball)).count(QLatin1String(what));
     };
-    telemetry::RobotDrawings drawn{1, {}}, stranger{9, {}};
-    drawn.layers = {layer("layer way\ncolour #ff000080\nwidth 3\nline 0 0 2 -1\n"
-                          "text 0 1 <pass> & go\narea -1 -1 0 -1 0 0"),
-                    layer("layer near robot\nline 1 0 0 1\ndisc 1 0 0.25\narrow 0 0 0 0\n"
-                          "arrow 0 0 1 0\npoint 0 0\ncircle 0 0 1\npolygon 0 0 1 0 0 1")};
-    stranger.layers = {layer("layer his robot\nline 3 3 4 4"), layer("layer all\nline 3 3 4 4")};
-    frame.drawings = {drawn, stranger};
-    QXmlStreamReader xml(QByteArray::fromStdString(fieldSvg(frame)));
-    std::map<QString, QList<QXmlStreamAttributes>> found;
-    QStringList words;
-    while (!xml.atEnd()) {
-      if (xml.readNext() != QXmlStreamReader::StartElement) continue;
-      const QString name = xml.name().toString();
-      found[name] << xml.attributes();
-      if (name == "text") words << xml.readElementText();
-    }
-    QVERIFY2(!xml.hasError(), qPrintable(xml.errorString()));
-    const auto ways = found["polyline"];
-    QCOMPARE(ways.size(), 5);  // three lines and two arrows; one layer counts from nobody
-    QCOMPARE(ways[0].value("points").toString(), QString("0.0,0.0 200.0,100.0 "));
-    QCOMPARE(ways[0].value("stroke").toString(), QString("#ff0000"));
-    QCOMPARE(ways[0].value("stroke-opacity").toString(), QString("0.50"));
-    QCOMPARE(ways[0].value("stroke-width").toString(), QString("3.0"));
-    // Ahead of a robot that looks up is up, to its left is left; the picture's y points down.
-    QCOMPARE(ways[1].value("points").toString(), QString("100.0,-150.0 0.0,-50.0 "));
-    QCOMPARE(ways[4].value("points").toString(), QString("300.0,-300.0 400.0,-400.0 "));
-    QVERIFY(words.contains("<pass> & go") && words.contains("1"));
-    QCOMPARE(found["polygon"].size(), 3);  // an area, the arrow's head, a polygon
-    const auto area = found["polygon"][0];
-    QCOMPARE(area.value("points").toString(), QString("-100.0,100.0 0.0,100.0 0.0,0.0 "));
-    QCOMPARE(area.value("fill-opacity").toString(), QString("0.18"));
-    const auto isDisc = [](const QXmlStreamAttributes& circle) {
-      return circle.value("r") == u"25.0" && circle.value("cx") == u"100.0" &&
-             circle.value("cy") == u"-150.0" && circle.value("fill") == circle.value("stroke");
-    };
-    QCOMPARE(std::ranges::count_if(found["circle"], isDisc), 1);
+    QCOMPARE(count("<polyline points=\"0.0,0.0 100.0,-50.0 \""), 1);
+    QCOMPARE(count("stroke-opacity=\"0.50\" stroke-width=\"2.0\""), 1);
+    QCOMPARE(count("<circle"), 4);  // centre circle, two penalty marks, the end of the trajectory
+    field.penaltyMarkDistance = 0.0;
+    QCOMPARE(count("<circle"), 2);
+    // Border, grass, five lines, three of each goal area, two goals.
+    QCOMPARE(count("<rect"), 2 + 5 + 6 + 2);
   }
 
   void whatHappenedToProcessesIsToldEach() {

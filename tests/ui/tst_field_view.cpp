@@ -14,6 +14,7 @@
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/scenario/scenario.h>
+#include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -330,6 +331,32 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     QTRY_VERIFY(std::abs(std::min(pose(1).position.x, pose(2).position.x) + 5.2 - 0.13) < 0.01);
     QVERIFY(std::abs(pose(1).position.x - pose(2).position.x - one.position.x + two.position.x) <
             1e-6);
+  }
+
+  /// The field fills it, and score and clock stand in it, however it is made.
+  void onePictureHoweverItIsMade() {
+    const QImage image =
+        QImage::fromData(m_view->pictureFile({1280, 720}, QStringLiteral("png")), "png");
+    QCOMPARE(image.size(), QSize(1012, 720));
+    const QRgb border = theme().fieldBorder.rgb();
+    for (const QPoint& corner :
+         {QPoint(2, 2), QPoint(1009, 2), QPoint(2, 717), QPoint(1009, 717)}) {
+      QCOMPARE(image.pixel(corner), border);
+    }
+    const auto caption = [](const QImage& picture) { return picture.copy(200, 4, 612, 56); };
+    QImage empty = caption(image);
+    empty.fill(border);
+    QVERIFY(caption(image) != empty);
+    const QImage film = m_view->framePainter()->paint(m_controller->frame(), image.size());
+    QCOMPARE(film.convertToFormat(image.format()), image);
+    // The clock of the match, not the time of the simulation.
+    auto later = std::make_shared<link::MatchFrame>(*m_controller->frame());
+    later->snapshot.time += 600;
+    QVERIFY(caption(m_view->framePainter()->paint(later, image.size())) ==
+            caption(image).convertToFormat(film.format()));
+    later->snapshot.clock += 61;
+    QVERIFY(caption(m_view->framePainter()->paint(later, image.size())) !=
+            caption(image).convertToFormat(film.format()));
   }
 
   void nothingIsDrawnBesideThePlayingArea() {

@@ -160,11 +160,11 @@ class TestSessionExportDialog : public QObject {
     } else if (suffix == QStringLiteral(".svg")) {
       QSvgRenderer renderer(bytes);
       QVERIFY(renderer.isValid());
-      QCOMPARE(renderer.viewBox(), QRect(0, 0, 640, 360));
+      QCOMPARE(renderer.viewBox(), QRect(0, 0, 506, 360));
       // Shapes, not a picture in a picture.
       QVERIFY(!bytes.contains("<image"));
     } else if (suffix == QStringLiteral(".png")) {
-      QCOMPARE(QImage::fromData(bytes).size(), QSize(640, 360));
+      QCOMPARE(QImage::fromData(bytes).size(), QSize(506, 360));
     } else {
       QCOMPARE(bytes.mid(4, 4), QByteArray("ftyp"));
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The timeline as a person uses it: real mouse and keys on a source that goes on.
+#include <QLabel>
 #include <QLineEdit>
 #include <QToolButton>
 #include <QWheelEvent>
@@ -13,7 +14,7 @@
 #include <ui/timeline/timeline_actions.h>
 #include <ui/timeline/timeline_dock.h>
 
-#include "looking_back_sign.h"
+#include "field_signs.h"
 #include "timeline_strip.h"
 
 namespace tst_timeline {
@@ -150,7 +151,7 @@ class TestTimeline : public QObject {
 
   void theSignSaysWhen() {
     Bench b;
-    LookingBackSign sign(&b.timeline, &b.window);
+    QLabel& sign = *qobject_cast<QLabel*>(makeLookingBackSign(&b.timeline, &b.window));
     QVERIFY(!sign.isVisible());
     b.timeline.seek(62.5);
     QVERIFY(sign.isVisible());

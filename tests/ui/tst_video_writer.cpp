@@ -6,7 +6,7 @@
 #include <QJsonObject>
 #include <QPainter>
 
-#include "video_writer.h"
+#include <ui/session/video_writer.h>
 
 namespace tst_video_writer {
 

@@ -204,17 +204,17 @@ std::string tableHtml(const Table& table) {
 std::string pathsHtml(const Experiment& e, const ResultTable::OfCondition& runs, std::size_t index,
                       const std::string& name) {
   if (runs.drawn.empty()) return {};
-  std::vector<FieldWay> ways;
+  std::vector<FieldTrajectory> ways;
   for (const auto& run : runs.drawn) {
     const bool goal = run.endedBy == "goal";
     for (const RunPath& path : run.paths) {
       if (path.who == "ball") continue;
-      ways.push_back({path.points, goal ? "#7fb4ff" : "#ff9d8a", 0.55, 2.0, true});
+      ways.push_back({path.points, goal ? "#7fb4ff" : "#ff9d8a", 0.55, 0.02});
     }
   }
   for (const auto& run : runs.drawn) {
     for (const RunPath& path : run.paths) {
-      if (path.who == "ball") ways.push_back({path.points, "#f0a35e", 0.6, 1.5, true});
+      if (path.who == "ball") ways.push_back({path.points, "#f0a35e", 0.6, 0.015});
     }
   }
   return "<figure>" + fieldSvg(e.conditions[index].scenario.settings.field, ways) + "<figcaption>" +

@@ -4,7 +4,7 @@
 #include <QPainter>
 #include <algorithm>
 
-#include <simcore/world/field.h>
+#include <ui/base/field_ground.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -12,25 +12,6 @@ namespace {
 
 constexpr double way_m = 0.03, ball_m = 0.02;
 constexpr int faint = 60, plain = 150, strong = 255;
-
-void paintField(QPainter& p, const sim::FieldSpec& f) {
-  const double x = f.halfLength(), y = f.halfWidth();
-  p.setPen(QPen(theme().fieldLines, f.lineWidth));
-  p.setBrush(theme().grass);
-  p.drawRect(QRectF(-x, -y, 2 * x, 2 * y));
-  p.setBrush(Qt::NoBrush);
-  p.drawLine(QPointF(0, -y), QPointF(0, y));
-  p.drawEllipse(QPointF(), f.centreCircleDiameter / 2, f.centreCircleDiameter / 2);
-  for (const double side : {-1.0, 1.0}) {
-    const auto area = [&](double from, double to, double width) {
-      p.drawRect(
-          QRectF(QPointF(side * from, -width / 2), QPointF(side * to, width / 2)).normalized());
-    };
-    if (f.goalAreaLength > 0) area(x - f.goalAreaLength, x, f.goalAreaWidth);
-    if (f.penaltyAreaLength > 0) area(x - f.penaltyAreaLength, x, f.penaltyAreaWidth);
-    area(x, x + f.goalDepth, f.goalWidth);
-  }
-}
 
 void paintWay(QPainter& p, const std::vector<Point>& points, QColor colour, int alpha,
               double width) {
@@ -93,11 +74,14 @@ void WaysView::paintEvent(QPaintEvent* /*event*/) {
   const double wide = 2 * (field.halfLength() + field.border);
   const double high = 2 * (field.halfWidth() + field.border);
   const double scale = std::min(width() / wide, height() / high);
-  paintLegend(p, rect());
   p.setRenderHint(QPainter::Antialiasing);
+  p.save();
   p.translate(width() / 2.0, height() / 2.0);
   p.scale(scale, -scale);
-  paintField(p, field);
+  paintGround(p, field, field.lineWidth);
+  p.setPen(QPen(theme().fieldLines, field.lineWidth));
+  p.setBrush(Qt::NoBrush);
+  for (const auto& goal : sim::fieldLines(field, field.lineWidth).goals) p.drawRect(rectOf(goal));
   const auto& runs = m_played->table.conditions[m_condition].drawn;
   const auto stands = [this](std::size_t number) {
     return std::find(m_highlighted.begin(), m_highlighted.end(), number) != m_highlighted.end();
@@ -117,6 +101,8 @@ void WaysView::paintEvent(QPaintEvent* /*event*/) {
       }
     }
   }
+  p.restore();
+  paintLegend(p, rect());
 }
 
 }  // namespace pitchboard::ui

@@ -1,69 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "field_background.h"
 
-#include <QPainterPath>
 #include <algorithm>
 #include <cmath>
 
+#include <ui/base/field_ground.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
 namespace {
-
-QRectF centred(double width, double height) {
-  return {-width / 2, -height / 2, width, height};
-}
-
-void paintLines(QPainter& painter, const sim::FieldSpec& f, double lineWidth) {
-  painter.setBrush(Qt::NoBrush);
-  painter.setPen(QPen(theme().fieldLines, lineWidth, Qt::SolidLine, Qt::FlatCap, Qt::MiterJoin));
-  // Sizes are measured to the outer edges of the lines.
-  const double inset = lineWidth / 2;
-  const double x = f.halfLength() - inset;
-  const double y = f.halfWidth() - inset;
-  // Filled: while the view is resized all this is painted for every size, and strokes of lines
-  // that are as long as the field took most of that.
-  const auto line = [&](const QPointF& from, const QPointF& to) {
-    // Corners belong to the lines across.
-    const double up = from.x() == to.x() ? 0.0 : inset;
-    painter.fillRect(QRectF(from, to).normalized().adjusted(-inset, -up, inset, up),
-                     theme().fieldLines);
-  };
-  for (const double side : {-1.0, 1.0}) {
-    line({-x, side * y}, {x, side * y});
-    line({side * x, -y}, {side * x, y});
-  }
-  line({0, -y}, {0, y});
-  const double radius = f.centreCircleDiameter / 2 - inset;
-  if (radius > 0) painter.drawEllipse(QPointF(0, 0), radius, radius);
-  const auto area = [&](double length, double width) {
-    if (length <= 0 || width <= 0) return;
-    const double halfWidth = std::min(width / 2 - inset, y);
-    for (const double side : {-1.0, 1.0}) {
-      const double inner = side * (x - length + inset);
-      for (const double up : {-halfWidth, halfWidth}) line({side * x, up}, {inner, up});
-      line({inner, -halfWidth}, {inner, halfWidth});
-    }
-  };
-  area(f.goalAreaLength, f.goalAreaWidth);
-  area(f.penaltyAreaLength, f.penaltyAreaWidth);
-  // A cross as thick as a line would be a blot at this size.
-  const double arm = std::max(0.08, 1.6 * lineWidth);
-  QPen thin = painter.pen();
-  thin.setWidthF(0.7 * lineWidth);
-  painter.setPen(thin);
-  const auto cross = [&](double at) {
-    painter.drawLine(QPointF(at - arm, 0), QPointF(at + arm, 0));
-    painter.drawLine(QPointF(at, -arm), QPointF(at, arm));
-  };
-  if (f.penaltyMarkDistance > 0) {
-    cross(-f.halfLength() + f.penaltyMarkDistance);
-    cross(f.halfLength() - f.penaltyMarkDistance);
-  }
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(theme().fieldLines);
-  painter.drawEllipse(QPointF(0, 0), 0.9 * lineWidth, 0.9 * lineWidth);
-}
 
 void paintGoals(QPainter& painter, const sim::FieldSpec& f, double pixel) {
   QColor net = theme().fieldLines;
@@ -72,10 +17,9 @@ void paintGoals(QPainter& painter, const sim::FieldSpec& f, double pixel) {
   net.setAlphaF(0.22F);
   QColor edge = theme().fieldLines;
   edge.setAlphaF(0.62F);
-  for (const double side : {-1.0, 1.0}) {
-    const QRectF box = QRectF(QPointF(side * f.halfLength(), -f.goalWidth / 2),
-                              QPointF(side * (f.halfLength() + f.goalDepth), f.goalWidth / 2))
-                           .normalized();
+  for (const auto& goal : sim::fieldLines(f, f.lineWidth).goals) {
+    const double side = goal.low.x < 0 ? -1.0 : 1.0;
+    const QRectF box = rectOf(goal);
     painter.fillRect(box, ground);
     const double mesh = 0.15;
     if (mesh > 7 * pixel) {
@@ -172,9 +116,7 @@ void paintFieldBackground(QPainter& painter, const FieldStyle& style, const QTra
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setTransform(sceneToView, true);
-  painter.fillRect(centred(f.length + 2 * f.border, f.width + 2 * f.border), theme().fieldBorder);
-  painter.fillRect(centred(f.length, f.width), theme().grass);
-  paintLines(painter, f, lineWidth);
+  paintGround(painter, f, lineWidth);
   paintGoals(painter, f, pixel);
   if (style.shows(FieldLayer::Landmarks)) paintLandmarks(painter, f, pixel);
   painter.restore();

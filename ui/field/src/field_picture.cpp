@@ -6,11 +6,30 @@
 #include <QSvgGenerator>
 #include <algorithm>
 
+#include <ui/base/robot_words.h>
+#include <ui/base/scoreboard_state.h>
+#include <ui/base/theme.h>
+
 #include "field_background.h"
 
 namespace pitchboard::ui {
 
 namespace {
+
+QString captionOf(const link::MatchFrame& frame) {
+  link::MatchFrame playing = frame;
+  playing.paused = false;  // whoever looks at a file does not care
+  const ScoreboardState board = scoreboardOf(playing);
+  if (board.leftName.isEmpty()) return clockText(frame.snapshot.time);
+  QStringList parts{QStringLiteral("%1  %2 : %3  %4")
+                        .arg(board.leftName)
+                        .arg(board.left)
+                        .arg(board.right)
+                        .arg(board.rightName),
+                    board.clock, board.state, board.penalties};
+  parts.removeAll(QString());
+  return parts.join(QStringLiteral("    "));
+}
 
 void paintField(FieldScene& scene, QPainter& painter, QSize size) {
   const FieldStyle before = scene.style();
@@ -34,9 +53,22 @@ void paintField(FieldScene& scene, QPainter& painter, QSize size) {
     style.pixelsPerMetre = before.pixelsPerMetre;
     style.ornaments = before.ornaments;
   });
+  if (!scene.frame()) return;
+  painter.resetTransform();
+  const int high = std::max(static_cast<int>(field.border * scale * 0.4), 11);
+  const double top = (size.height() - (field.width + 2 * field.border) * scale) / 2;
+  drawHaloText(&painter, {size.width() / 2.0, top + field.border * scale / 2},
+               captionOf(*scene.frame()), fieldFont(high, true), theme().fieldLines,
+               theme().fieldBorder.darker(150));
 }
 
 }  // namespace
+
+QSize pictureSize(const sim::FieldSpec& field, QSize within) {
+  const QSizeF shape(field.length + 2 * field.border, field.width + 2 * field.border);
+  const QSize size = shape.scaled(within, Qt::KeepAspectRatio).toSize();
+  return {std::max(size.width() & ~1, 2), std::max(size.height() & ~1, 2)};
+}
 
 QImage paintPicture(FieldScene& scene, QSize size) {
   QImage image(size, QImage::Format_RGB32);
@@ -58,6 +90,23 @@ QByteArray svgPicture(FieldScene& scene, QSize size) {
   paintField(scene, painter, size);
   painter.end();
   return text;
+}
+
+FilmPainter::FilmPainter(const FieldStyle& style) {
+  m_scene.changeStyle([&style](FieldStyle& own) {
+    own.layers = style.layers;
+    own.drawings = style.drawings;
+    own.drawings.onlySelected = false;  // nothing is selected in a film
+    own.flipped = style.flipped;
+    own.wedgeForAll = style.wedgeForAll;
+    own.eopraGranularity = style.eopraGranularity;
+    own.readOnly = true;
+  });
+}
+
+QImage FilmPainter::paint(const FramePtr& frame, QSize size) {
+  m_scene.showFrame(frame);
+  return paintPicture(m_scene, size);
 }
 
 }  // namespace pitchboard::ui

@@ -6,16 +6,34 @@
 #include <QByteArray>
 #include <QImage>
 
+#include <ui/sources/field_pictures.h>
+
 #include "field_scene.h"
 
 namespace pitchboard::ui {
 
-/// The whole field as large as it fits into `size` pixels, without selection marks. UI thread; the
+/// The largest picture within `size` pixels that the field with its border fills; both sides are
+/// even, as videos want them.
+QSize pictureSize(const sim::FieldSpec& field, QSize within);
+
+/// The whole field as large as it fits into `size` pixels, without selection marks, and over it
+/// score, match clock and state: a file has no window round it that tells them. UI thread; the
 /// scene is as before afterwards.
 QImage paintPicture(FieldScene& scene, QSize size);
 
 /// The same as an SVG document, whose user unit is one pixel of `size`. Empty when it cannot be
 /// made.
 QByteArray svgPicture(FieldScene& scene, QSize size);
+
+/// Moments one after another, each on a field of its own. UI thread only.
+class FilmPainter : public FramePainter {
+ public:
+  /// Side and layers are taken from `style`.
+  explicit FilmPainter(const FieldStyle& style);
+  QImage paint(const FramePtr& frame, QSize size) override;
+
+ private:
+  FieldScene m_scene;
+};
 
 }  // namespace pitchboard::ui

@@ -22,7 +22,6 @@
 #include "field_menu.h"
 #include "field_pointer.h"
 #include "field_tools.h"
-#include "film_painter.h"
 #include "help_overlay.h"
 #include "hover_text.h"
 #include "pose_editor.h"
@@ -362,6 +361,9 @@ bool FieldView::isFlipped() const {
   return d->tools->flip()->isChecked();
 }
 
+QSize FieldView::pictureSize(QSize within) const {
+  return ui::pictureSize(d->scene->style().field, within);
+}
 QImage FieldView::picture(QSize size) const {
   return paintPicture(*d->scene, size);
 }

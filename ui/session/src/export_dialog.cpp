@@ -4,6 +4,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDateTimeEdit>
+#include <QDesktopServices>
 #include <QDialogButtonBox>
 #include <QDir>
 #include <QFileDialog>
@@ -16,18 +17,18 @@
 #include <QSpinBox>
 #include <QTemporaryDir>
 #include <QToolButton>
+#include <QUrl>
 #include <algorithm>
 
 #include <base/file_target.h>
 #include <ui/base/dialog_size.h>
 #include <ui/base/number_box.h>
-#include <ui/base/picture_bytes.h>
 #include <ui/base/theme.h>
 #include <ui/sources/field_pictures.h>
 
+#include <ui/session/video_export.h>
 #include "check_list.h"
 #include "moment_box.h"
-#include "video_export.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -90,6 +91,8 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
        {QSize(1280, 720), QSize(1920, 1080), QSize(640, 360), QSize(3840, 2160)}) {
     m_size->addItem(QStringLiteral("%1 × %2").arg(size.width()).arg(size.height()), size);
   }
+  m_size->setToolTip(
+      QStringLiteral("The picture takes the shape of the field, as large as it fits in here."));
   m_rate->setRange(1, 60);
   m_rate->setValue(30);
   m_rate->setSuffix(QStringLiteral(" pictures a second"));
@@ -231,7 +234,7 @@ void ExportDialog::write(const ExportRequest& request) {
   }
   QByteArray picture;
   if (form().kind == ExportKind::Report) {
-    picture = pictureBytes(m_pictures->picture({1040, 740}));
+    picture = m_pictures->pictureFile({1040, 740}, QStringLiteral("png"));
   }
   m_worker.start([this, request, chosen = form(), picture] {
     const auto done = writeExport(request, chosen, picture, [this](double part) {
@@ -265,13 +268,13 @@ void ExportDialog::writeVideo(const ExportRequest& request) {
   });
   VideoOptions options;
   options.path = request.path;
-  options.size = m_size->currentData().toSize();
+  options.size = m_pictures->pictureSize(m_size->currentData().toSize());
   options.framesPerSecond = m_rate->value();
   options.program = m_program;
   options.overwrite = true;
   const auto range = request.selection.range;
-  if (const auto started = m_video->start(request.session, {range.begin, range.end}, options,
-                                          request.selection.robots);
+  if (const auto started = m_video->start(request.session, {range.begin, range.end},
+                                          request.selection.robots, options);
       !started) {
     setWriting(false);
     fail(QString::fromStdString(started.error().text()));
@@ -279,13 +282,8 @@ void ExportDialog::writeVideo(const ExportRequest& request) {
 }
 
 void ExportDialog::writePicture(const QString& path) {
-  const QSize size = m_size->currentData().toSize();
-  QByteArray bytes;
-  if (form().kind == ExportKind::Svg) {
-    bytes = m_pictures->svgPicture(size);
-  } else {
-    bytes = pictureBytes(m_pictures->picture(size));
-  }
+  const QByteArray bytes = m_pictures->pictureFile(m_size->currentData().toSize(),
+                                                   suffix().mid(1));  // without its dot
   const auto written =
       writeFile(path.toStdString(), {bytes.constData(), static_cast<std::size_t>(bytes.size())},
                 IfExists::Replace, m_source.session.toStdString());
@@ -339,6 +337,102 @@ void ExportDialog::tell(const QString& text, bool error) {
   if (error) colours.setColor(QPalette::PlaceholderText, theme().errorText);
   m_message->setPalette(colours);
   m_message->setText(text);
+}
+
+namespace {
+
+std::vector<std::string> textsOf(const QStringList& names) {
+  std::vector<std::string> texts;
+  for (const QString& name : names) texts.push_back(name.toStdString());
+  return texts;
+}
+
+}  // namespace
+
+void ExportDialog::makeChoices() {
+  m_lines->setObjectName(QStringLiteral("exportLines"));
+  m_lines->setRange(0.001, telemetry::Resampling::mostPerSecond);
+  m_lines->setDecimals(3);
+  m_lines->setValue(telemetry::Resampling{}.rate);
+  m_lines->setSuffix(QStringLiteral(" a second"));
+  m_between->setObjectName(QStringLiteral("exportBetween"));
+  m_between->addItem(QStringLiteral("Hold the last value"), false);
+  m_between->addItem(QStringLiteral("Interpolate"), true);
+  m_clock->setObjectName(QStringLiteral("exportClock"));
+  m_clock->setChecked(m_source.clock.has_value());
+  auto* times = new QHBoxLayout(m_when);
+  times->setContentsMargins(0, 0, 0, 0);
+  times->addWidget(m_beginClock, 1);
+  times->addWidget(new QLabel(QStringLiteral("to"), m_when));
+  times->addWidget(m_endClock, 1);
+  m_beginClock->setObjectName(QStringLiteral("exportBeginClock"));
+  m_endClock->setObjectName(QStringLiteral("exportEndClock"));
+  const std::pair<QDateTimeEdit*, MomentBox*> pairs[] = {{m_beginClock, m_begin},
+                                                         {m_endClock, m_end}};
+  for (const auto& [clock, box] : pairs) {
+    clock->setDisplayFormat(QStringLiteral("yyyy-MM-dd HH:mm:ss"));
+    connect(clock, &QDateTimeEdit::dateTimeChanged, this,
+            [this, seconds = box](const QDateTime& time) {
+              // A change of the seconds comes back here rounded.
+              if (!m_source.clock || m_showingClock) return;
+              seconds->setValue(static_cast<double>(m_source.clock->msecsTo(time)) / 1000.0);
+            });
+  }
+  m_open->setText(QStringLiteral("Open"));
+  m_open->setObjectName(QStringLiteral("exportOpen"));
+  m_show->setText(QStringLiteral("Show in folder"));
+  m_show->setObjectName(QStringLiteral("exportShow"));
+  for (QToolButton* button : {m_open, m_show}) button->hide();
+  connect(m_open, &QToolButton::clicked, this,
+          [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(m_written)); });
+  connect(m_show, &QToolButton::clicked, this, [this] {
+    QDesktopServices::openUrl(QUrl::fromLocalFile(QFileInfo(m_written).absolutePath()));
+  });
+  for (MomentBox* box : {m_begin, m_end}) {
+    connect(box, &MomentBox::valueChanged, this, &ExportDialog::showClock);
+  }
+  showClock();
+}
+
+// People think in the time of day; a session counts seconds. Either can be typed.
+void ExportDialog::showClock() {
+  if (!m_source.clock) return;
+  m_showingClock = true;
+  m_beginClock->setDateTime(m_source.clock->addMSecs(qRound64(m_begin->value() * 1000.0)));
+  m_endClock->setDateTime(m_source.clock->addMSecs(qRound64(m_end->value() * 1000.0)));
+  m_showingClock = false;
+}
+
+/// False: it has said what is missing.
+bool ExportDialog::takeChoices(telemetry::ExportSelection& selection) {
+  const bool numbers = form().kind == ExportKind::Numbers;
+  const QStringList robots = m_robots->checked(), variables = m_variables->checked();
+  if (m_source.groups.empty()) return true;  // nothing to choose from yet: everything
+  if (robots.isEmpty() || (numbers && variables.isEmpty())) {
+    fail(robots.isEmpty() ? QStringLiteral("Tick at least one robot.")
+                          : QStringLiteral("Tick at least one variable."));
+    return false;
+  }
+  if (!m_robots->isAllChecked()) selection.robots = textsOf(robots);
+  if (!numbers) return true;
+  if (!m_variables->isAllChecked()) {
+    // Those that the ticked robots have.
+    QStringList known;
+    for (const auto& group : m_source.groups) {
+      if (!robots.contains(QString::fromStdString(group.name))) continue;
+      for (const auto& column : group.columns) known << QString::fromStdString(column.name);
+    }
+    for (const QString& name : variables) {
+      if (known.contains(name)) selection.variables.push_back(name.toStdString());
+    }
+    if (selection.variables.empty()) {
+      fail(QStringLiteral("The ticked robots have none of the ticked variables."));
+      return false;
+    }
+  }
+  selection.clock = m_clock->isChecked();
+  selection.resampling = {m_lines->value(), m_between->currentData().toBool()};
+  return true;
 }
 
 }  // namespace pitchboard::ui

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "video_export.h"
+#include <ui/session/video_export.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <robotlink/session/recorded_frame.h>
@@ -48,8 +49,8 @@ VideoExport::~VideoExport() {
 }
 
 Result<void> VideoExport::start(const QString& session, telemetry::TimeRange range,
-                                const VideoOptions& options,
-                                const std::vector<std::string>& robots) {
+                                const std::vector<std::string>& robots,
+                                const VideoOptions& options) {
   if (!(range.end >= range.begin) || !std::isfinite(range.end - range.begin)) {
     return tl::unexpected(Error{ErrorCode::InvalidArgument, "the range ends before it begins", {}});
   }

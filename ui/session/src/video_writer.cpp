@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "video_writer.h"
+#include <ui/session/video_writer.h>
 
 #include <QDir>
 #include <QFileInfo>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/sources/match_edits.h>
 
-#include <QElapsedTimer>
 #include <QUndoStack>
 #include <algorithm>
 #include <utility>
@@ -10,28 +9,6 @@
 
 namespace pitchboard::ui {
 namespace {
-
-class EditCommand : public QUndoCommand {
- public:
-  explicit EditCommand(Edit edit) : QUndoCommand(edit.text), m_edit(std::move(edit)) {
-    m_age.start();
-  }
-  void redo() override { m_edit.redo(); }
-  void undo() override { m_edit.undo(); }
-  int id() const override { return m_edit.mergeKey.isEmpty() ? -1 : 1; }
-  bool mergeWith(const QUndoCommand* other) override {
-    constexpr qint64 mergeMilliseconds = 1000;
-    const Edit& later = static_cast<const EditCommand&>(*other).m_edit;
-    if (later.mergeKey != m_edit.mergeKey || m_age.elapsed() > mergeMilliseconds) return false;
-    m_edit.redo = later.redo;
-    m_age.restart();
-    return true;
-  }
-
- private:
-  Edit m_edit;
-  QElapsedTimer m_age;
-};
 
 /// Tells edits of these robots from those of others.
 template <class Items, class Id>

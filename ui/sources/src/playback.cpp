@@ -13,7 +13,7 @@ constexpr std::array playbackSpeeds{0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
 
 }  // namespace
 
-Playback::Playback(QObject* parent) : Transport(parent), m_timer(new QTimer(this)) {
+Playback::Playback(QObject* parent) : QObject(parent), m_timer(new QTimer(this)) {
   constexpr int displayMilliseconds = 16;
   m_timer->setTimerType(Qt::PreciseTimer);
   m_timer->setInterval(displayMilliseconds);

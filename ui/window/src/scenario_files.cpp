@@ -5,7 +5,6 @@
 #include <QFileInfo>
 
 #include <base/file_target.h>
-#include <ui/base/picture_bytes.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -68,10 +67,7 @@ void ScenarioFiles::save(const QString& path) {
 
 void ScenarioFiles::exportPicture(const QString& path) {
   const QSize size = m_field->size() * m_window->devicePixelRatioF();
-  const QByteArray format = QFileInfo(path).suffix().toLower().toLatin1();
-  const QByteArray bytes = format == "svg"
-                               ? m_field->svgPicture(size)
-                               : pictureBytes(m_field->picture(size), format.constData());
+  const QByteArray bytes = m_field->pictureFile(size, QFileInfo(path).suffix());
   if (bytes.isEmpty()) {
     emit failed(
         QStringLiteral("No picture was written to %1. Choose a name that ends in .png or .svg.")

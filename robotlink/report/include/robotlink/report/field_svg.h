@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A plain drawing of a frame, for reports made without a display: field, robots, ball, what the
-// robots believe as dashed circles, and what their programs drew. (The studio draws its own
-// pictures.)
+// The field with the trajectories of many runs, for reports of experiments, which are made without
+// the studio. Pictures of a moment are painted by the studio (docs/SESSIONS.md).
 
 #include <span>
 #include <string>
@@ -11,22 +10,18 @@
 
 #include <simcore/world/field.h>
 
-#include <robotlink/frame/match_frame.h>
-
 namespace pitchboard::link {
 
-/// An SVG document in the colours of the dark palette; 1 unit = 1 cm.
-std::string fieldSvg(const MatchFrame& frame);
-
-/// A way on the field, m.
-struct FieldWay {
+/// Where something moved on the field, m; its end is marked.
+struct FieldTrajectory {
   std::vector<Point> points;
   std::string colour;  ///< of SVG
   double opacity = 1.0;
-  double width = 3.0;  ///< cm
-  bool marksEnd = false;
+  double width = 0.03;  ///< m
 };
-/// The field with ways of robots and balls of many runs, in the order in which they are painted.
-std::string fieldSvg(const sim::FieldSpec& field, std::span<const FieldWay> ways);
+
+/// An SVG document in the colours of the dark palette; 1 unit = 1 cm. Later trajectories are
+/// painted over earlier ones.
+std::string fieldSvg(const sim::FieldSpec& field, std::span<const FieldTrajectory> trajectories);
 
 }  // namespace pitchboard::link

@@ -52,6 +52,7 @@ class FieldView : public QWidget, public FieldPictures {
   void editPose(RobotId id);
   void setFlipped(bool flipped);
   bool isFlipped() const;
+  QSize pictureSize(QSize within) const override;
   QImage picture(QSize size) const override;
   QByteArray svgPicture(QSize size) const override;
   std::unique_ptr<FramePainter> framePainter() const override;

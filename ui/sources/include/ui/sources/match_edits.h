@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <robotlink/session/moment_reader.h>
+#include <ui/sources/edit.h>
 #include <ui/sources/match_controller.h>
 
 class QUndoStack;
@@ -29,15 +30,6 @@ struct RobotPlacement {
   RobotId id;
   Pose from;
   Pose to;
-};
-
-/// A change by hand that can be undone.
-struct Edit {
-  QString text;  ///< what the undo menu calls it
-  std::function<void()> redo, undo;
-  /// An edit with the same key within a second continues the one before it, and both are undone
-  /// together. Empty: it stands alone.
-  QString mergeKey = {};
 };
 
 class MatchEdits : public QObject {

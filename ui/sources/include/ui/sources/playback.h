@@ -5,16 +5,17 @@
 // Who shows the moment listens to positionChanged(). Seconds of the source. UI thread only.
 
 #include <QElapsedTimer>
+#include <QObject>
 #include <optional>
+#include <span>
 
 #include <telemetry/series/series_store.h>
-#include <ui/sources/transport.h>
 
 class QTimer;
 
 namespace pitchboard::ui {
 
-class Playback : public Transport {
+class Playback : public QObject {
   Q_OBJECT
  public:
   static constexpr double slowest = 0.1, fastest = 16.0;
@@ -34,21 +35,23 @@ class Playback : public Transport {
   void setTickRate(double perSecond);
   double tickRate() const { return m_tickRate; }
 
-  bool isAvailable() const override { return m_range.has_value(); }
-  bool isPaused() const override { return m_paused; }
+  bool isAvailable() const { return m_range.has_value(); }
+  bool isPaused() const { return m_paused; }
   /// Playing on from the very end starts at the beginning.
-  void setPaused(bool paused) override;
-  void step(int ticks) override;
-  void toStart() override;
-  double speed() const override { return m_speed; }
-  /// Kept between slowest and fastest.
-  void setSpeed(double timesRealTime) override;
-  std::span<const double> speeds() const override;
+  void setPaused(bool paused);
+  /// So many ticks forward or back, then pauses.
+  void step(int ticks);
+  void toStart();
+  double speed() const { return m_speed; }
+  /// Seconds per second; kept between slowest and fastest.
+  void setSpeed(double timesRealTime);
+  std::span<const double> speeds() const;
 
   /// What the timer does: goes on by this much of a person's time. For tests as well.
   void advance(double seconds);
 
  signals:
+  void changed();  ///< paused, speed, loop, or whether there is something to play
   void positionChanged(double time);
   /// Played up to the end of the range: paused there, unless who listens seeks or plays on.
   void reachedEnd();

@@ -7,13 +7,15 @@
 #include <QObject>
 #include <atomic>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <telemetry/series/series_store.h>
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
 #include <ui/sources/field_pictures.h>
 
-#include "video_writer.h"
+#include <ui/session/video_writer.h>
 
 namespace pitchboard::ui {
 
@@ -23,11 +25,11 @@ class VideoExport : public QObject {
   VideoExport(std::unique_ptr<FramePainter> painter, QObject* parent);
   ~VideoExport() override;  ///< as cancel()
 
-  /// Of these robots (session_choice.h). One second of the session is one second of the video.
-  /// Errors as VideoWriter::start(), and InvalidArgument for a range that ends before it begins;
-  /// later ones come by failed().
+  /// One second of the session is one second of the video. Errors as VideoWriter::start(), and
+  /// InvalidArgument for a range that ends before it begins; later ones come by failed().
+  /// `robots`: names of those that are painted; empty: all.
   Result<void> start(const QString& session, telemetry::TimeRange range,
-                     const VideoOptions& options, const std::vector<std::string>& robots = {});
+                     const std::vector<std::string>& robots, const VideoOptions& options);
   /// Ends at once and leaves no file. No signal follows.
   void cancel();
 

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "field_signs.h"
+
+#include <QEvent>
+#include <QLabel>
+#include <QPainter>
+#include <functional>
+
+#include <ui/base/theme.h>
+#include <ui/base/time_axis.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/timeline.h>
+
+namespace pitchboard::ui {
+namespace {
+
+class FieldSign : public QLabel {
+ public:
+  FieldSign(QWidget* canvas, const QString& objectName, QColor ThemeColors::*line)
+      : QLabel(canvas), m_line(line) {
+    setObjectName(objectName);
+    setAlignment(Qt::AlignCenter);
+    setFont(themeFont(TypeRole::Body, true));
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    canvas->installEventFilter(this);
+    hide();
+  }
+
+  /// What to say now; empty: nothing.
+  std::function<QString()> textNow;
+  /// Where; its size is what the text needs.
+  std::function<QRect(QSize)> place;
+
+  void present() {
+    const QString text = textNow();
+    setVisible(!text.isEmpty());
+    if (text.isEmpty()) return;
+    setText(text);
+    setGeometry(place(sizeHint()));
+    raise();
+  }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::Resize && isVisible()) present();
+    return QLabel::eventFilter(watched, event);
+  }
+  void paintEvent(QPaintEvent* event) override {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(theme().*m_line);
+    painter.setBrush(theme().window);
+    painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 3, 3);
+    painter.end();
+    QLabel::paintEvent(event);
+  }
+
+ private:
+  QColor ThemeColors::*m_line;
+};
+
+}  // namespace
+
+QWidget* makeOpeningSign(MatchController* controller, QWidget* canvas) {
+  auto* sign = new FieldSign(canvas, QStringLiteral("openingLabel"), &ThemeColors::innerLine);
+  sign->textNow = [controller] {
+    const bool wanted = !controller->frame() && (controller->isOpening() || controller->isOpen());
+    const QString title = QString::fromStdString(controller->scenario().title);
+    return wanted ? QStringLiteral("Opening %1…").arg(title) : QString();
+  };
+  sign->place = [sign, canvas](QSize) {
+    const QRect area = canvas->rect();
+    // Wide enough to cover the field's own sentence.
+    QRect box(0, 0, qMin(area.width(), scaled(sign, 440)), scaled(sign, 40));
+    box.moveCenter({area.center().x(), area.top() + qRound(area.height() * 0.36)});
+    return box;
+  };
+  for (const auto changed : {&MatchController::scenarioChanged, &MatchController::opened}) {
+    QObject::connect(controller, changed, sign, &FieldSign::present);
+  }
+  QObject::connect(controller, &MatchController::frameReceived, sign, &QWidget::hide);
+  return sign;
+}
+
+QWidget* makeLookingBackSign(Timeline* timeline, QWidget* canvas) {
+  auto* sign = new FieldSign(canvas, QStringLiteral("lookingBack"), &ThemeColors::accentLine);
+  sign->textNow = [timeline] {
+    // As the line of this moment says it in the plots.
+    return timeline->isLookingBack()
+               ? QStringLiteral("Looking back: %1 (Now leads back)")
+                     .arg(momentText(timeline->shownTime(), 2, timeline->clock()))
+               : QString();
+  };
+  sign->place = [sign, canvas](QSize text) {
+    QRect box(0, 0, text.width() + scaled(sign, 24), scaled(sign, 28));
+    // Where the field is alone the scoreboard stands above it.
+    box.moveTop(scaled(sign, canvas->window()->isFullScreen() ? 44 : 8));
+    box.moveLeft((canvas->width() - box.width()) / 2);
+    return box;
+  };
+  QObject::connect(timeline, &Timeline::lookingBackChanged, sign, &FieldSign::present);
+  QObject::connect(timeline, &Timeline::moved, sign, &FieldSign::present);
+  QObject::connect(timeline, &Timeline::sourceChanged, sign, &FieldSign::present);
+  return sign;
+}
+
+}  // namespace pitchboard::ui
