@@ -134,7 +134,7 @@ int recordLive(const Options& options) {
     std::this_thread::sleep_for(pollInterval);
   }
   const auto& ports = details.network.ports;
-  if (std::none_of(ports.begin(), ports.end(), [](const PortStatus& port) { return port.bound; })) {
+  if (std::ranges::none_of(ports, [](const PortStatus& port) { return port.bound; })) {
     return reportError({ErrorCode::SystemError, ports.front().problem, options.network.bind});
   }
   link::RecorderOptions recording;
