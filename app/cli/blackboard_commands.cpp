@@ -4,6 +4,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include <base/try.h>
+
 #include "blackboard_target.h"
 
 namespace pitchboard::cli {
@@ -90,12 +92,11 @@ Result<std::vector<int>> keysToRemove(const RemoveOptions& options) {
   return keys;
 }
 
-int removeBlackboards(const RemoveOptions& options) {
-  const auto keys = keysToRemove(options);
-  if (!keys) return reportError(keys.error());
-  if (keys->empty()) std::printf("No orphans.\n");
+Result<int> removeBlackboards(RemoveOptions& options) {
+  const auto keys = TRY(keysToRemove(options));
+  if (keys.empty()) std::printf("No orphans.\n");
   int worst = 0;
-  for (const int key : *keys) {
+  for (const int key : keys) {
     const auto info = SystemVSegments::info(key);
     if (!info) {
       worst = reportError(info.error());
@@ -142,17 +143,11 @@ void addCreateCommand(CLI::App& parent, int& exitCode) {
                             "Make a zeroed blackboard that stays until it is removed.\n"
                             "Example: pitchboard-cli blackboard create 1");
   target->addTo(*command);
-  command->callback([target, &exitCode] {
-    const auto key = target->resolve();
-    if (!key) {
-      exitCode = reportError(key.error());
-      return;
-    }
-    const auto created = SystemVSegments::create(*key);
-    if (!created)
-      exitCode = reportError(created.error());
-    else
-      std::printf("created %d\n", *key);
+  whenChosen(*command, target, exitCode, [](BlackboardTarget& chosen) -> Result<int> {
+    const int key = TRY(chosen.resolve());
+    TRY(SystemVSegments::create(key));
+    std::printf("created %d\n", key);
+    return 0;
   });
 }
 
@@ -170,7 +165,7 @@ void addRemoveCommand(CLI::App& parent, int& exitCode) {
   command->add_flag("--orphans", options->orphans,
                     "every blackboard of ours that nobody uses and whose creator has ended");
   command->add_flag("--force", options->force, "also when processes are attached");
-  command->callback([options, &exitCode] { exitCode = removeBlackboards(*options); });
+  whenChosen(*command, options, exitCode, removeBlackboards);
 }
 
 }  // namespace

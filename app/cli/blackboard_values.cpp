@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <base/try.h>
+#include <robotlink/blackboard/variable_catalog.h>
 
 #include "blackboard_target.h"
 #include "interrupt.h"
@@ -55,10 +57,14 @@ Result<int> BlackboardTarget::resolve() const {
   return key != 0 ? key : link::blackboardKey(RobotId{robot}, keyBase);
 }
 
+namespace {
+
+/// The catalog in `file`, or the published one when the name is empty.
 Result<VariableCatalog> loadCatalog(const std::string& file) {
   return file.empty() ? VariableCatalog::published() : VariableCatalog::fromFile(file);
 }
 
+/// A word as a variable of the type: decimal, or the shortest text that gives the same float.
 std::string valueText(VariableType type, std::uint32_t word) {
   if (type == VariableType::Int) return std::to_string(std::bit_cast<std::int32_t>(word));
   std::array<char, 64> buffer{};
@@ -67,6 +73,7 @@ std::string valueText(VariableType type, std::uint32_t word) {
   return std::string(buffer.data(), end.ptr);
 }
 
+/// The same for JSON, where nan and inf have to be texts.
 std::string jsonValueText(VariableType type, std::uint32_t word) {
   const std::string text = valueText(type, word);
   const bool finite = type == VariableType::Int || std::isfinite(std::bit_cast<float>(word));
@@ -77,8 +84,6 @@ int wordIndex(const Variable& variable) {
   return variable.type == VariableType::Int ? variable.index
                                             : Blackboard::floatOffset + variable.index;
 }
-
-namespace {
 
 std::uint32_t wordOf(const Words& words, const Variable& variable) {
   return words[static_cast<std::size_t>(wordIndex(variable))];
@@ -118,32 +123,20 @@ struct DumpOptions {
 
 void dumpJson(const VariableCatalog& catalog, const Words& words, int key,
               const std::vector<int>& unnamed) {
-  std::string text = "{\n \"key\": " + std::to_string(key);
-  for (const VariableType type : {VariableType::Int, VariableType::Float}) {
-    text += type == VariableType::Int ? ",\n \"int\": {" : ",\n \"float\": {";
-    const char* separator = "\n";
-    for (const Variable& variable : catalog.variables()) {
-      if (variable.type != type) continue;
-      text += separator + ("  \"" + variable.name) +
-              "\": " + jsonValueText(type, wordOf(words, variable));
-      separator = ",\n";
-    }
-    text += "\n }";
+  using Json = nlohmann::ordered_json;
+  Json out{{"key", key}, {"int", Json::object()}, {"float", Json::object()}};
+  for (const Variable& variable : catalog.variables()) {
+    Json& values = out[variable.type == VariableType::Int ? "int" : "float"];
+    values[variable.name] = Json::parse(jsonValueText(variable.type, wordOf(words, variable)));
   }
-  if (!unnamed.empty()) {
-    text += ",\n \"unnamed_words\": {";
-    const char* separator = "\n";
-    for (const int word : unnamed) {
-      text += separator + ("  \"" + std::to_string(word)) +
-              "\": " + valueText(VariableType::Int, words[static_cast<std::size_t>(word)]);
-      separator = ",\n";
-    }
-    text += "\n }";
+  for (const int word : unnamed) {
+    out["unnamed_words"][std::to_string(word)] =
+        std::bit_cast<std::int32_t>(words[static_cast<std::size_t>(word)]);
   }
-  std::printf("%s\n}\n", text.c_str());
+  std::printf("%s\n", out.dump(1).c_str());
 }
 
-Result<void> dump(DumpOptions& options) {
+Result<int> dump(DumpOptions& options) {
   const auto catalog = TRY(loadCatalog(options.catalog));
   const auto board = TRY(openTarget(options.target, AttachMode::ReadOnly));
   Words words{};
@@ -161,7 +154,7 @@ Result<void> dump(DumpOptions& options) {
   }
   if (options.json) {
     dumpJson(catalog, words, board.key(), unnamed);
-    return {};
+    return 0;
   }
   for (const Variable& variable : catalog.variables())
     std::printf("%-5s %3d  %-32s %s\n", variable.type == VariableType::Int ? "int" : "float",
@@ -175,7 +168,7 @@ Result<void> dump(DumpOptions& options) {
       std::printf(" = float %s", valueText(VariableType::Float, value).c_str());
     std::printf("\n");
   }
-  return {};
+  return 0;
 }
 
 // --- watch ------------------------------------------------------------------------------------
@@ -208,7 +201,7 @@ void printChange(const Variable& variable, std::uint32_t before, std::uint32_t n
               valueText(variable.type, before).c_str(), valueText(variable.type, now).c_str());
 }
 
-Result<void> watch(WatchOptions& options) {
+Result<int> watch(WatchOptions& options) {
   TRY(options.target.takeRobotFrom(options.names));
   using SteadyClock = std::chrono::steady_clock;
   const auto catalog = TRY(loadCatalog(options.catalog));
@@ -236,10 +229,10 @@ Result<void> watch(WatchOptions& options) {
       printChange(variable, old, fresh, options.json);
       if (++printed == options.count) break;
     }
-    if (std::fflush(stdout) != 0) return {};  // nobody reads any more
-    if (options.count > 0 && printed >= options.count) return {};
+    if (std::fflush(stdout) != 0) return 0;  // nobody reads any more
+    if (options.count > 0 && printed >= options.count) return 0;
     const auto time = SteadyClock::now();
-    if (options.duration && time >= end) return {};
+    if (options.duration && time >= end) return 0;
     if (time >= nextCheck) {
       // Removed, or removed and made anew: what we hold will never change again.
       const auto there = SystemVSegments::info(board.key());
@@ -251,7 +244,7 @@ Result<void> watch(WatchOptions& options) {
     before = now;
     poll(nullptr, 0, options.intervalMs);
   }
-  return {};
+  return 0;
 }
 
 // --- set --------------------------------------------------------------------------------------
@@ -293,7 +286,7 @@ Result<Assignment> parseAssignment(const VariableCatalog& catalog, const std::st
   return assignment;
 }
 
-Result<void> set(SetOptions& options) {
+Result<int> set(SetOptions& options) {
   TRY(options.target.takeRobotFrom(options.assignments));
   if (options.assignments.empty())
     return failure(ErrorCode::InvalidArgument, "nothing to write: add NAME=VALUE");
@@ -301,8 +294,7 @@ Result<void> set(SetOptions& options) {
   // All are checked before the first is written: a robot never sees half a command.
   std::vector<Assignment> assignments;
   for (const std::string& text : options.assignments) {
-    auto assignment = TRY(parseAssignment(catalog, text));
-    assignments.push_back(std::move(assignment));
+    assignments.push_back(TRY(parseAssignment(catalog, text)));
   }
   auto board = TRY(openTarget(options.target, AttachMode::AttachOnly));
   for (const Assignment& assignment : assignments) {
@@ -311,22 +303,13 @@ Result<void> set(SetOptions& options) {
     else
       board.write(link::FloatVar{assignment.variable.index}, assignment.floatValue);
   }
-  return {};
+  return 0;
 }
 
 void addCatalogOption(CLI::App& command, std::string& file) {
   command.add_option("--catalog", file,
                      "variable map: a team's blackboard.h, SharedMemory.py or JSON "
                      "(default: the published map)");
-}
-
-template <class Options>
-void whenChosen(CLI::App& command, const std::shared_ptr<Options>& options, int& exitCode,
-                Result<void> (*run)(Options&)) {
-  command.callback([options, &exitCode, run] {
-    const auto done = run(*options);
-    if (!done) exitCode = reportError(done.error());
-  });
 }
 
 }  // namespace

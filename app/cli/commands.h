@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <memory>
+
 #include <app/command_line.h>
 
 namespace pitchboard::cli {
@@ -27,5 +29,16 @@ void addExperimentCommand(CLI::App& parent, int& exitCode);
 void addTestCommand(CLI::App& parent, int& exitCode);
 
 using shared::reportError;
+
+/// Reports the error of a command that failed.
+inline int exitCodeOf(const Result<int>& done) {
+  return done ? *done : reportError(done.error());
+}
+
+template <class Options, class Run>
+void whenChosen(CLI::App& command, const std::shared_ptr<Options>& options, int& exitCode,
+                Run run) {
+  command.callback([options, &exitCode, run] { exitCode = exitCodeOf(run(*options)); });
+}
 
 }  // namespace pitchboard::cli

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <base/read_file.h>
+#include <base/try.h>
 #include <robotlink/live/live_teams.h>
 #include <telemetry/wire/message_format.h>
 
@@ -65,26 +66,23 @@ void put(const Options& options, Json json, const Json& body, const std::string&
   std::printf("%s\n", options.json ? dump(json).c_str() : line.c_str());
 }
 
-int decodeStoredMessages(const Options& options, const TextDecoder& decoder);
+Result<int> decodeStoredMessages(const Options& options, const TextDecoder& decoder);
 
-int decodeTelemetry(const Options& options) {
+Result<int> decodeTelemetry(const Options& options) {
   Profile profile = publishedProfile();
   if (!options.profile.empty()) {
-    auto loaded = loadProfile(options.profile);
-    if (!loaded) return reportError(loaded.error());
-    profile = std::move(*loaded);
+    profile = TRY(loadProfile(options.profile));
   }
   const TextDecoder decoder(std::move(profile), link::surroundingsOf(sim::FieldSpec{}));
   if (!isTextFormat(decoder.profile().format)) return decodeStoredMessages(options, decoder);
   auto decoded = std::make_unique<DecodedText>();
   int exitCode = 0;
   for (const std::string& file : options.files) {
-    const auto text = readAll(file);
-    if (!text) return reportError(text.error());
-    if (text->empty()) {
-      return reportError({ErrorCode::ParseError, "The file is empty.", file});
+    const auto text = TRY(readAll(file));
+    if (text.empty()) {
+      return failure(ErrorCode::ParseError, "The file is empty.", file);
     }
-    forEachLine(*text, [&](std::string_view line, std::size_t number) {
+    forEachLine(text, [&](std::string_view line, std::size_t number) {
       const CapturedLine captured = splitLine(line);
       decoder.decode(captured.datagram, *decoded);
       Json head{{"file", file}, {"line", number}};
@@ -137,15 +135,13 @@ Result<std::vector<StoredPacket>> storedPackets(const std::string& file, const s
 }
 
 /// Messages that are no text: one in a file, or lines of JSON.
-int decodeStoredMessages(const Options& options, const TextDecoder& decoder) {
+Result<int> decodeStoredMessages(const Options& options, const TextDecoder& decoder) {
   auto decoded = std::make_unique<DecodedText>();
   int exitCode = 0;
   for (const std::string& file : options.files) {
-    const auto bytes = readAll(file);
-    if (!bytes) return reportError(bytes.error());
-    const auto messages = storedPackets(file, *bytes);
-    if (!messages) return reportError(messages.error());
-    for (const StoredPacket& stored : *messages) {
+    const auto bytes = TRY(readAll(file));
+    const auto messages = TRY(storedPackets(file, bytes));
+    for (const StoredPacket& stored : messages) {
       decoder.decode(stored.bytes, *decoded);
       Json head{{"file", file}};
       if (stored.line > 0) head["line"] = stored.line;
@@ -157,14 +153,12 @@ int decodeStoredMessages(const Options& options, const TextDecoder& decoder) {
   return exitCode;
 }
 
-int decodeGameController(const Options& options) {
+Result<int> decodeGameController(const Options& options) {
   int exitCode = 0;
   for (const std::string& file : options.files) {
-    const auto text = readAll(file);
-    if (!text) return reportError(text.error());
-    const auto packets = storedPackets(file, *text);
-    if (!packets) return reportError(packets.error());
-    for (const StoredPacket& stored : *packets) {
+    const auto text = TRY(readAll(file));
+    const auto packets = TRY(storedPackets(file, text));
+    for (const StoredPacket& stored : packets) {
       Json head{{"file", file}};
       if (stored.line > 0) head["line"] = stored.line;
       const auto packet = decodeReferee(stored.bytes);
@@ -206,7 +200,7 @@ void addDecodeCommand(CLI::App& parent, int& exitCode) {
       "--profile", text->profile,
       "What stands in a message: a file (docs/LIVE.md), or one of\n" + profileNames());
   telemetry->add_flag("--json", text->json, "One JSON object per datagram");
-  telemetry->callback([text, &exitCode] { exitCode = decodeTelemetry(*text); });
+  whenChosen(*telemetry, text, exitCode, decodeTelemetry);
 
   auto referee = std::make_shared<Options>();
   CLI::App* controller = decode->add_subcommand(
@@ -214,7 +208,7 @@ void addDecodeCommand(CLI::App& parent, int& exitCode) {
       "Referee packets: one packet per file, or lines of JSON with the bytes under \"hex\"");
   controller->add_option("FILE", referee->files, "Files; - is standard input")->required();
   controller->add_flag("--json", referee->json, "One JSON object per packet");
-  controller->callback([referee, &exitCode] { exitCode = decodeGameController(*referee); });
+  whenChosen(*controller, referee, exitCode, decodeGameController);
 }
 
 }  // namespace pitchboard::cli

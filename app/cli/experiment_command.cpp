@@ -111,10 +111,9 @@ Result<void> recordRuns(const link::Experiment& experiment, const link::Experime
   return {};
 }
 
-int told(const link::Experiment& experiment, const link::ExperimentFolder& folder) {
-  const auto table = link::resultsOf(folder.path(), experiment);
-  if (!table) return reportError(table.error());
-  const link::ExperimentSummary summary = link::summarize(experiment, *table);
+Result<int> told(const link::Experiment& experiment, const link::ExperimentFolder& folder) {
+  const auto table = TRY(link::resultsOf(folder.path(), experiment));
+  const link::ExperimentSummary summary = link::summarize(experiment, table);
   for (const link::ConditionSummary& condition : summary.conditions) {
     std::printf("%s: %zu runs", condition.name.c_str(), condition.runs);
     for (const auto& [end, count] : condition.ends) {
@@ -131,19 +130,16 @@ int told(const link::Experiment& experiment, const link::ExperimentFolder& folde
   return summary.holds() ? 0 : exitAssertionFailed;
 }
 
-int run(const Options& options) {
+Result<int> run(Options& options) {
   if (options.experiment.empty() || options.out.empty()) {
-    return reportError({ErrorCode::InvalidArgument,
-                        "say which experiment and where to: pitchboard-cli experiment "
-                        "paper-scenario-1 --out results",
-                        {}});
+    return failure(ErrorCode::InvalidArgument,
+                   "say which experiment and where to: pitchboard-cli experiment "
+                   "paper-scenario-1 --out results");
   }
-  const auto shard = shardFrom(options.shard);
-  if (!shard) return reportError(shard.error());
-  const auto experiment = link::loadExperiment(options.experiment, {options.seed, options.runs});
-  if (!experiment) return reportError(experiment.error());
-  auto folder = link::ExperimentFolder::begin(options.out, *experiment, options.resume);
-  if (!folder) return reportError(folder.error());
+  const auto shard = TRY(shardFrom(options.shard));
+  const auto experiment =
+      TRY(link::loadExperiment(options.experiment, {options.seed, options.runs}));
+  auto folder = TRY(link::ExperimentFolder::begin(options.out, experiment, options.resume));
 
   const InterruptGuard signals;
   link::PlaySettings settings;
@@ -152,7 +148,7 @@ int run(const Options& options) {
   settings.cancelled = &interrupted;
   settings.folder = options.out;
   settings.program = program;
-  const std::vector<std::size_t> numbers = numbersOf(*folder, *shard);
+  const std::vector<std::size_t> numbers = numbersOf(folder, shard);
   const std::size_t jobs =
       options.jobs > 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
   const auto begin = Clock::now();
@@ -160,21 +156,21 @@ int run(const Options& options) {
   double busy = 0.0, simulated = 0.0;
   Result<void> played;
   {
-    Progress progress(experiment->name, options.progress);
+    Progress progress(experiment.name, options.progress);
     played = link::playRuns(
-        *experiment, numbers, jobs, settings, [&](link::PlayedRun one) -> Result<void> {
+        experiment, numbers, jobs, settings, [&](link::PlayedRun one) -> Result<void> {
           ++done;
           busy += one.wallSeconds;
           simulated += one.simulatedSeconds;
           const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
           progress.say(progressText(done, numbers.size(), seconds));
-          return folder->add(one.result, one.timesRealTime);
+          return folder.add(one.result, one.timesRealTime);
         });
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  const auto finished = folder->finish();
-  if (!played) return reportError(played.error());
-  if (!finished) return reportError(finished.error());
+  const auto finished = folder.finish();
+  TRY(played);
+  TRY(finished);
   if (done > 0) {
     std::fprintf(stderr,
                  "%zu runs in %.1f s, %.1f runs/s; a run was played %.1f times as fast as real "
@@ -183,21 +179,18 @@ int run(const Options& options) {
                  simulated / std::max(busy, 1e-9));
   }
   if (interrupted) {
-    return reportError({ErrorCode::Conflict,
-                        "interrupted with " + std::to_string(folder->finishedCount()) + " of " +
-                            std::to_string(experiment->allRuns()) +
-                            " runs; --resume goes on with them",
-                        options.out});
+    return failure(ErrorCode::Conflict,
+                   "interrupted with " + std::to_string(folder.finishedCount()) + " of " +
+                       std::to_string(experiment.allRuns()) + " runs; --resume goes on with them",
+                   options.out);
   }
-  if (auto recorded = recordRuns(*experiment, *folder, *shard, settings); !recorded) {
-    return reportError(recorded.error());
-  }
-  if (!folder->complete()) {
+  TRY(recordRuns(experiment, folder, shard, settings));
+  if (!folder.complete()) {
     std::printf("%zu of %zu runs are in %s; \"experiment merge\" joins the shards\n",
-                folder->finishedCount(), experiment->allRuns(), options.out.c_str());
+                folder.finishedCount(), experiment.allRuns(), options.out.c_str());
     return 0;
   }
-  return told(*experiment, *folder);
+  return told(experiment, folder);
 }
 
 void addMerge(CLI::App& parent, int& exitCode) {
@@ -214,24 +207,14 @@ void addMerge(CLI::App& parent, int& exitCode) {
       ->required()
       ->type_name("DIR...");
   command->add_option("--out", options->out, "A new folder")->required()->type_name("DIR");
-  command->callback([options, &exitCode] {
-    const auto experiment = link::experimentOf(options->parts.front());
-    if (!experiment) {
-      exitCode = reportError(experiment.error());
-      return;
-    }
-    const auto merged = link::mergeFolders(options->parts, options->out, *experiment);
-    if (!merged) {
-      exitCode = reportError(merged.error());
-    } else if (!merged->complete()) {
-      exitCode = reportError({ErrorCode::NotFound,
-                              std::to_string(merged->finishedCount()) + " of " +
-                                  std::to_string(experiment->allRuns()) +
-                                  " runs are here; a shard is missing",
-                              options->out});
-    } else {
-      exitCode = told(*experiment, *merged);
-    }
+  whenChosen(*command, options, exitCode, [](Merge& chosen) -> Result<int> {
+    const auto experiment = TRY(link::experimentOf(chosen.parts.front()));
+    const auto merged = TRY(link::mergeFolders(chosen.parts, chosen.out, experiment));
+    if (merged.complete()) return told(experiment, merged);
+    return failure(ErrorCode::NotFound,
+                   std::to_string(merged.finishedCount()) + " of " +
+                       std::to_string(experiment.allRuns()) + " runs are here; a shard is missing",
+                   chosen.out);
   });
 }
 
@@ -257,40 +240,30 @@ void addReplay(CLI::App& parent, int& exitCode) {
       ->add_option("--robot-program", options->robotProgram,
                    "Program of separate processes; default: pitchboard-robot beside this one")
       ->type_name("FILE");
-  command->callback([options, &exitCode] {
-    const auto experiment = link::experimentOf(options->folder);
-    if (!experiment) {
-      exitCode = reportError(experiment.error());
-      return;
-    }
+  whenChosen(*command, options, exitCode, [](Replay& chosen) -> Result<int> {
+    const auto experiment = TRY(link::experimentOf(chosen.folder));
     const InterruptGuard signals;
     link::PlaySettings settings;
     settings.cancelled = &interrupted;
-    settings.robotProgram = options->robotProgram.empty()
-                                ? link::besideOwnProgram("pitchboard-robot")
-                                : options->robotProgram;
-    const std::string path = options->output.empty()
-                                 ? link::sessionPath(options->folder, options->run)
-                                 : options->output;
-    if (!std::filesystem::exists(path) || !options->output.empty()) {
-      const auto result = recordRun(options->folder, *experiment, options->run, path, settings);
-      if (!result) {
-        exitCode = reportError(result.error());
-        return;
-      }
+    settings.robotProgram = chosen.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
+                                                        : chosen.robotProgram;
+    const std::string path =
+        chosen.output.empty() ? link::sessionPath(chosen.folder, chosen.run) : chosen.output;
+    if (!std::filesystem::exists(path) || !chosen.output.empty()) {
+      const auto result = TRY(recordRun(chosen.folder, experiment, chosen.run, path, settings));
       std::printf("%s: run %zu, seed %" PRIu64 ", %s, state hash 0x%016" PRIx64 ", %s\n",
-                  path.c_str(), result->number, result->seed,
-                  link::endWords(result->endedBy).c_str(), result->hash,
-                  experiment->ownPrograms ? "played anew: a team's own programs do not repeat a run"
-                                          : "as in the results");
+                  path.c_str(), result.number, result.seed, link::endWords(result.endedBy).c_str(),
+                  result.hash,
+                  experiment.ownPrograms ? "played anew: a team's own programs do not repeat a run"
+                                         : "as in the results");
     } else {
       std::printf("%s: it is there\n", path.c_str());
     }
-    if (!options->open) return;
+    if (!chosen.open) return 0;
     const std::string studio = link::besideOwnProgram("pitchboard");
     std::fflush(stdout);
     ::execlp(studio.c_str(), studio.c_str(), path.c_str(), static_cast<char*>(nullptr));
-    exitCode = reportError({ErrorCode::SystemError, "the studio cannot be started", studio});
+    return failure(ErrorCode::SystemError, "the studio cannot be started", studio);
   });
 }
 
@@ -336,7 +309,7 @@ void addExperimentCommand(CLI::App& parent, int& exitCode) {
       }
       return;
     }
-    exitCode = run(*options);
+    exitCode = exitCodeOf(run(*options));
   });
 }
 

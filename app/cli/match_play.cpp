@@ -42,7 +42,7 @@ class ProcessNews : public link::TickObserver {
       constexpr std::array told{
           Kind::ProcessDied,    Kind::ProcessEnded,    Kind::ProcessRestarted,  Kind::ProcessSilent,
           Kind::ProcessGivenUp, Kind::ProcessRealTime, Kind::ProcessNotAttached};
-      if (std::find(told.begin(), told.end(), event.kind) == told.end()) continue;
+      if (std::ranges::find(told, event.kind) == told.end()) continue;
       std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
                    link::sentenceOf(event).c_str());
     }
@@ -131,8 +131,8 @@ void addPlayOptions(CLI::App& command, PlayOptions& o) {
 }
 
 Result<link::Cognition> cognitionOf(const PlayOptions& options) {
-  const auto found = std::find_if(cognitions.begin(), cognitions.end(),
-                                  [&](const auto& c) { return options.cognition == c.name; });
+  const auto found =
+      std::ranges::find_if(cognitions, [&](const auto& c) { return options.cognition == c.name; });
   if (found != cognitions.end()) return found->cognition;
   return failure(ErrorCode::InvalidArgument,
                  "--cognition must be inline, external or none, not \"" + options.cognition + "\"");
@@ -154,8 +154,7 @@ Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const Pla
                                       link::Cognition cognition) {
   if (!scenario) return scenario;
   if (!options.rules.empty()) {
-    auto rules = TRY(link::refereeRuleSet(options.rules));
-    scenario->settings.referee = rules;
+    scenario->settings.referee = TRY(link::refereeRuleSet(options.rules));
   }
   if (options.duration) {
     scenario->stop.duration = options.duration;
@@ -168,8 +167,8 @@ Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const Pla
   if (!scenario || (cognition == link::Cognition::None && options.robots.runtimes.empty())) {
     return scenario;
   }
-  const auto allowed = TRY(link::usesTeamPrograms(*scenario, cognition == link::Cognition::External,
-                                                  "add --cognition external"));
+  TRY(link::usesTeamPrograms(*scenario, cognition == link::Cognition::External,
+                             "add --cognition external"));
   return scenario;
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include <base/try.h>
 #include <robotlink/match/match_player.h>
 #include <robotlink/session/match_recorder.h>
 #include <telemetry/session/recording_health.h>
@@ -34,9 +35,10 @@ struct Options {
   ListenOptions network;
 };
 
-int ended(const std::string& path, const SessionStatus& status, const Result<void>& finished) {
+Result<int> ended(const std::string& path, const SessionStatus& status,
+                  const Result<void>& finished) {
   if (!finished) {
-    return reportError({finished.error().code, status.problem, finished.error().context});
+    return failure(finished.error().code, status.problem, finished.error().context);
   }
   std::printf("%s: %.3f s, %llu rows, %llu messages, %.3f MB", path.c_str(), status.seconds,
               static_cast<unsigned long long>(status.rows),
@@ -74,75 +76,68 @@ class Health {
   std::set<RecordingTrouble> m_told;
 };
 
-int recordMatch(const Options& options) {
-  const auto cognition = cognitionOf(options.play);
-  if (!cognition) return reportError(cognition.error());
-  const auto speed = speedOf(options.play, *cognition);
-  if (!speed) return reportError(speed.error());
+Result<int> recordMatch(const Options& options) {
+  const auto cognition = TRY(cognitionOf(options.play));
+  const auto speed = TRY(speedOf(options.play, cognition));
   const auto scenario =
-      scenarioToPlay(shared::scenarioFrom(options.play.match), options.play, *cognition);
-  if (!scenario) return reportError(scenario.error());
-  auto match = createMatch(*scenario, options.play, *cognition);
-  if (!match) return reportError(match.error());
+      TRY(scenarioToPlay(shared::scenarioFrom(options.play.match), options.play, cognition));
+  auto match = TRY(createMatch(scenario, options.play, cognition));
 
   SessionWriterOptions writing;
   writing.waitWhenFull = true;
-  auto created = SessionWriter::create(
-      options.output, link::sessionInfo(*match, program, LiveClock().now()), writing);
-  if (!created) return reportError(created.error());
-  const std::shared_ptr<SessionWriter> writer = std::move(*created);
-  link::attachMatch(*writer, match->scenario(), link::VariableCatalog::published());
+  const std::shared_ptr<SessionWriter> writer = TRY(SessionWriter::create(
+      options.output, link::sessionInfo(match, program, LiveClock().now()), writing));
+  link::attachMatch(*writer, match.scenario(), link::VariableCatalog::published());
   const auto sampler = std::make_shared<link::MatchSampler>();
   const auto recorder = std::make_shared<link::MatchRecorder>(writer, sampler);
-  link::MatchPlayer player(std::move(*match));
+  link::MatchPlayer player(std::move(match));
   player.observe(sampler);
   player.observe(recorder);
   Outcome outcome;
   {
     Health health(options.progress);
-    outcome = playToEnd(player, *speed, [&] {
+    outcome = playToEnd(player, speed, [&] {
       health.say(writer->status());
       return writer->status().recording;
     });
   }
   const auto finished = recorder->finish();
-  const int exitCode = ended(writer->path(), writer->status(), finished);
-  if (exitCode == 0) printResult(player.match(), outcome);
-  return exitCode;
+  TRY(ended(writer->path(), writer->status(), finished));
+  printResult(player.match(), outcome);
+  return 0;
 }
 
-int recordLive(const Options& options) {
-  auto setup = listenSetup(options.network);
-  if (!setup) return reportError(setup.error());
+Result<int> recordLive(const Options& options) {
+  auto setup = TRY(listenSetup(options.network));
   link::LiveOptions live;
-  live.bind = setup->receiver.bind;
+  live.bind = setup.receiver.bind;
   live.portBase = options.network.portBase;
   live.robots = options.network.robots;
   live.refereePort = options.network.refereePort;
-  live.profile = std::move(setup->profile);
-  live.team.senders = std::move(setup->monitor.senders);
-  live.team.teams = std::move(setup->monitor.teams);
-  live.refereeSenders = std::move(setup->referees);
+  live.profile = std::move(setup.profile);
+  live.team.senders = std::move(setup.monitor.senders);
+  live.team.teams = std::move(setup.monitor.teams);
+  live.refereeSenders = std::move(setup.referees);
   live.refereeVersion = options.network.refereeVersion;
-  if (const auto good = link::validate(live); !good) return reportError(good.error());
+  TRY(link::validate(live));
   link::LiveWatch watch(live);
   link::LiveDetails details = watch.details();
   for (; details.network.ports.empty(); details = watch.details()) {
     if (!details.networkProblem.empty()) {
-      return reportError({ErrorCode::SystemError, details.networkProblem, {}});
+      return failure(ErrorCode::SystemError, details.networkProblem);
     }
     std::this_thread::sleep_for(pollInterval);
   }
   const auto& ports = details.network.ports;
-  if (std::none_of(ports.begin(), ports.end(), [](const PortStatus& port) { return port.bound; })) {
-    return reportError({ErrorCode::SystemError, ports.front().problem, options.network.bind});
+  if (std::ranges::none_of(ports, [](const PortStatus& port) { return port.bound; })) {
+    return failure(ErrorCode::SystemError, ports.front().problem, options.network.bind);
   }
   link::RecorderOptions recording;
   recording.program = program;
-  const auto recorder = link::LiveRecorder::create(options.output, live, watch.began(), recording);
-  if (!recorder) return reportError(recorder.error());
-  watch.observe(*recorder);
-  sayListening(options.network, setup->receiver.ports);
+  const auto recorder =
+      TRY(link::LiveRecorder::create(options.output, live, watch.began(), recording));
+  watch.observe(recorder);
+  sayListening(options.network, setup.receiver.ports);
   {
     Health health(options.progress);
     std::map<std::size_t, std::string> told;
@@ -151,30 +146,30 @@ int recordLive(const Options& options) {
       return options.play.duration &&
              Clock::now() - begin >= std::chrono::duration<double>(*options.play.duration);
     };
-    while (!interrupted && !isOver() && (*recorder)->status().recording) {
+    while (!interrupted && !isOver() && recorder->status().recording) {
       reportPorts(watch.details().network, told);
-      health.say((*recorder)->status());
+      health.say(recorder->status());
       std::this_thread::sleep_for(pollInterval);
     }
   }
-  watch.stopObserving(*recorder);
+  watch.stopObserving(recorder);
   details = watch.details();
   std::string refused = refusedText(details.team, details.refusedReferees);
-  const LiveRows::Refused& rows = (*recorder)->refused();
+  const LiveRows::Refused& rows = recorder->refused();
   if (rows.rows + rows.values > 0) {
     refused += (refused.empty() ? "; refused: " : ", ") + std::to_string(rows.rows) + " rows and " +
                std::to_string(rows.values) + " values beyond the limits";
   }
   if (!refused.empty()) std::fprintf(stderr, "%s\n", refused.c_str() + 2);
-  const auto finished = (*recorder)->finish();
-  return ended((*recorder)->path(), (*recorder)->status(), finished);
+  const auto finished = recorder->finish();
+  return ended(recorder->path(), recorder->status(), finished);
 }
 
-int run(Options& options) {
+Result<int> run(Options& options) {
   const InterruptGuard signals;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end
   if (!options.output.empty()) return options.live ? recordLive(options) : recordMatch(options);
-  return reportError({ErrorCode::InvalidArgument, "Say where to: -o FILE.mcap", {}});
+  return failure(ErrorCode::InvalidArgument, "Say where to: -o FILE.mcap");
 }
 
 }  // namespace
@@ -206,7 +201,7 @@ void addRecordCommand(CLI::App& parent, int& exitCode) {
   addListenOptions(*command, o.network);
   command->add_flag("--progress", o.progress,
                     "Say on stderr how far it is, also without a terminal");
-  command->callback([options, &exitCode] { exitCode = run(*options); });
+  whenChosen(*command, options, exitCode, run);
 }
 
 }  // namespace pitchboard::cli

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cerrno>
 #include <cstdio>
 #include <memory>
 
 #include <base/file_target.h>
+#include <base/system_reason.h>
 #include <base/time_text.h>
 #include <base/try.h>
+#include <robotlink/capi/world_lines.h>
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/moment_reader.h>
 #include <telemetry/session/session_time.h>
@@ -151,8 +154,7 @@ Result<void> simulate(const Arguments& arguments) {
   const auto speed = TRY(speedOf(arguments.play, cognition));
   std::optional<Recorded> recorded;
   if (!arguments.session.empty()) {
-    auto read = TRY(recordedMoment(arguments));
-    recorded = std::move(read);
+    recorded = TRY(recordedMoment(arguments));
   }
   const auto scenario = TRY(scenarioFrom(arguments, cognition, recorded));
   const InterruptGuard signals;

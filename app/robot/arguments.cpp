@@ -89,7 +89,7 @@ void addCommunicationOptions(CLI::App& command, Arguments& a) {
 }
 
 CLI::Option* find(CLI::App& command, std::string name) {
-  std::replace(name.begin(), name.end(), '_', '-');
+  std::ranges::replace(name, '_', '-');
   for (const std::string_view mine : {"config", "robot", "help", "match-turns"}) {
     if (name == mine) return nullptr;
   }

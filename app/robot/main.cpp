@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include <app/command_line.h>
+#include <base/try.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/processes/guard.h>
@@ -25,27 +26,18 @@ Result<link::Blackboard> joinBlackboard(int key) {
   return link::SystemVSegments::open(key, link::AttachMode::AttachOnly);
 }
 
-int run(const link::ProcessInfo& info, CLI::App& command, Arguments& arguments) {
-  if (const auto settled = settle(command, arguments); !settled)
-    return shared::reportError(settled.error());
+Result<void> run(const link::ProcessInfo& info, CLI::App& command, Arguments& arguments) {
+  TRY(settle(command, arguments));
   if (arguments.matchTurns) {
-    auto turns = link::ProcessTurns::join(*arguments.matchTurns);
-    if (!turns) return shared::reportError(turns.error());
-    arguments.process.turns = std::move(*turns);
+    arguments.process.turns = TRY(link::ProcessTurns::join(*arguments.matchTurns));
   }
   const auto make = [&] { return info.make(arguments.process); };
-  auto process = make();
-  if (!process) return shared::reportError(process.error());
+  auto process = TRY(make());
   const int key = arguments.blackboardKey();
-  Result<link::Blackboard> board = joinBlackboard(key);
-  if (!board) return shared::reportError(board.error());
+  link::Blackboard board = TRY(joinBlackboard(key));
 
   std::optional<link::ThoughtsSender> display;
-  if (arguments.thoughtsPort) {
-    Result<link::ThoughtsSender> sender = link::ThoughtsSender::to(*arguments.thoughtsPort);
-    if (!sender) return shared::reportError(sender.error());
-    display.emplace(std::move(*sender));
-  }
+  if (arguments.thoughtsPort) display = TRY(link::ThoughtsSender::to(*arguments.thoughtsPort));
 
   std::string line = std::string(info.name) + " of robot " +
                      std::to_string(arguments.process.robot.value) + " on key " +
@@ -56,13 +48,11 @@ int run(const link::ProcessInfo& info, CLI::App& command, Arguments& arguments) 
   const RobotId robot = arguments.process.robot;
   link::ThoughtsSender* const shown = display ? &*display : nullptr;
   if (arguments.process.turns) {
-    const auto taken = takeTurnsUntilAsked(std::move(*process), make, *board, robot,
-                                           *arguments.process.turns, shown);
-    if (!taken) return shared::reportError(taken.error());
-  } else {
-    runUntilAsked(**process, *board, robot, shown);
+    return takeTurnsUntilAsked(std::move(process), make, board, robot, *arguments.process.turns,
+                               shown);
   }
-  return 0;
+  runUntilAsked(*process, board, robot, shown);
+  return {};
 }
 
 void printList() {
@@ -121,11 +111,10 @@ int parseAndRun(int argc, char** argv) {
     printList();
     return 0;
   }
-  if (chosen == management) {
-    const Result<void> managed = manage(*chosen, arguments);
-    return managed ? 0 : shared::reportError(managed.error());
-  }
-  return run(*link::findProcess(chosen->get_name()), *chosen, arguments);
+  const auto done = chosen == management
+                        ? manage(*chosen, arguments)
+                        : run(*link::findProcess(chosen->get_name()), *chosen, arguments);
+  return done ? 0 : shared::reportError(done.error());
 }
 
 }  // namespace

@@ -74,8 +74,8 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
 
   const std::string robot = std::to_string(arguments.process.robot.value);
   const std::string key = std::to_string(arguments.blackboardKey());
-  const bool clearedByOther = std::find(config.processes.begin(), config.processes.end(),
-                                        "communication") != config.processes.end();
+  const bool clearedByOther =
+      std::ranges::find(config.processes, "communication") != config.processes.end();
   std::vector<link::ManagedProcess> processes;
   for (const std::string& name : config.processes) {
     std::vector<std::string> words;

@@ -97,8 +97,7 @@ Result<void> takeTurnsUntilAsked(std::unique_ptr<link::CognitiveProcess> process
     if (turn) {
       if (turn->seconds < last) {
         process.reset();  // its ports are free again
-        auto made = TRY(make());
-        process = std::move(made);
+        process = TRY(make());
         process->resume(board);
       }
       last = turn->seconds;

@@ -38,10 +38,9 @@ Result<link::Scenario> withRuntimes(link::Scenario scenario, const RobotsOptions
   for (const std::string& text : options.runtimes) {
     const std::size_t equals = text.find('=');
     const std::string who = equals == std::string::npos ? std::string() : text.substr(0, equals);
-    const auto team = std::find_if(teamColors.begin(), teamColors.end(),
-                                   [&who](const TeamColorInfo& one) { return one.name == who; });
-    const auto robot = std::find_if(scenario.robots.begin(), scenario.robots.end(),
-                                    [&who](const auto& one) { return one.identity.name() == who; });
+    const auto team = std::ranges::find(teamColors, who, &TeamColorInfo::name);
+    const auto robot = std::ranges::find_if(
+        scenario.robots, [&who](const auto& one) { return one.identity.name() == who; });
     const bool isShirt =
         who.size() >= 2 && who.size() <= 3 && who[0] >= 'A' && who[0] <= 'Z' &&
         std::all_of(who.begin() + 1, who.end(), [](char c) { return c >= '0' && c <= '9'; });

@@ -88,7 +88,7 @@ Result<World> World::create(const Scenario& scenario, const MatchOptions& option
 
 int World::finishedNumber() const {
   const auto& reasons = columns::finishReasons;
-  const auto found = std::find(reasons.begin(), reasons.end(), m_finishedBy);
+  const auto found = std::ranges::find(reasons, m_finishedBy);
   return found == reasons.end() ? 0 : static_cast<int>(found - reasons.begin()) + 1;
 }
 
@@ -170,7 +170,7 @@ Result<void> World::restore(const WorldSnapshot& snapshot) {
   TRY(m_match.reenter(snapshot.moment));
   findBoards();
   const auto& reasons = columns::finishReasons;
-  const auto found = std::find(reasons.begin(), reasons.end(), snapshot.finishedBy);
+  const auto found = std::ranges::find(reasons, snapshot.finishedBy);
   m_finishedBy = found == reasons.end() ? std::string_view() : *found;
   m_sensed = false;
   forgetEvents();

@@ -158,7 +158,7 @@ void WorldRequest::create() {
   if (!name.empty() || !text.empty()) {
     const auto known = builtInScenarios();
     if (!limits.files && !name.empty() &&
-        std::none_of(known.begin(), known.end(), [&](const auto& s) { return s.name == name; })) {
+        std::ranges::none_of(known, [&](const auto& s) { return s.name == name; })) {
       return fail("scenario", "is not built in");
     }
     auto loaded = text.empty() ? loadScenario(name) : scenarioFromJson(text, "text");

@@ -41,7 +41,7 @@ Result<void> keepInside(RuntimeChoice& choice) {
   if (!choice.isChosen()) return {};
   const auto runtime = TRY(loadRuntime(choice));
   const auto& all = runtime.processes;
-  if (std::any_of(all.begin(), all.end(), [](const auto& p) { return !p.isReference(); })) {
+  if (std::ranges::any_of(all, [](const auto& p) { return !p.isReference(); })) {
     return failure(
         ErrorCode::Unsupported,
         "worlds run no programs of a team; take \"runtime\" out of the scenario, or give "
@@ -92,8 +92,8 @@ struct Worlds::Parts {
   /// Only where nobody thinks and nobody referees do a world's moment and seed say everything.
   bool remembersNothing() const {
     return !scenario.settings.referee &&
-           std::all_of(scenario.robots.begin(), scenario.robots.end(),
-                       [](const ScenarioRobot& r) { return r.behaviour == noBehaviour; });
+           std::ranges::all_of(scenario.robots,
+                               [](const ScenarioRobot& r) { return r.behaviour == noBehaviour; });
   }
   void findBeginning() {
     beginning.reset();
@@ -110,7 +110,7 @@ struct Worlds::Parts {
                                             ", counted from 0");
   }
   Result<void> checkRobot(RobotId robot) const {
-    if (std::find(robots.begin(), robots.end(), robot) != robots.end()) return {};
+    if (std::ranges::find(robots, robot) != robots.end()) return {};
     return failure(ErrorCode::NotFound,
                    "there is no robot " + std::to_string(robot.value) + " on the field");
   }
@@ -153,8 +153,8 @@ Result<Worlds> Worlds::create(const Scenario& scenario, const WorldsOptions& opt
   parts->findBeginning();
   parts->worlds.reserve(static_cast<std::size_t>(options.count));
   for (int i = 0; i < options.count; ++i) {
-    auto world = TRY(parts->make(parts->scenario.settings.seed + static_cast<std::uint64_t>(i)));
-    parts->worlds.push_back(std::move(world));
+    parts->worlds.push_back(
+        TRY(parts->make(parts->scenario.settings.seed + static_cast<std::uint64_t>(i))));
   }
   const int useful = std::min(options.threads, options.count);
   TRY(parts->team.start(useful));
@@ -195,8 +195,7 @@ Result<void> Worlds::reset(int world, std::uint64_t seed) {
   return m_parts->changeEach(world, [&](World& one, std::size_t index) -> Result<void> {
     const std::uint64_t own = world == all ? seed + index : seed;
     if (one.beginsQuickly() && one.beginAgain(*m_parts->beginning, own)) return {};
-    auto made = TRY(m_parts->make(own));
-    one = std::move(made);
+    one = TRY(m_parts->make(own));
     return {};
   });
 }

@@ -36,7 +36,7 @@ BehaviourChoice readBehaviourObject(const JsonNode& node, JsonReport& report,
 }  // namespace
 
 bool BehaviourParameter::isOf(std::string_view behaviour) const {
-  return !behaviour.empty() && std::find(of.begin(), of.end(), behaviour) != of.end();
+  return !behaviour.empty() && std::ranges::find(of, behaviour) != of.end();
 }
 
 BehaviourChoice readBehaviour(const JsonObject& parent, JsonReport& report, std::string_view key,

@@ -76,9 +76,8 @@ void PathPlanner::activate(std::size_t obstacle) {
   const double radius = o.radius / halfCorner + rim;
   for (const Point& to : cornerDirections()) {
     const Point p{o.centre.x + radius * to.x, o.centre.y + radius * to.y};
-    const auto covering =
-        std::find_if(m_obstacles.begin(), m_obstacles.end(),
-                     [&](const Obstacle& c) { return distance(p, c.centre) < c.radius; });
+    const auto covering = std::ranges::find_if(
+        m_obstacles, [&](const Obstacle& c) { return distance(p, c.centre) < c.radius; });
     if (covering != m_obstacles.end()) {
       // The two overlap: who goes round one has to go round the other.
       activate(static_cast<std::size_t>(covering - m_obstacles.begin()));
@@ -92,9 +91,8 @@ Point PathPlanner::freeTarget(const Point& target, const Point& start, bool& fre
   Point p = target;
   // Leaving one obstacle may lead into its neighbour; a few rounds settle all but hopeless cases.
   for (std::size_t round = 0; round <= m_obstacles.size() && round < 8; ++round) {
-    const auto inside =
-        std::find_if(m_obstacles.begin(), m_obstacles.end(),
-                     [&](const Obstacle& o) { return distance(p, o.centre) < o.radius; });
+    const auto inside = std::ranges::find_if(
+        m_obstacles, [&](const Obstacle& o) { return distance(p, o.centre) < o.radius; });
     if (inside == m_obstacles.end()) break;
     free = false;
     Point away{p.x - inside->centre.x, p.y - inside->centre.y};
@@ -179,9 +177,8 @@ Path PathPlanner::plan(const Point& start, const Point& target,
     if (path.complete) {
       // Corners of obstacles beside this path cannot make it shorter: it is free, and every edge
       // that was dropped for a blocked one leads round an obstacle that has corners already.
-      const bool allActive = std::all_of(hit.begin(), hit.end(), [&](int i) {
-        return m_active[static_cast<std::size_t>(i)] != 0;
-      });
+      const bool allActive = std::ranges::all_of(
+          hit, [&](int i) { return m_active[static_cast<std::size_t>(i)] != 0; });
       if (allActive) break;
     }
     const std::size_t before = m_nodes.size();
@@ -196,7 +193,7 @@ Path PathPlanner::plan(const Point& start, const Point& target,
   for (int i = m_end; i >= 0; i = m_nodes[static_cast<std::size_t>(i)].parent) {
     path.points.push_back(m_nodes[static_cast<std::size_t>(i)].point);
   }
-  std::reverse(path.points.begin(), path.points.end());
+  std::ranges::reverse(path.points);
   if (path.points.size() == 1) path.points.push_back(path.points.front());
   for (std::size_t i = 1; i < path.points.size(); ++i) {
     path.length += distance(path.points[i - 1], path.points[i]);

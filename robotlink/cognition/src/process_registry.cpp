@@ -78,8 +78,7 @@ std::span<const ProcessInfo> cognitiveProcesses() {
 }
 
 const ProcessInfo* findProcess(std::string_view name) {
-  const auto found = std::find_if(processes.begin(), processes.end(),
-                                  [name](const ProcessInfo& info) { return info.name == name; });
+  const auto found = std::ranges::find(processes, name, &ProcessInfo::name);
   return found == processes.end() ? nullptr : &*found;
 }
 
@@ -88,8 +87,7 @@ std::span<const BehaviourInfo> behaviours() {
 }
 
 const BehaviourInfo* findBehaviour(std::string_view name) {
-  const auto found = std::find_if(behaviourInfos.begin(), behaviourInfos.end(),
-                                  [name](const BehaviourInfo& info) { return info.name == name; });
+  const auto found = std::ranges::find(behaviourInfos, name, &BehaviourInfo::name);
   return found == behaviourInfos.end() ? nullptr : &*found;
 }
 

@@ -143,8 +143,8 @@ Trace traceFrom(JsonReport& report, const JsonNode& root) {
     trace.schedule.push_back(operationFrom(
         JsonObject(report, (*schedule)[i], json.pathOf("schedule", i)), trace.robots.size()));
   }
-  std::stable_sort(trace.schedule.begin(), trace.schedule.end(),
-                   [](const auto& a, const auto& b) { return a.frame < b.frame; });
+  std::ranges::stable_sort(trace.schedule,
+                           [](const auto& a, const auto& b) { return a.frame < b.frame; });
   return trace;
 }
 

@@ -34,8 +34,7 @@ std::size_t behindSpaces(std::string_view text, std::size_t at) {
 }
 
 const MetricInfo* find(std::span<const MetricInfo> metrics, std::string_view name) {
-  const auto found = std::find_if(metrics.begin(), metrics.end(),
-                                  [&](const MetricInfo& metric) { return metric.name == name; });
+  const auto found = std::ranges::find(metrics, name, &MetricInfo::name);
   return found == metrics.end() ? nullptr : &*found;
 }
 
@@ -54,7 +53,7 @@ Word wordAt(std::string_view text, std::size_t at, Check::Over over,
   }
   const std::size_t open = behindSpaces(text, end);
   if (open < text.size() && text[open] == '(') {
-    if (std::find(statistics.begin(), statistics.end(), name) == statistics.end()) {
+    if (std::ranges::find(statistics, name) == statistics.end()) {
       return {{}, {}, end};
     }
     const std::size_t inner = behindSpaces(text, open + 1);
@@ -123,8 +122,8 @@ Result<Check> Check::parse(std::string_view text, Over over, std::span<const Met
     name.statistic = variable.substr(0, slash);
     name.metric =
         static_cast<std::size_t>(find(metrics, variable.substr(slash + 1)) - metrics.data());
-    const auto asWritten = std::find_if(written.begin(), written.end(),
-                                        [&](const auto& one) { return one.first == variable; });
+    const auto asWritten =
+        std::ranges::find_if(written, [&](const auto& one) { return one.first == variable; });
     name.written = asWritten->second;
     names.push_back(std::move(name));
   }
@@ -134,8 +133,7 @@ Result<Check> Check::parse(std::string_view text, Over over, std::span<const Met
 bool Check::holds(std::span<const double> values) {
   const double value = m_expression.evaluate(0.0, values);
   // A comparison with NaN is false, but not every expression is a comparison.
-  const bool known =
-      std::none_of(values.begin(), values.end(), [](double one) { return std::isnan(one); });
+  const bool known = std::ranges::none_of(values, [](double one) { return std::isnan(one); });
   return known && std::isfinite(value) && value != 0.0;
 }
 

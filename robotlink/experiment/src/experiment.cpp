@@ -73,8 +73,8 @@ bool makeConditions(Experiment& e, const ConditionParts& parts, JsonReport& repo
     for (std::size_t combination = 0; combination < combinations; ++combination) {
       Condition condition{one.name, parts.common, {}, {}, e.placed};
       condition.placed.insert(condition.placed.end(), one.placed.begin(), one.placed.end());
-      std::stable_sort(condition.placed.begin(), condition.placed.end(),
-                       [](const auto& a, const auto& b) { return a.time < b.time; });
+      std::ranges::stable_sort(condition.placed,
+                               [](const auto& a, const auto& b) { return a.time < b.time; });
       condition.settings.insert(condition.settings.end(), one.settings.begin(), one.settings.end());
       std::size_t rest = combination, block = combinations;
       for (const auto& axis : parts.grid) {
@@ -119,8 +119,8 @@ bool checkRandom(const Experiment& e, JsonReport& report) {
 }
 
 bool hasRobot(const Scenario& scenario, std::string_view name) {
-  return std::any_of(scenario.robots.begin(), scenario.robots.end(),
-                     [&](const ScenarioRobot& robot) { return robot.identity.name() == name; });
+  return std::ranges::any_of(
+      scenario.robots, [&](const ScenarioRobot& robot) { return robot.identity.name() == name; });
 }
 
 /// Who plays decides how runs are played, and which figures they have.
@@ -165,13 +165,13 @@ void checkWhole(const Experiment& e, const JsonObject& root) {
     root.fail("success", success.error().message);
   }
   const auto isCondition = [&e](const std::string& name) {
-    return std::any_of(e.conditions.begin(), e.conditions.end(),
-                       [&](const Condition& one) { return one.name == name; });
+    return std::ranges::any_of(e.conditions,
+                               [&](const Condition& one) { return one.name == name; });
   };
   for (const GivenFigure& figure : e.given) {
     std::vector<std::string_view> names;
     for (const MetricInfo& metric : metrics) names.push_back(metric.name);
-    const auto metric = std::find(names.begin(), names.end(), figure.metric);
+    const auto metric = std::ranges::find(names, figure.metric);
     if (metric == names.end()) {
       root.fail("compare", unknownName("metric", figure.metric, names));
     } else if (metrics[std::size_t(metric - names.begin())].rate) {
@@ -277,7 +277,7 @@ bool isRecorded(const Experiment& experiment, std::size_t number, bool success) 
       break;
   }
   const auto& chosen = experiment.recorded;
-  return std::find(chosen.begin(), chosen.end(), number) != chosen.end();
+  return std::ranges::find(chosen, number) != chosen.end();
 }
 
 RunPlace placeOf(const Experiment& experiment, std::size_t number) {

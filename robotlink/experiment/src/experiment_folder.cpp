@@ -9,9 +9,8 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <functional>
+#include <type_traits>
 
-#include <base/descriptor.h>
 #include <base/file_target.h>
 #include <base/lined_json.h>
 #include <base/read_file.h>
@@ -41,9 +40,9 @@ struct LinePlace {
 
 /// Every whole line in turn. A last line without an end, of a program that was killed, is left
 /// out. Returns where the whole lines end.
-Result<std::uint64_t> eachResult(
-    const std::string& path, const Experiment& experiment,
-    const std::function<Result<void>(const RunResult&, const LinePlace&)>& take) {
+template <class Take>
+Result<std::uint64_t> eachResult(const std::string& path, const Experiment& experiment,
+                                 const Take& take) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     return failure(ErrorCode::NotFound, "there are no results; is this a folder of an experiment?",
@@ -59,7 +58,11 @@ Result<std::uint64_t> eachResult(
                      path + ':' + std::to_string(lineNumber));
     }
     const LinePlace place{result->number, offset, line.size() + 1};
-    TRY(take(*result, place));
+    if constexpr (std::is_void_v<decltype(take(*result, place))>) {
+      take(*result, place);
+    } else {
+      TRY(take(*result, place));
+    }
     offset += place.size;
   }
   return offset;
@@ -90,27 +93,17 @@ Result<void> sameExperiment(const std::string& folder, const Experiment& experim
 
 }  // namespace
 
-struct ExperimentFolder::Impl {
-  std::string path;
-  const Experiment* experiment = nullptr;
-  std::vector<char> finished;
-  std::size_t count = 0;
-  Descriptor lines, times;
+ExperimentFolder::ExperimentFolder(std::string path, const Experiment& experiment)
+    : m_path(std::move(path)), m_experiment(&experiment), m_finished(experiment.allRuns(), 0) {}
 
-  std::string file(const char* name) const { return inFolder(path, name); }
-  tl::unexpected<Error> failed() const {
-    return failure(ErrorCode::SystemError, "cannot be written: " + systemReason(errno),
-                   file(runsFile));
-  }
-  Result<void> putTimes(std::string_view rows);
-  Result<void> addTimesOf(const std::string& part);
-  Result<void> sortLines();
-  Result<void> writeReports() const;
-};
+std::string ExperimentFolder::file(const char* name) const {
+  return inFolder(m_path, name);
+}
 
-ExperimentFolder::ExperimentFolder(std::unique_ptr<Impl> made) : m_impl(std::move(made)) {}
-ExperimentFolder::ExperimentFolder(ExperimentFolder&&) noexcept = default;
-ExperimentFolder::~ExperimentFolder() = default;
+tl::unexpected<Error> ExperimentFolder::failed() const {
+  return failure(ErrorCode::SystemError, "cannot be written: " + systemReason(errno),
+                 file(runsFile));
+}
 
 Result<ExperimentFolder> ExperimentFolder::begin(const std::string& path,
                                                  const Experiment& experiment, bool resume) {
@@ -119,11 +112,8 @@ Result<ExperimentFolder> ExperimentFolder::begin(const std::string& path,
   if (code) {
     return failure(ErrorCode::SystemError, "the folder cannot be made: " + code.message(), path);
   }
-  auto made = std::make_unique<Impl>();
-  made->path = path;
-  made->experiment = &experiment;
-  made->finished.assign(experiment.allRuns(), 0);
-  const std::string lines = made->file(runsFile);
+  ExperimentFolder made(path, experiment);
+  const std::string lines = made.file(runsFile);
   const bool exists = std::filesystem::exists(lines, code);
   if (exists && !resume) {
     return failure(ErrorCode::Conflict,
@@ -132,89 +122,67 @@ Result<ExperimentFolder> ExperimentFolder::begin(const std::string& path,
   }
   if (exists) {
     TRY(sameExperiment(path, experiment));
-  } else if (auto wrote = writeFile(made->file(experimentFile), experiment.text, IfExists::Replace);
-             !wrote) {
-    return tl::unexpected(wrote.error());
+  } else {
+    TRY(writeFile(made.file(experimentFile), experiment.text, IfExists::Replace));
   }
-  made->lines = Descriptor(::open(lines.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
-  if (made->lines.get() < 0) return made->failed();
-  if (::flock(made->lines.get(), LOCK_EX | LOCK_NB) != 0) {
+  made.m_lines = Descriptor(::open(lines.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+  if (made.m_lines.get() < 0) return made.failed();
+  if (::flock(made.m_lines.get(), LOCK_EX | LOCK_NB) != 0) {
     return failure(ErrorCode::Conflict, "another program is playing this experiment", path);
   }
-  const auto whole =
-      eachResult(lines, experiment, [&](const RunResult& result, const LinePlace&) -> Result<void> {
-        char& done = made->finished[result.number - 1];
-        made->count += done == 0;
-        done = 1;
-        return {};
-      });
-  if (!whole) return tl::unexpected(whole.error());
-  if (::ftruncate(made->lines.get(), static_cast<off_t>(*whole)) != 0) return made->failed();
-  return ExperimentFolder(std::move(made));
-}
-
-const std::string& ExperimentFolder::path() const {
-  return m_impl->path;
-}
-const std::vector<char>& ExperimentFolder::finished() const {
-  return m_impl->finished;
-}
-std::size_t ExperimentFolder::finishedCount() const {
-  return m_impl->count;
-}
-bool ExperimentFolder::complete() const {
-  return m_impl->count == m_impl->finished.size();
+  const auto whole = TRY(eachResult(lines, experiment, [&](const RunResult& result, const auto&) {
+    char& done = made.m_finished[result.number - 1];
+    made.m_count += done == 0;
+    done = 1;
+  }));
+  if (::ftruncate(made.m_lines.get(), static_cast<off_t>(whole)) != 0) return made.failed();
+  return made;
 }
 
 Result<void> ExperimentFolder::add(const RunResult& result, std::optional<double> timesRealTime) {
-  char& done = m_impl->finished[result.number - 1];
+  char& done = m_finished[result.number - 1];
   if (done) return {};
-  TRY(writeAll(m_impl->lines, lineOf(result), m_impl->file(runsFile)));
+  TRY(writeAll(m_lines, lineOf(result), file(runsFile)));
   done = 1;
-  ++m_impl->count;
+  ++m_count;
   if (!timesRealTime) return {};
-  return m_impl->putTimes(std::to_string(result.number) + ',' + shortest(*timesRealTime) + '\n');
+  return putTimes(std::to_string(result.number) + ',' + shortest(*timesRealTime) + '\n');
 }
 
-Result<void> ExperimentFolder::Impl::putTimes(std::string_view rows) {
+Result<void> ExperimentFolder::putTimes(std::string_view rows) {
   const std::string name = file(timesFile);
-  if (times.get() < 0) {
-    times = Descriptor(::open(name.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
-    if (times.get() < 0) {
+  if (m_times.get() < 0) {
+    m_times = Descriptor(::open(name.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+    if (m_times.get() < 0) {
       return failure(ErrorCode::SystemError, "cannot be written: " + systemReason(errno), name);
     }
-    if (::lseek(times.get(), 0, SEEK_END) == 0) {
-      TRY(writeAll(times, timesHead, name));
+    if (::lseek(m_times.get(), 0, SEEK_END) == 0) {
+      TRY(writeAll(m_times, timesHead, name));
     }
   }
-  return writeAll(times, rows, name);
+  return writeAll(m_times, rows, name);
 }
 
 /// A part that has none was played without separate processes.
-Result<void> ExperimentFolder::Impl::addTimesOf(const std::string& part) {
+Result<void> ExperimentFolder::addTimesOf(const std::string& part) {
   const std::string name = inFolder(part, timesFile);
   std::error_code ignored;
   if (!std::filesystem::exists(name, ignored)) return {};
-  const auto text = readFile(name, mostTimesBytes, "the times");
-  if (!text) return tl::unexpected(text.error());
-  if (!text->starts_with(timesHead)) {
+  const auto text = TRY(readFile(name, mostTimesBytes, "the times"));
+  if (!text.starts_with(timesHead)) {
     return failure(ErrorCode::ParseError, "is no table of times; remove it to merge without", name);
   }
-  return putTimes(std::string_view(*text).substr(timesHead.size()));
+  return putTimes(std::string_view(text).substr(timesHead.size()));
 }
 
-Result<void> ExperimentFolder::Impl::sortLines() {
+Result<void> ExperimentFolder::sortLines() {
   std::vector<LinePlace> places;
   const std::string name = file(runsFile);
-  const auto read =
-      eachResult(name, *experiment, [&](const RunResult&, const LinePlace& place) -> Result<void> {
-        places.push_back(place);
-        return {};
-      });
-  if (!read) return tl::unexpected(read.error());
+  TRY(eachResult(name, *m_experiment,
+                 [&](const RunResult&, const LinePlace& place) { places.push_back(place); }));
   const auto before = [](const LinePlace& a, const LinePlace& b) { return a.number < b.number; };
-  if (std::is_sorted(places.begin(), places.end(), before)) return {};
-  std::sort(places.begin(), places.end(), before);
+  if (std::ranges::is_sorted(places, before)) return {};
+  std::ranges::sort(places, before);
   std::ifstream source(name, std::ios::binary);
   auto target = TRY(FileTarget::at(name, IfExists::Replace));
   auto sorted = TRY(target.open());
@@ -229,27 +197,24 @@ Result<void> ExperimentFolder::Impl::sortLines() {
   return target.commit();
 }
 
-Result<void> ExperimentFolder::Impl::writeReports() const {
-  const auto table = TRY(resultsOf(path, *experiment));
+Result<void> ExperimentFolder::writeReports() const {
+  const auto table = TRY(resultsOf(m_path, *m_experiment));
   {
     auto target = TRY(FileTarget::at(file("runs.csv"), IfExists::Replace));
     auto csv = TRY(target.open());
     TRY(csv.write(csvHead(table.metrics)));
-    const auto lineByLine =
-        eachResult(file(runsFile), *experiment,
-                   [&](const RunResult& result, const LinePlace&) -> Result<void> {
-                     return csv.write(csvLine(*experiment, result));
-                   });
-    if (!lineByLine) return tl::unexpected(lineByLine.error());
+    TRY(eachResult(file(runsFile), *m_experiment, [&](const RunResult& result, const auto&) {
+      return csv.write(csvLine(*m_experiment, result));
+    }));
     TRY(csv.close());
     TRY(target.commit());
   }
-  const ExperimentSummary summary = summarize(*experiment, table);
+  const ExperimentSummary summary = summarize(*m_experiment, table);
   const std::pair<const char*, std::string> texts[] = {
-      {"summary.json", summaryJson(*experiment, summary)},
-      {"junit.xml", junitReport(*experiment, summary)},
-      {"report.md", reportMarkdown(*experiment, summary)},
-      {"report.html", experimentReportHtml(*experiment, table, summary)}};
+      {"summary.json", summaryJson(*m_experiment, summary)},
+      {"junit.xml", junitReport(*m_experiment, summary)},
+      {"report.md", reportMarkdown(*m_experiment, summary)},
+      {"report.html", experimentReportHtml(*m_experiment, table, summary)}};
   for (const auto& [name, text] : texts) {
     TRY(writeFile(file(name), text, IfExists::Replace));
   }
@@ -257,9 +222,9 @@ Result<void> ExperimentFolder::Impl::writeReports() const {
 }
 
 Result<void> ExperimentFolder::finish() {
-  TRY(m_impl->sortLines());
+  TRY(sortLines());
   if (!complete()) return {};
-  return m_impl->writeReports();
+  return writeReports();
 }
 
 Result<Experiment> experimentOf(const std::string& folder) {
@@ -270,24 +235,17 @@ Result<Experiment> experimentOf(const std::string& folder) {
 
 Result<ResultTable> resultsOf(const std::string& folder, const Experiment& experiment) {
   ResultTable table(experiment);
-  const auto read = eachResult(inFolder(folder, runsFile), experiment,
-                               [&](const RunResult& result, const LinePlace&) -> Result<void> {
-                                 table.add(experiment, result);
-                                 return {};
-                               });
-  if (!read) return tl::unexpected(read.error());
+  TRY(eachResult(inFolder(folder, runsFile), experiment,
+                 [&](const RunResult& result, const auto&) { table.add(experiment, result); }));
   return table;
 }
 
 Result<RunResult> resultOf(const std::string& folder, const Experiment& experiment,
                            std::size_t number) {
   std::optional<RunResult> found;
-  const auto read = eachResult(inFolder(folder, runsFile), experiment,
-                               [&](const RunResult& result, const LinePlace&) -> Result<void> {
-                                 if (result.number == number) found = result;
-                                 return {};
-                               });
-  if (!read) return tl::unexpected(read.error());
+  TRY(eachResult(inFolder(folder, runsFile), experiment, [&](const RunResult& result, const auto&) {
+    if (result.number == number) found = result;
+  }));
   if (!found) {
     return failure(ErrorCode::NotFound,
                    "there is no run " + std::to_string(number) + "; they go from 1 to " +
@@ -302,28 +260,26 @@ Result<ExperimentFolder> mergeFolders(const std::vector<std::string>& parts,
   for (const std::string& part : parts) {
     TRY(sameExperiment(part, experiment));
   }
-  auto folder = ExperimentFolder::begin(into, experiment, false);
-  if (!folder) return folder;
+  auto folder = TRY(ExperimentFolder::begin(into, experiment, false));
   std::vector<std::uint64_t> hashes(experiment.allRuns(), 0);
   for (const std::string& part : parts) {
-    const auto read = eachResult(
-        inFolder(part, runsFile), experiment,
-        [&](const RunResult& result, const LinePlace&) -> Result<void> {
-          std::uint64_t& hash = hashes[result.number - 1];
-          if (folder->finished()[result.number - 1] && hash != result.hash) {
-            return failure(ErrorCode::Conflict,
+    TRY(eachResult(inFolder(part, runsFile), experiment,
+                   [&](const RunResult& result, const auto&) -> Result<void> {
+                     std::uint64_t& hash = hashes[result.number - 1];
+                     if (folder.finished()[result.number - 1] && hash != result.hash) {
+                       return failure(
+                           ErrorCode::Conflict,
                            "run " + std::to_string(result.number) +
                                " ended differently here than in another folder; were both played "
                                "by the same version?",
                            part);
-          }
-          hash = result.hash;
-          return folder->add(result);
-        });
-    if (!read) return tl::unexpected(read.error());
-    TRY(folder->m_impl->addTimesOf(part));
+                     }
+                     hash = result.hash;
+                     return folder.add(result);
+                   }));
+    TRY(folder.addTimesOf(part));
   }
-  TRY(folder->finish());
+  TRY(folder.finish());
   return folder;
 }
 

@@ -84,7 +84,7 @@ void ExperimentReader::read(Experiment& e, ConditionParts& parts) {
     e.team = teamColors[*team].color;
   } else if (const Json& robots = parts.scenario.value("robots", Json::array());
              !robots.empty() && robots[0].contains("team")) {
-    const auto first = std::find(teams.begin(), teams.end(), robots[0]["team"].get<std::string>());
+    const auto first = std::ranges::find(teams, robots[0]["team"].get<std::string>());
     if (first != teams.end()) e.team = teamColors[std::size_t(first - teams.begin())].color;
   }
 }
@@ -101,8 +101,8 @@ void ExperimentReader::readScenario(ConditionParts& parts) {
   const std::string name = m_root.text("scenario", "", 4096);
   if (m_report.failed()) return;
   const auto builtIn = builtInScenarios();
-  const bool known = std::any_of(builtIn.begin(), builtIn.end(),
-                                 [&](const ScenarioName& one) { return one.name == name; });
+  const bool known =
+      std::ranges::any_of(builtIn, [&](const ScenarioName& one) { return one.name == name; });
   const bool isPath = !known && name.find_first_of("/.") != std::string::npos;
   const std::string path =
       isPath && !m_folder.empty() ? (std::filesystem::path(m_folder) / name).string() : name;

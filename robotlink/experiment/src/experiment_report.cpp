@@ -45,7 +45,7 @@ Table endsTable(const ExperimentSummary& s) {
   std::vector<std::string> ends;
   for (const ConditionSummary& condition : s.conditions) {
     for (const auto& [end, count] : condition.ends) {
-      if (std::find(ends.begin(), ends.end(), end) == ends.end()) ends.push_back(end);
+      if (std::ranges::find(ends, end) == ends.end()) ends.push_back(end);
     }
   }
   for (const std::string& end : ends) table.head.push_back(endWords(end));
@@ -113,7 +113,7 @@ Table differencesTable(const Experiment& e, const ExperimentSummary& s,
     table.head.push_back("Mean of pairs, 95 %");
   }
   for (const ConditionDifference& one : s.differences) {
-    if (std::find(metrics.begin(), metrics.end(), one.metric) == metrics.end()) continue;
+    if (std::ranges::find(metrics, one.metric) == metrics.end()) continue;
     const MetricInfo& metric = s.metrics[one.metric];
     std::vector<std::string> row{
         titleOf(metric), s.conditions[one.second].name + " − " + s.conditions[one.first].name};

@@ -14,8 +14,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t metricIndex(const std::vector<MetricInfo>& metrics, const std::string& name) {
-  const auto found = std::find_if(metrics.begin(), metrics.end(),
-                                  [&](const MetricInfo& metric) { return metric.name == name; });
+  const auto found = std::ranges::find(metrics, name, &MetricInfo::name);
   return static_cast<std::size_t>(found - metrics.begin());
 }
 
@@ -33,7 +32,7 @@ CheckedAssertion checked(const Assertion& assertion, const ResultTable& table,
     for (const double value : table.conditions[condition].columns[one.metric]) {
       if (std::isfinite(value)) sorted.push_back(value);
     }
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     values.push_back(statisticOf(one.statistic, sorted));
     out.values += (out.values.empty() ? "" : ", ") + one.written + " = " + number(values.back());
   }
@@ -52,7 +51,7 @@ ResultTable::ResultTable(const Experiment& experiment)
 }
 
 std::size_t ResultTable::OfCondition::count() const {
-  return static_cast<std::size_t>(std::count(played.begin(), played.end(), 1));
+  return static_cast<std::size_t>(std::ranges::count(played, 1));
 }
 
 void ResultTable::add(const Experiment& experiment, const RunResult& result) {
@@ -65,15 +64,13 @@ void ResultTable::add(const Experiment& experiment, const RunResult& result) {
     condition.columns[i][place.index] = result.values[i];
   }
   if (result.paths.empty()) return;
-  const auto after =
-      std::find_if(condition.drawn.begin(), condition.drawn.end(),
-                   [&](const OfCondition::Drawn& one) { return one.number > result.number; });
+  const auto after = std::ranges::find_if(
+      condition.drawn, [&](const OfCondition::Drawn& one) { return one.number > result.number; });
   condition.drawn.insert(after, {result.number, result.endedBy, result.paths});
 }
 
 bool ExperimentSummary::holds() const {
-  return std::all_of(assertions.begin(), assertions.end(),
-                     [](const CheckedAssertion& one) { return one.holds; });
+  return std::ranges::all_of(assertions, [](const CheckedAssertion& one) { return one.holds; });
 }
 
 ExperimentSummary summarize(const Experiment& experiment, const ResultTable& table) {
@@ -105,9 +102,7 @@ ExperimentSummary summarize(const Experiment& experiment, const ResultTable& tab
     const std::size_t metric = metricIndex(out.metrics, figure.metric);
     for (std::size_t c = 0; c < out.conditions.size(); ++c) {
       const auto& only = figure.conditions;
-      if (!only.empty() &&
-          std::find(only.begin(), only.end(), out.conditions[c].name) == only.end())
-        continue;
+      if (!only.empty() && std::ranges::find(only, out.conditions[c].name) == only.end()) continue;
       const SampleMoments ours = out.conditions[c].metrics[metric].moments;
       const SampleMoments theirs{figure.mean, figure.deviation.value_or(nan), figure.count};
       out.comparisons.push_back(
@@ -127,11 +122,10 @@ ExperimentSummary summarize(const Experiment& experiment, const ResultTable& tab
 std::vector<std::size_t> tellingMetrics(const ExperimentSummary& summary) {
   std::vector<std::size_t> out;
   for (std::size_t m = 0; m < summary.metrics.size(); ++m) {
-    const bool tells = std::any_of(
-        summary.conditions.begin(), summary.conditions.end(), [m](const ConditionSummary& one) {
-          const Summary& s = one.metrics[m];
-          return s.moments.count > 0 && (s.least != 0.0 || s.most != 0.0);
-        });
+    const bool tells = std::ranges::any_of(summary.conditions, [m](const ConditionSummary& one) {
+      const Summary& s = one.metrics[m];
+      return s.moments.count > 0 && (s.least != 0.0 || s.most != 0.0);
+    });
     if (tells) out.push_back(m);
   }
   return out;

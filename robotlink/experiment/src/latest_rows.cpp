@@ -8,8 +8,8 @@
 namespace pitchboard::link {
 
 telemetry::GroupId LatestRows::addGroup(const telemetry::GroupInfo& info) {
-  const auto found = std::find_if(m_groups.begin(), m_groups.end(),
-                                  [&](const Group& group) { return group.info.name == info.name; });
+  const auto found = std::ranges::find_if(
+      m_groups, [&](const Group& group) { return group.info.name == info.name; });
   if (found != m_groups.end()) {
     *found = {info, {}, {}};
     return static_cast<telemetry::GroupId>(found - m_groups.begin());
@@ -29,8 +29,8 @@ std::optional<LatestRows::Place> LatestRows::find(std::string_view group,
   for (std::size_t g = 0; g < m_groups.size(); ++g) {
     if (m_groups[g].info.name != group) continue;
     const auto& columns = m_groups[g].info.columns;
-    const auto found = std::find_if(columns.begin(), columns.end(),
-                                    [&](const auto& one) { return one.name == column; });
+    const auto found =
+        std::ranges::find_if(columns, [&](const auto& one) { return one.name == column; });
     if (found == columns.end()) return {};
     return Place{g, static_cast<std::size_t>(found - columns.begin())};
   }

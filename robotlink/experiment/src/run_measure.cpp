@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include <base/try.h>
+#include <robotlink/experiment/statistics.h>
+#include <robotlink/report/quantile.h>
 #include <robotlink/report/session_statistics.h>
 
 #include "checks.h"
@@ -17,7 +20,108 @@ constexpr double still = 0.05;            // m; who moves less than this does no
 constexpr double touchTolerance = 0.005;  // m between two bodies that touch
 constexpr double centimetre = 0.01;       // m
 
+constexpr std::size_t mostPoints = 400;
+
+Point inCentimetres(const Point& p) {
+  return {std::round(p.x * 100.0) / 100.0, std::round(p.y * 100.0) / 100.0};
+}
+
 }  // namespace
+
+void MeanOf::add(double value) {
+  if (!std::isfinite(value)) return;
+  m_sum += value;
+  m_last = value;
+  ++m_count;
+}
+
+double MeanOf::mean() const {
+  return m_count > 0 ? m_sum / static_cast<double>(m_count) : nan;
+}
+
+Result<ReducedExpression> ReducedExpression::make(const ExpressionMetric& metric,
+                                                  const LatestRows& rows) {
+  auto expression = TRY(telemetry::Expression::parse(metric.expression));
+  std::vector<LatestRows::Place> places;
+  for (const std::string& variable : expression.variables()) {
+    const std::size_t slash = variable.find('/');
+    const auto place = rows.find(variable.substr(0, slash), variable.substr(slash + 1));
+    if (!place) {
+      return failure(ErrorCode::NotFound,
+                     "there is no variable " + variable +
+                         " in this match; groups are the robots' "
+                         "names and \"match\" (docs/PLOTS.md)",
+                     "metrics: " + metric.name);
+    }
+    places.push_back(*place);
+  }
+  return ReducedExpression(std::move(expression), std::move(places), metric.reduction);
+}
+
+void ReducedExpression::sample(double time, const LatestRows& rows) {
+  for (std::size_t i = 0; i < m_places.size(); ++i) m_values[i] = rows.value(m_places[i]);
+  const double value = m_expression.evaluate(time, m_values);
+  if (!std::isfinite(value)) return;
+  const bool isTrue = value != 0.0;
+  m_changes += isTrue && !m_true;
+  m_true = isTrue;
+  if (m_count > 0) {
+    m_integral += (time - m_time) * (value + m_mean.last()) / 2.0;
+  } else {
+    m_first = m_least = m_most = value;
+  }
+  m_least = std::min(m_least, value);
+  m_most = std::max(m_most, value);
+  m_mean.add(value);
+  m_time = time;
+  ++m_count;
+  if (m_reduction == Reduction::P95) m_all.push_back(value);
+}
+
+double ReducedExpression::value() const {
+  if (m_count == 0) return nan;
+  switch (m_reduction) {
+    case Reduction::Mean:
+      return m_mean.mean();
+    case Reduction::Least:
+      return m_least;
+    case Reduction::Most:
+      return m_most;
+    case Reduction::First:
+      return m_first;
+    case Reduction::Last:
+      return m_mean.last();
+    case Reduction::Sum:
+      return m_integral;
+    case Reduction::Changes:
+      return m_changes;
+    case Reduction::P95:
+      break;
+  }
+  std::vector<double> sorted = m_all;
+  std::ranges::sort(sorted);
+  return quantile(sorted, 0.95);
+}
+
+void PathFollower::follow(const Point& at) {
+  m_last = at;
+  if (!m_points.empty() && distance(m_points.back(), at) < m_step) return;
+  m_points.push_back(at);
+  if (m_points.size() < mostPoints) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < m_points.size(); i += 2) m_points[kept++] = m_points[i];
+  m_points.resize(kept);
+  m_step *= 2.0;
+}
+
+std::vector<Point> PathFollower::points() const {
+  std::vector<Point> out;
+  for (const Point& point : m_points) out.push_back(inCentimetres(point));
+  if (const Point last = inCentimetres(m_last); out.empty() || out.back() != last) {
+    out.push_back(last);
+  }
+  return out;
+}
 
 RunMeasure::RunMeasure(const Experiment& experiment, const RunPlace& run,
                        std::shared_ptr<LatestRows> rows)
@@ -61,8 +165,8 @@ void RunMeasure::happened(std::span<const MatchEvent> events) {
   const RunStop& stop = m_experiment.stop;
   const std::string_view team = info(m_experiment.team).name;
   const auto ofTeam = [&](const MatchEvent& event) {
-    return std::any_of(m_robots.begin(), m_robots.end(),
-                       [&](const Robot& robot) { return robot.ours && robot.name == event.name; });
+    return std::ranges::any_of(
+        m_robots, [&](const Robot& robot) { return robot.ours && robot.name == event.name; });
   };
   for (const MatchEvent& event : events) {
     if (event.kind == Kind::Goal && event.colour == team) {
@@ -239,8 +343,7 @@ RunResult RunMeasure::result(const SimulatedMatch& match) {
     out.values.push_back(teamValue(static_cast<TeamValue>(i), sums));
 
   for (const std::string& name : robotsOf(m_experiment)) {
-    const auto robot = std::find_if(m_robots.begin(), m_robots.end(),
-                                    [&](const Robot& one) { return one.name == name; });
+    const auto robot = std::ranges::find(m_robots, name, &Robot::name);
     const bool here = robot != m_robots.end();
     const auto index = static_cast<std::size_t>(robot - m_robots.begin());
     out.values.push_back(here ? m_now.robots[index].statistics.distanceWalked : nan);

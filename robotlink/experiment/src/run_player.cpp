@@ -27,8 +27,8 @@ constexpr auto lookInterval = std::chrono::milliseconds(50);
 constexpr std::uint64_t ticksBetweenLooks = 64;  // at the clock and at who cancels
 
 sim::RobotIdentity const* robotNamed(const sim::WorldState& world, std::string_view name) {
-  const auto found = std::find_if(world.robots.begin(), world.robots.end(),
-                                  [&](const auto& robot) { return robot.name() == name; });
+  const auto found =
+      std::ranges::find_if(world.robots, [&](const auto& robot) { return robot.name() == name; });
   return found == world.robots.end() ? nullptr : &*found;
 }
 

@@ -64,7 +64,7 @@ std::vector<std::string> robotsOf(const Experiment& experiment) {
   for (const Condition& condition : experiment.conditions) {
     for (const ScenarioRobot& robot : condition.scenario.robots) {
       const std::string name = robot.identity.name();
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
   }
   return names;
@@ -96,8 +96,7 @@ std::vector<MetricInfo> metricsOf(const Experiment& experiment) {
 }
 
 std::string endWords(const std::string& endedBy) {
-  const auto found = std::find_if(ends.begin(), ends.end(),
-                                  [&](const EndWord& one) { return one.endedBy == endedBy; });
+  const auto found = std::ranges::find(ends, endedBy, &EndWord::endedBy);
   return found == ends.end() ? endedBy : found->words;
 }
 

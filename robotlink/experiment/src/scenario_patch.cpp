@@ -48,7 +48,7 @@ bool isRobot(const Json& robot, std::string_view name) {
   if (!robot.is_object() || !robot.contains("team") || !robot["team"].is_string()) return false;
   const auto number = robot.value("number", Json(1));
   const std::string team = robot["team"];
-  return std::any_of(teamColors.begin(), teamColors.end(), [&](const TeamColorInfo& color) {
+  return std::ranges::any_of(teamColors, [&](const TeamColorInfo& color) {
     return color.name == team && name == std::string(color.letter) + number.dump();
   });
 }

@@ -85,7 +85,7 @@ SampleMoments momentsOf(std::span<const double> values) {
 std::optional<Interval> intervalOfMean(std::span<const double> all) {
   const std::vector<double> values = finite(all);
   if (values.size() < 2) return {};
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const auto [least, most] = std::ranges::minmax_element(values);
   if (*least == *most) return Interval{*least, *least};
   const std::size_t count = std::clamp(mostDraws / values.size(), leastResamples, resamples);
   std::mt19937 random(20180611);
@@ -97,7 +97,7 @@ std::optional<Interval> intervalOfMean(std::span<const double> all) {
     }
     mean = sum / static_cast<double>(values.size());
   }
-  std::sort(means.begin(), means.end());
+  std::ranges::sort(means);
   return Interval{quantile(means, tail), quantile(means, 1.0 - tail)};
 }
 
@@ -114,7 +114,7 @@ Summary summaryOf(std::span<const double> all, bool rate) {
   Summary out;
   out.moments = momentsOf(all);
   std::vector<double> values = finite(all);
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   out.least = quantile(values, 0.0);
   out.lowerQuartile = quantile(values, 0.25);
   out.median = quantile(values, 0.5);
@@ -224,8 +224,8 @@ PairedDifference pairedDifference(std::span<const double> a, std::span<const dou
   out.pairs = differences.size();
   out.mean = momentsOf(differences).mean;
   // Equal pairs say nothing of how far they might differ.
-  const bool vary = std::any_of(differences.begin(), differences.end(),
-                                [&](double one) { return one != differences.front(); });
+  const bool vary =
+      std::ranges::any_of(differences, [&](double one) { return one != differences.front(); });
   if (vary) out.mean95 = intervalOfMean(differences);
   return out;
 }

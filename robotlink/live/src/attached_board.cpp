@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <base/lined_json.h>
+#include <base/try.h>
 
 #include "board_map.h"
 
@@ -27,17 +28,15 @@ Result<BoardMap> mapOf(const AttachedBoard& board) {
   SegmentLayout layout;
   if (board.bytes != 0) layout.bytes = board.bytes;
   const bool isPublished = board.catalogFile.empty();
-  Result<VariableCatalog> catalog = isPublished
-                                        ? Result<VariableCatalog>(VariableCatalog::published())
-                                        : VariableCatalog::fromFile(board.catalogFile, layout);
-  if (!catalog) return tl::unexpected(catalog.error());
+  VariableCatalog catalog = TRY(isPublished ? Result<VariableCatalog>(VariableCatalog::published())
+                                            : VariableCatalog::fromFile(board.catalogFile, layout));
   if (board.bytes != 0 && layout.bytes != board.bytes) {
     return failure(ErrorCode::Conflict,
                    "says " + std::to_string(layout.bytes) + " bytes, but the size asked for is " +
                        std::to_string(board.bytes),
                    board.catalogFile);
   }
-  for (const Variable& variable : catalog->variables()) {
+  for (const Variable& variable : catalog.variables()) {
     const int offset = variable.type == VariableType::Int ? 0 : layout.floatOffset;
     if (variable.index + offset < layout.words()) continue;
     return failure(ErrorCode::Conflict,
@@ -45,7 +44,7 @@ Result<BoardMap> mapOf(const AttachedBoard& board) {
                        " bytes of the segment; give the catalog that belongs to it",
                    isPublished ? "the published map" : board.catalogFile);
   }
-  return BoardMap{std::move(*catalog), layout};
+  return BoardMap{std::move(catalog), layout};
 }
 
 Result<AttachedBoard> parseAttachedBoard(std::string_view text) {
@@ -84,7 +83,7 @@ Result<AttachedBoard> parseAttachedBoard(std::string_view text) {
                   part));
     }
   }
-  if (const auto valid = validate(std::vector{board}); !valid) return tl::unexpected(valid.error());
+  TRY(validate(std::vector{board}));
   return board;
 }
 
@@ -105,7 +104,7 @@ Result<void> validate(const std::vector<AttachedBoard>& boards) {
     if (board.bytes % 4 != 0 || board.bytes > SegmentLayout::mostBytes) {
       return tl::unexpected(problem("the size is a multiple of 4, at most 1 MiB", key));
     }
-    if (const auto map = mapOf(board); !map) return tl::unexpected(map.error());
+    TRY(mapOf(board));
   }
   return {};
 }

@@ -23,7 +23,7 @@ std::vector<std::string> noisePresets() {
 }
 
 Result<sim::NoiseParameters> noisePreset(std::string_view name) {
-  if (std::find(presetNames().begin(), presetNames().end(), name) == presetNames().end()) {
+  if (std::ranges::find(presetNames(), name) == presetNames().end()) {
     return failure(ErrorCode::NotFound, unknownName("noise preset", name, presetNames()));
   }
   const std::string path = "noise/" + std::string(name) + ".json";

@@ -107,7 +107,7 @@ std::optional<sim::RobotModel> readRobotModel(const JsonObject& parent, JsonRepo
 
 RobotModelText robotModelText(std::string_view name) {
   RobotModelText text{std::string(name), {}};
-  if (std::find(modelNames().begin(), modelNames().end(), name) == modelNames().end()) return text;
+  if (std::ranges::find(modelNames(), name) == modelNames().end()) return text;
   JsonReport report(name);
   const auto root = parseJson(resourceText(pathOf(name)), report);
   if (!root) return text;
@@ -119,7 +119,7 @@ RobotModelText robotModelText(std::string_view name) {
 
 Result<sim::RobotModel> robotModelFromText(std::string_view nameOrJson, std::string_view source) {
   if (nameOrJson.find('{') != std::string_view::npos) return modelFromJson(nameOrJson, source);
-  if (std::find(modelNames().begin(), modelNames().end(), nameOrJson) != modelNames().end()) {
+  if (std::ranges::find(modelNames(), nameOrJson) != modelNames().end()) {
     return modelFromJson(resourceText(pathOf(nameOrJson)), pathOf(nameOrJson));
   }
   return failure(ErrorCode::NotFound, unknownName("robot model", nameOrJson, modelNames()),
@@ -127,7 +127,7 @@ Result<sim::RobotModel> robotModelFromText(std::string_view nameOrJson, std::str
 }
 
 Result<sim::RobotModel> loadRobotModel(const std::string& nameOrPath) {
-  if (std::find(modelNames().begin(), modelNames().end(), nameOrPath) != modelNames().end()) {
+  if (std::ranges::find(modelNames(), nameOrPath) != modelNames().end()) {
     return robotModelFromText(nameOrPath, nameOrPath);
   }
   const auto text = readFile(nameOrPath, mostFileBytes, "the robot model");

@@ -89,8 +89,7 @@ Result<Kept> spawnKept(const SpawnRequest& request, const std::string& robotProg
   keeper.command.insert(keeper.command.end(), request.command.begin(), request.command.end());
   keeper.inherited = its.get();
   keeper.outlives = true;
-  auto started = TRY(spawn(keeper));
-  kept.keeper = std::move(started);
+  kept.keeper = TRY(spawn(keeper));
   its.reset();  // a keeper that is gone must not be waited for
   std::array<char, 4096> answer{};
   ssize_t got = 0;

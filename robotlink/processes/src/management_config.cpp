@@ -83,8 +83,7 @@ Result<ManagementConfig> managementFromIni(const IniFile& file,
     const auto refuse = [&](const std::string& text) {
       return failure(ErrorCode::ParseError, entry.name + " " + text, file.place(entry));
     };
-    const auto time = std::find_if(timeKeys.begin(), timeKeys.end(),
-                                   [&](const TimeKey& key) { return key.name == entry.name; });
+    const auto time = std::ranges::find(timeKeys, entry.name, &TimeKey::name);
     if (time != timeKeys.end()) {
       double seconds = 0.0;
       const char* const end = entry.value.data() + entry.value.size();
@@ -111,8 +110,7 @@ Result<ManagementConfig> managementFromIni(const IniFile& file,
       return failure(ErrorCode::ParseError, "'" + *name + "' stands twice among the processes",
                      list ? file.place(*list) : file.source);
     }
-    if (std::find(reference.begin(), reference.end(), *name) != reference.end() ||
-        config.commands.contains(*name))
+    if (std::ranges::find(reference, *name) != reference.end() || config.commands.contains(*name))
       continue;
     return failure(ErrorCode::ParseError,
                    "there is no reference process '" + *name +

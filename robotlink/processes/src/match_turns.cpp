@@ -141,7 +141,7 @@ Result<std::unique_ptr<MatchTurns>> MatchTurns::create() {
 }
 
 Result<int> MatchTurns::takePlace() {
-  const auto free = std::find(m_taken.begin(), m_taken.end(), false);
+  const auto free = std::ranges::find(m_taken, false);
   if (free == m_taken.end()) {
     return failure(ErrorCode::Conflict, "a match has at most " + std::to_string(places) +
                                             " reference processes; play with fewer robots");

@@ -62,7 +62,7 @@ Result<void> ProcessManager::keepGuard() {
                    "known; use inline cognition or give the path");
   }
   int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
     return failure(ErrorCode::SystemError,
                    "the robots' processes cannot be guarded: " + systemReason(errno));
   }
@@ -86,12 +86,12 @@ void ProcessManager::guardSegment(const Blackboard& board) {
 
 void ProcessManager::tellGuard(const std::string& line) {
   // A guard that is gone is no reason to end: MSG_NOSIGNAL instead of SIGPIPE.
-  if (m_guard) (void)::send(m_guard.get(), line.data(), line.size(), MSG_NOSIGNAL);
+  (void)::send(m_guard.get(), line.data(), line.size(), MSG_NOSIGNAL);
 }
 
 ProcessManager::Entry* ProcessManager::find(int id) {
-  const auto found = std::find_if(m_entries.begin(), m_entries.end(),
-                                  [id](const Entry& entry) { return entry.status.id == id; });
+  const auto found =
+      std::ranges::find_if(m_entries, [id](const Entry& entry) { return entry.status.id == id; });
   return found == m_entries.end() ? nullptr : &*found;
 }
 
@@ -108,10 +108,9 @@ std::vector<ProcessStatus> ProcessManager::statuses() const {
 
 Result<int> ProcessManager::add(const ManagedProcess& process, Blackboard& board, Time now) {
   const RobotId robot = process.spec.robot;
-  const bool isFirst = std::none_of(m_entries.begin(), m_entries.end(), [robot](const Entry& one) {
-    return one.status.robot == robot;
-  });
-  const bool waits = std::any_of(m_entries.begin(), m_entries.end(), [robot](const Entry& one) {
+  const bool isFirst = std::ranges::none_of(
+      m_entries, [robot](const Entry& one) { return one.status.robot == robot; });
+  const bool waits = std::ranges::any_of(m_entries, [robot](const Entry& one) {
     return one.status.robot == robot && !one.everStarted;
   });
   Entry& entry = m_entries.emplace_back();

@@ -165,7 +165,7 @@ class Reader {
 
 Result<RuntimeProfile> named(const std::string& nameOrPath) {
   const std::string name = nameOrPath.empty() ? std::string(referenceRuntime) : nameOrPath;
-  if (std::find(runtimeNames().begin(), runtimeNames().end(), name) != runtimeNames().end()) {
+  if (std::ranges::find(runtimeNames(), name) != runtimeNames().end()) {
     return runtimeProfileFromJson(resourceText("runtime/" + name + ".json"), name);
   }
   if (name.find_first_of("/.") == std::string::npos) {
@@ -192,13 +192,13 @@ Result<RuntimeProfile> named(const std::string& nameOrPath) {
 }  // namespace
 
 bool RuntimeProfile::hasOwn() const {
-  return processes.empty() || std::any_of(processes.begin(), processes.end(),
-                                          [](const auto& one) { return !one.isReference(); });
+  return processes.empty() ||
+         std::ranges::any_of(processes, [](const auto& one) { return !one.isReference(); });
 }
 
 bool RuntimeProfile::usesExtension() const {
-  return std::any_of(processes.begin(), processes.end(),
-                     [](const auto& one) { return one.reference == "decision"; });
+  return std::ranges::any_of(processes,
+                             [](const auto& one) { return one.reference == "decision"; });
 }
 
 std::vector<std::string> builtInRuntimes() {
@@ -234,9 +234,7 @@ Result<RuntimeProfile> loadRuntime(const RuntimeChoice& choice) {
   program.name = "decision";
   program.command = {choice.decision, "${key}"};
   program.watchFile = true;
-  const auto decision =
-      std::find_if(profile->processes.begin(), profile->processes.end(),
-                   [](const ProfileProcess& one) { return one.name == "decision"; });
+  const auto decision = std::ranges::find(profile->processes, "decision", &ProfileProcess::name);
   if (decision == profile->processes.end()) {
     profile->processes.push_back(std::move(program));
   } else {

@@ -156,7 +156,7 @@ std::vector<std::string> environmentOf(const SpawnRequest& request) {
       return text.size() > added.first.size() && text.starts_with(added.first) &&
              text[added.first.size()] == '=';
     };
-    if (std::none_of(request.environment.begin(), request.environment.end(), replaced)) {
+    if (std::ranges::none_of(request.environment, replaced)) {
       all.emplace_back(text);
     }
   }

@@ -72,8 +72,8 @@ class Walk {
       }
       out.teams.push_back(std::move(team));
     }
-    std::stable_sort(out.robots.begin(), out.robots.end(),
-                     [](const auto& a, const auto& b) { return a.team < b.team; });
+    std::ranges::stable_sort(out.robots,
+                             [](const auto& a, const auto& b) { return a.team < b.team; });
     return out;
   }
 

@@ -103,9 +103,8 @@ struct StatisticsBuilder::Impl {
 
 /// The nearest robot of one time has the ball.
 void StatisticsBuilder::Impl::settle() {
-  const auto nearest =
-      std::min_element(claims.begin(), claims.end(),
-                       [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  const auto nearest = std::ranges::min_element(
+      claims, [](const auto& a, const auto& b) { return a.distance < b.distance; });
   if (nearest != claims.end()) hold(*nearest->robot, nearest->seconds);
   claims.clear();
 }
@@ -274,8 +273,8 @@ SessionStatistics StatisticsBuilder::finish() {
     }
     out.teams.push_back(std::move(team));
   }
-  std::stable_sort(out.robots.begin(), out.robots.end(),
-                   [](const auto& a, const auto& b) { return a.team < b.team; });
+  std::ranges::stable_sort(out.robots,
+                           [](const auto& a, const auto& b) { return a.team < b.team; });
   return out;
 }
 

@@ -67,8 +67,8 @@ class Reader {
     readRobots();
     readWrites();
     readStop();
-    std::stable_sort(m_scenario.writes.begin(), m_scenario.writes.end(),
-                     [](const auto& a, const auto& b) { return a.time < b.time; });
+    std::ranges::stable_sort(m_scenario.writes,
+                             [](const auto& a, const auto& b) { return a.time < b.time; });
     return std::move(m_scenario);
   }
 
@@ -296,8 +296,8 @@ class Reader {
       if (object.find("robot")) {
         write.robot.value = object.integer("robot", 1, 1, sim::Simulation::maxRobots);
         const auto& robots = m_scenario.robots;
-        if (std::none_of(robots.begin(), robots.end(),
-                         [&](const ScenarioRobot& r) { return r.identity.id == write.robot; })) {
+        if (std::ranges::none_of(
+                robots, [&](const ScenarioRobot& r) { return r.identity.id == write.robot; })) {
           object.fail("robot", "there is no robot " + std::to_string(write.robot.value) +
                                    " in this scenario; leave it out to mean every robot");
         }
@@ -361,7 +361,7 @@ std::vector<ScenarioName> builtInScenarios() {
 }
 
 Result<Scenario> loadScenario(const std::string& nameOrPath, const VariableCatalog& catalog) {
-  if (std::find(builtInNames().begin(), builtInNames().end(), nameOrPath) != builtInNames().end()) {
+  if (std::ranges::find(builtInNames(), nameOrPath) != builtInNames().end()) {
     return scenarioFromJson(resourceText(resourcePath(nameOrPath)), nameOrPath, catalog);
   }
   auto text = readFile(nameOrPath, mostFileBytes, "the scenario");

@@ -3,16 +3,17 @@
 
 #include <algorithm>
 
+#include <base/try.h>
+
 namespace pitchboard::link {
 
 Result<bool> usesTeamPrograms(const Scenario& scenario, bool separate, std::string_view remedy) {
   for (const ScenarioRobot& robot : scenario.robots) {
     const RuntimeChoice choice = scenario.runtimeOf(robot);
     if (!choice.isChosen()) continue;
-    const auto runtime = loadRuntime(choice);
-    if (!runtime) return tl::unexpected(runtime.error());
-    const auto& all = runtime->processes;
-    if (std::all_of(all.begin(), all.end(), [](const auto& one) { return one.isReference(); })) {
+    const auto runtime = TRY(loadRuntime(choice));
+    const auto& all = runtime.processes;
+    if (std::ranges::all_of(all, [](const auto& one) { return one.isReference(); })) {
       continue;
     }
     if (separate) return true;

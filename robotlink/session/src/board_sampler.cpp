@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include <base/lined_json.h>
+#include <base/try.h>
 
 namespace pitchboard::link {
 namespace {
@@ -36,11 +37,9 @@ struct BoardSampler::Attached {
 };
 
 Result<BoardSampler::Attached> BoardSampler::attach(int key) {
-  auto board = SystemVSegments::open(key, AttachMode::ReadOnly);
-  if (!board) return tl::unexpected(board.error());
-  const auto info = SystemVSegments::info(key);
-  if (!info) return tl::unexpected(info.error());
-  return Attached{std::move(*board), info->shmid};
+  auto board = TRY(SystemVSegments::open(key, AttachMode::ReadOnly));
+  const auto info = TRY(SystemVSegments::info(key));
+  return Attached{std::move(board), info.shmid};
 }
 
 Result<std::unique_ptr<BoardSampler>> BoardSampler::start(int key,
@@ -54,12 +53,11 @@ Result<std::unique_ptr<BoardSampler>> BoardSampler::start(int key,
                        " and " + shortest(BoardSamplerOptions::fastest) + " samples per second",
                    "blackboard " + std::to_string(key));
   }
-  auto attached = attach(key);
-  if (!attached) return tl::unexpected(attached.error());
+  auto attached = TRY(attach(key));
   std::unique_ptr<BoardSampler> sampler(new BoardSampler(key, std::move(sink), options, catalog));
   sampler->m_status.attached = true;
   sampler->m_thread =
-      std::jthread([self = sampler.get(), first = std::move(*attached)](
+      std::jthread([self = sampler.get(), first = std::move(attached)](
                        const std::stop_token& stop) mutable { self->run(stop, std::move(first)); });
   return sampler;
 }

@@ -9,6 +9,7 @@
 
 #include <base/actions.h>
 #include <base/file_target.h>
+#include <base/try.h>
 #include <robotlink/session/drawing_moments.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/row_walk.h>
@@ -77,10 +78,9 @@ Result<std::shared_ptr<MatchRecorder>> MatchRecorder::create(const std::string& 
                                                              std::shared_ptr<MatchSampler> sampler,
                                                              const RecorderOptions& options) {
   auto writer =
-      telemetry::SessionWriter::create(path, sessionInfo(scenario, options), options.writer);
-  if (!writer) return tl::unexpected(writer.error());
-  attachMatch(**writer, scenario, catalog);
-  return std::make_shared<MatchRecorder>(std::move(*writer), std::move(sampler));
+      TRY(telemetry::SessionWriter::create(path, sessionInfo(scenario, options), options.writer));
+  attachMatch(*writer, scenario, catalog);
+  return std::make_shared<MatchRecorder>(std::move(writer), std::move(sampler));
 }
 
 MatchRecorder::MatchRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
@@ -149,9 +149,8 @@ Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seco
   }
   // Nothing may be left out here; the disk is waited for.
   options.waitWhenFull = true;
-  auto target = FileTarget::at(path, IfExists::Refuse);
-  if (!target) return tl::unexpected(target.error());
-  auto writer = telemetry::SessionWriter::create(target->partPath(), info, options);
+  auto target = TRY(FileTarget::at(path, IfExists::Refuse));
+  auto writer = telemetry::SessionWriter::create(target.partPath(), info, options);
   if (!writer) return tl::unexpected(writer.error());
   for (const auto& [name, text] :
        {std::pair{scenarioAttachment, &past.scenario}, std::pair{catalogAttachment, &past.catalog},
@@ -189,8 +188,8 @@ Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seco
   for (const auto& line : past.log) {
     if (line.time >= begin) (*writer)->append(line);
   }
-  if (auto finished = (*writer)->finish(); !finished) return tl::unexpected(finished.error());
-  if (auto named = target->commit(); !named) return tl::unexpected(named.error());
+  TRY((*writer)->finish());
+  TRY(target.commit());
   return (*writer)->status();
 }
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include <base/try.h>
 #include <robotlink/live/board_columns.h>
 #include <robotlink/session/state_archive.h>
 
@@ -57,9 +58,8 @@ std::vector<BoardWord> boardWords(const telemetry::GroupInfo& group,
 
 Result<Moment> momentFromMemory(const StateArchive& archive, const telemetry::SeriesStore& rows,
                                 std::uint64_t tick, const VariableCatalog& catalog) {
-  auto state = archive.reenter(tick);
-  if (!state) return tl::unexpected(state.error());
-  Moment moment{std::move(*state), {}, archive.past(tick)};
+  auto state = TRY(archive.reenter(tick));
+  Moment moment{std::move(state), {}, archive.past(tick)};
   const double rate = moment.state.settings.tickRate;
   const double time = (static_cast<double>(tick) + tickTolerance) / rate;
   std::vector<std::uint32_t> words;
@@ -87,19 +87,16 @@ Result<Moment> momentFromMemory(const StateArchive& archive, const telemetry::Se
 
 Result<Moment> momentFromSession(const telemetry::SessionReader& session, double seconds,
                                  const VariableCatalog& catalog) {
-  const auto segment = checkpointAt(session, seconds);
-  if (!segment) return tl::unexpected(segment.error());
-  const double rate = segment->segment.tickRate();
-  const double ticks = std::floor((seconds - segment->time) * rate + tickTolerance);
-  const auto length =
-      static_cast<double>(segment->segment.lastTick() - segment->segment.firstTick());
+  const auto segment = TRY(checkpointAt(session, seconds));
+  const double rate = segment.segment.tickRate();
+  const double ticks = std::floor((seconds - segment.time) * rate + tickTolerance);
+  const auto length = static_cast<double>(segment.segment.lastTick() - segment.segment.firstTick());
   const double inside = std::clamp(ticks, 0.0, length);
   auto state =
-      segment->segment.at(segment->segment.firstTick() + static_cast<std::uint64_t>(inside));
-  if (!state) return tl::unexpected(state.error());
-  Moment moment{std::move(*state), {}, {}};
+      TRY(segment.segment.at(segment.segment.firstTick() + static_cast<std::uint64_t>(inside)));
+  Moment moment{std::move(state), {}, {}};
 
-  const double time = segment->time + (inside + tickTolerance) / rate;
+  const double time = segment.time + (inside + tickTolerance) / rate;
   std::vector<telemetry::SessionRow> rows;
   session.rowsAt(time, rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include <base/try.h>
 #include <telemetry/wire/base64.h>
 
 namespace pitchboard::link {
@@ -64,9 +65,8 @@ Result<SessionCheckpoint> checkpointAt(const telemetry::SessionReader& session, 
                    "this session has no state of a simulated match at that time; only what was "
                    "recorded from a simulation can be entered again exactly");
   }
-  auto segment = checkpointFromJson(json);
-  if (!segment) return tl::unexpected(segment.error());
-  return SessionCheckpoint{*time, std::move(*segment)};
+  auto segment = TRY(checkpointFromJson(json));
+  return SessionCheckpoint{*time, std::move(segment)};
 }
 
 }  // namespace pitchboard::link

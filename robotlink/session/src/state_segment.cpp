@@ -5,6 +5,7 @@
 #include <cassert>
 #include <limits>
 
+#include <base/try.h>
 #include <robotlink/session/state_codec.h>
 #include <simcore/simulation/simulation.h>
 
@@ -107,14 +108,13 @@ Result<void> StateSegment::holds(std::uint64_t tick) const {
 }
 
 Result<PlayedStretch> StateSegment::playedTo(std::uint64_t tick) const {
-  if (auto held = holds(tick); !held) return tl::unexpected(held.error());
+  TRY(holds(tick));
   std::string_view bytes = m_state;
-  auto state = decodeState(bytes);
-  if (!state) return tl::unexpected(state.error());
+  auto state = TRY(decodeState(bytes));
   std::string commands = m_commands;
   putVarint(commands, m_same);
-  CommandReader reader(commands, state->robots.size());
-  PlayedStretch played{std::move(*state), {}};
+  CommandReader reader(commands, state.robots.size());
+  PlayedStretch played{std::move(state), {}};
   for (std::uint64_t at = firstTick(); at < tick; ++at) {
     const auto told = reader.next();
     if (!reader.in().ok()) return tl::unexpected(damaged(reader.in()));
@@ -124,12 +124,12 @@ Result<PlayedStretch> StateSegment::playedTo(std::uint64_t tick) const {
 }
 
 Result<sim::WorldState> StateSegment::at(std::uint64_t tick) const {
-  if (auto held = holds(tick); !held) return tl::unexpected(held.error());
+  TRY(holds(tick));
   std::string_view bytes = m_state;
   auto state = decodeState(bytes);
   if (!state || tick == firstTick()) return state;
   auto simulation = sim::Simulation::create({});
-  if (auto put = simulation->restore(*state); !put) return tl::unexpected(put.error());
+  TRY(simulation->restore(*state));
   std::string commands = m_commands;
   putVarint(commands, m_same);
   CommandReader reader(commands, state->robots.size());
@@ -166,14 +166,13 @@ Result<StateSegment> StateSegment::decode(std::string_view bytes) {
   if (!in.ok() || ticks > mostTicks) return tl::unexpected(damaged(in));
   std::string_view rest = in.rest();
   const std::string_view before = rest;
-  const auto state = decodeState(rest);
-  if (!state) return tl::unexpected(state.error());
+  const auto state = TRY(decodeState(rest));
   StateSegment segment;
-  segment.m_firstTick = state->tick;
+  segment.m_firstTick = state.tick;
   segment.m_ticks = ticks;
-  segment.m_tickRate = state->settings.tickRate;
+  segment.m_tickRate = state.settings.tickRate;
   segment.m_state = before.substr(0, before.size() - rest.size());
-  segment.m_previous.resize(state->robots.size());
+  segment.m_previous.resize(state.robots.size());
   segment.m_commands = rest;
   return segment;
 }

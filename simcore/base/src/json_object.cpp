@@ -96,7 +96,7 @@ JsonObject::JsonObject(JsonReport& report, const JsonNode& node, std::string pat
                        std::span<const std::string_view> keys)
     : JsonObject(report, node, std::move(path)) {
   for (const auto& [name, value] : node.members) {
-    if (std::find(keys.begin(), keys.end(), name) == keys.end()) {
+    if (std::ranges::find(keys, name) == keys.end()) {
       report.fail(value.line, pathOf(shortened(name)), "unknown key; " + hint(name, keys));
       return;
     }
@@ -193,7 +193,7 @@ std::optional<std::size_t> JsonObject::choice(std::string_view key,
     fail(key, "must be the name of a " + std::string(what) + ", in quotes");
     return {};
   }
-  const auto found = std::find(known.begin(), known.end(), value->text);
+  const auto found = std::ranges::find(known, value->text);
   if (found == known.end()) {
     fail(key, unknownName(what, value->text, known));
     return {};

@@ -114,7 +114,7 @@ void Collisions::findNeighbours(const Tick& tick) {
   addObstacles(robots, ball, field.ballRadius, ballReach,
                tick.settings().rigidBody.postRestitution);
 
-  const double largest = robots > 0 ? *std::max_element(m_radius.begin(), m_radius.end()) : 0.0;
+  const double largest = robots > 0 ? *std::ranges::max_element(m_radius) : 0.0;
   const double nearest = 2.0 * largest + 2.0 * reach + margin;
   const double near2 = nearest * nearest;
   for (std::size_t i = 1; i < robots; ++i) {

@@ -126,7 +126,7 @@ struct ContactSolver::World : ContactWorld {
     const auto touch = [&](const NearPair& pair) {
       return apart(pair) <= touchingOf(moving, pair) + doubt;
     };
-    const auto pressed = std::count_if(pairs.begin(), pairs.end(), [&](const NearPair& pair) {
+    const auto pressed = std::ranges::count_if(pairs, [&](const NearPair& pair) {
       return !pair.obstacle && isBall(moving[pair.second]) && touch(pair);
     });
     if (pressed >= many) return stepAll(moving, pairs, dt, 1);
@@ -138,7 +138,7 @@ struct ContactSolver::World : ContactWorld {
       ways[i].to = inside[i] ? body(one).GetPosition()
                              : ways[i].from + dt * units(one.velocity.x, one.velocity.y);
     }
-    const bool hits = std::any_of(pairs.begin(), pairs.end(), [&](const NearPair& pair) {
+    const bool hits = std::ranges::any_of(pairs, [&](const NearPair& pair) {
       return looksForImpacts(moving, pair) &&
              apart(pair) <= impactDistance(touchingOf(moving, pair));
     });
@@ -166,7 +166,7 @@ ContactSolver::~ContactSolver() = default;
 
 void ContactSolver::prepare(const WorldState& world) {
   const auto fits = [&world](const auto& one) { return one->fits(world); };
-  const auto found = std::find_if(m_worlds.begin(), m_worlds.end(), fits);
+  const auto found = std::ranges::find_if(m_worlds, fits);
   if (found == m_worlds.begin() && found != m_worlds.end()) return;
   if (found != m_worlds.end()) {
     std::rotate(m_worlds.begin(), found, found + 1);

@@ -48,7 +48,7 @@ class RigidBodyModel final : public PhysicsModel {
     const auto* state = std::get_if<RigidBodyState>(&world.physics);
     if (!state || state->robots.size() != world.robots.size()) return false;
     return state->past.size() == rigid::longestDelay(world) &&
-           std::all_of(state->past.begin(), state->past.end(), [&](const PastMoment& moment) {
+           std::ranges::all_of(state->past, [&](const PastMoment& moment) {
              return moment.robots.size() == world.robots.size();
            });
   }

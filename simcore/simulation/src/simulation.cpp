@@ -50,8 +50,7 @@ std::vector<std::string> ignoredSettings(const SimulationSettings& settings,
       "The published physics has constants of its own (rigid_body).");
   add(!(playedField(settings).surface == settings.field.surface),
       "The published physics has a surface of its own (rolling_deceleration, rolling_speed_kept).");
-  add(std::any_of(models.begin(), models.end(),
-                  [](const RobotModel& model) { return !(model == RobotModel{}); }),
+  add(std::ranges::any_of(models, [](const RobotModel& model) { return !(model == RobotModel{}); }),
       "The published physics knows one kind of robot (model).");
   add(settings.tickRate != published_frame::framesPerSecond,
       "The published physics has speeds per frame: at another tick rate than 60 everything moves "

@@ -71,7 +71,7 @@ FieldSpec readField(JsonReport& report, const JsonNode& node, const std::string&
 Result<FieldSpec> fieldFromText(std::string_view nameOrJson, std::string_view source) {
   if (nameOrJson.find('{') == std::string_view::npos) {
     const std::vector<std::string_view> known = fieldNames();
-    const auto found = std::find(known.begin(), known.end(), nameOrJson);
+    const auto found = std::ranges::find(known, nameOrJson);
     if (found != known.end()) {
       return builtInFields()[static_cast<std::size_t>(found - known.begin())];
     }

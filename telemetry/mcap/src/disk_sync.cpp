@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include <base/try.h>
+
 namespace pitchboard::telemetry {
 
 DiskSync::DiskSync(std::function<Result<void>()> sync)
@@ -41,7 +43,7 @@ Result<void> DiskSync::request() {
 }
 
 Result<void> DiskSync::finish() {
-  if (auto asked = request(); !asked) return asked;
+  TRY(request());
   std::unique_lock lock(m_mutex);
   m_settled.wait(lock, [this] { return m_error || (!m_asked && !m_running); });
   if (m_error) return tl::unexpected(*m_error);

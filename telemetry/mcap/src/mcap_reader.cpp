@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <base/try.h>
+
 #include "mcap_bytes.h"
 #include "mcap_form.h"
 #include "mcap_reader_impl.h"
@@ -76,10 +78,9 @@ const McapStatistics& McapReader::statistics() const {
 }
 
 Result<McapReader> McapReader::open(const std::string& path, const McapReaderOptions& options) {
-  auto source = McapSource::file(path);
-  if (!source) return tl::unexpected(source.error());
-  auto impl = std::make_unique<Impl>(std::move(*source), options);
-  if (auto header = impl->readHeader(); !header) return tl::unexpected(header.error());
+  auto source = TRY(McapSource::file(path));
+  auto impl = std::make_unique<Impl>(std::move(source), options);
+  TRY(impl->readHeader());
   impl->indexed = !options.ignoreSummary && impl->readSummary();
   if (!impl->indexed && !impl->scan()) {
     return failure(ErrorCode::Conflict, "Reading was stopped.", path);
@@ -89,7 +90,7 @@ Result<McapReader> McapReader::open(const std::string& path, const McapReaderOpt
 
 Result<McapReader> McapReader::openBytes(std::string bytes, const McapReaderOptions& options) {
   auto impl = std::make_unique<Impl>(McapSource::memory(std::move(bytes)), options);
-  if (auto header = impl->readHeader(); !header) return tl::unexpected(header.error());
+  TRY(impl->readHeader());
   impl->indexed = !options.ignoreSummary && impl->readSummary();
   if (!impl->indexed && !impl->scan()) {
     return failure(ErrorCode::Conflict, "Reading was stopped.");

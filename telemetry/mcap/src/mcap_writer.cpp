@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <base/new_file.h>
+#include <base/try.h>
 
 #include "disk_sync.h"
 #include "mcap_bytes.h"
@@ -93,9 +94,8 @@ McapWriter& McapWriter::operator=(McapWriter&&) noexcept = default;
 McapWriter::~McapWriter() = default;
 
 Result<McapWriter> McapWriter::create(const std::string& path, const McapWriterOptions& options) {
-  auto file = NewFile::create(path);
-  if (!file) return tl::unexpected(file.error());
-  return create(std::move(*file), options);
+  auto file = TRY(NewFile::create(path));
+  return create(std::move(file), options);
 }
 
 Result<McapWriter> McapWriter::create(NewFile file, const McapWriterOptions& options) {
@@ -104,7 +104,7 @@ Result<McapWriter> McapWriter::create(NewFile file, const McapWriterOptions& opt
   if (options.sync) {
     impl->disk.emplace([&kept = impl->file, named = false]() mutable -> Result<void> {
       if (!std::exchange(named, true)) {
-        if (auto synced = kept.syncFolder(); !synced) return synced;
+        TRY(kept.syncFolder());
       }
       return kept.sync();
     });
@@ -116,7 +116,7 @@ Result<McapWriter> McapWriter::create(NewFile file, const McapWriterOptions& opt
   putText(begin, options.profile);
   putText(begin, options.library);
   endRecord(begin, record);
-  if (auto written = impl->write(begin); !written) return tl::unexpected(written.error());
+  TRY(impl->write(begin));
   return McapWriter(std::move(impl));
 }
 
@@ -145,7 +145,7 @@ Result<void> McapWriter::writeChunk(const McapChunk& chunk) {
   if (impl.failed) return tl::unexpected(*impl.failed);
   if (chunk.empty()) return {};
   if (impl.repeatIsDue()) {
-    if (auto repeated = writeOne(impl.summary.definitions()); !repeated) return repeated;
+    TRY(writeOne(impl.summary.definitions()));
     impl.defined = false;
   }
   ++impl.chunksGiven;
@@ -190,7 +190,7 @@ Result<void> McapWriter::writeOne(const McapChunk& chunk) {
   const std::uint64_t indexLength = out.size() - length;
 
   const std::uint32_t crcBefore = impl.dataCrc;
-  if (auto written = impl.write(out); !written) return written;
+  TRY(impl.write(out));
   if (auto settled = impl.settle(); !settled) {
     // The summary will not name this chunk, so it must not stand in the file either.
     impl.whole = offset;
@@ -243,7 +243,7 @@ Result<void> McapWriter::attach(std::uint64_t logTime, std::uint64_t createTime,
   putNumber(out, extendedCrc(0, std::string_view(out).substr(record)));
   endRecord(out, record);
   const std::uint64_t offset = impl.file.size();
-  if (auto written = impl.write(out); !written) return written;
+  TRY(impl.write(out));
 
   ++impl.summary.attachments;
   std::string& index = impl.summary.attachmentIndexes;
@@ -267,7 +267,7 @@ Result<void> McapWriter::metadata(std::string_view name, const McapMap& values) 
   putMap(out, values);
   endRecord(out, record);
   const std::uint64_t offset = impl.file.size();
-  if (auto written = impl.write(out); !written) return written;
+  TRY(impl.write(out));
 
   ++impl.summary.metadatas;
   std::string& index = impl.summary.metadataIndexes;

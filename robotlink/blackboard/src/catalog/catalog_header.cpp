@@ -297,8 +297,8 @@ class HeaderReader {
 
   std::optional<Error> readDefine(std::string_view text, const HeaderLine& line) {
     const std::string where = atLine(m_source, line.number);
-    const auto end = std::find_if_not(text.begin(), text.end(),
-                                      [](char c) { return isLetter(c) || (c >= '0' && c <= '9'); });
+    const auto end = std::ranges::find_if_not(
+        text, [](char c) { return isLetter(c) || (c >= '0' && c <= '9'); });
     const std::string name(text.begin(), end);
     const std::string_view rest = text.substr(name.size());
     if (rest.starts_with("(") || isOtherConstant(name)) return std::nullopt;

@@ -66,8 +66,7 @@ bool isIdentifier(std::string_view name) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
   };
   return !name.empty() && letter(name.front()) &&
-         std::all_of(name.begin(), name.end(),
-                     [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+         std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
 }
 
 std::optional<Error> checkCatalogText(std::string_view& text, std::string_view source) {
@@ -112,9 +111,9 @@ VariableCatalog VariableCatalog::withExtension() const {
   };
   VariableCatalog out = *this;
   for (const Variable& more : extension.variables()) {
-    const bool taken = std::any_of(
-        m_variables.begin(), m_variables.end(),
-        [&](const Variable& own) { return own.name == more.name || word(own) == word(more); });
+    const bool taken = std::ranges::any_of(m_variables, [&](const Variable& own) {
+      return own.name == more.name || word(own) == word(more);
+    });
     if (!taken) out.m_variables.push_back(more);
   }
   out.sort();
@@ -122,7 +121,7 @@ VariableCatalog VariableCatalog::withExtension() const {
 }
 
 void VariableCatalog::sort() {
-  std::sort(m_variables.begin(), m_variables.end(), [](const Variable& a, const Variable& b) {
+  std::ranges::sort(m_variables, [](const Variable& a, const Variable& b) {
     return std::tie(a.type, a.index) < std::tie(b.type, b.index);
   });
 }
@@ -212,8 +211,7 @@ Result<VariableCatalog> VariableCatalog::make(const std::vector<CatalogEntry>& e
 }
 
 const Variable* VariableCatalog::find(std::string_view name) const {
-  const auto found = std::find_if(m_variables.begin(), m_variables.end(),
-                                  [name](const Variable& v) { return v.name == name; });
+  const auto found = std::ranges::find(m_variables, name, &Variable::name);
   return found == m_variables.end() ? nullptr : &*found;
 }
 

@@ -57,8 +57,8 @@ int firstLargest(const std::vector<float>& values) {
     for (std::size_t lane = 0; lane < lanes; ++lane) raise(most[lane], values[i + lane]);
   }
   for (; i < values.size(); ++i) raise(most[0], values[i]);
-  const float largest = *std::max_element(most.begin(), most.end());
-  return static_cast<int>(std::find(values.begin(), values.end(), largest) - values.begin());
+  const float largest = *std::ranges::max_element(most);
+  return static_cast<int>(std::ranges::find(values, largest) - values.begin());
 }
 
 }  // namespace
@@ -374,7 +374,7 @@ void MonteCarloLocalization::estimate() {
 
 void MonteCarloLocalization::strongestCluster(particles::Mean& mean) {
   particles::kernels().cellsOf(poses(), grid(), m_cells.data());
-  std::fill(m_cellWeight.begin(), m_cellWeight.end(), 0.0F);
+  std::ranges::fill(m_cellWeight, 0.0F);
   for (int i = 0; i < m_count; ++i) {
     m_cellWeight[static_cast<std::size_t>(m_cells[static_cast<std::size_t>(i)])] += m_weight[i];
   }

@@ -98,9 +98,9 @@ Pose Supporter::kickOff(const WorldModel& world) {
   constexpr double forgets = 5.0, settles = 1.0;  // s; until all have told that they support
   const double x = -0.25 * world.field().length, y = 0.22 * world.field().width;
   const std::array<Point, mostTeamMates + 1> places{{{x, y}, {x, -y}, {x, 0.0}, {x - 1.0, 0.0}}};
-  const auto supporters =
-      std::count_if(world.mates().begin(), world.mates().end(),
-                    [](const auto& mate) { return mate && mate->intention == Intention::Support; });
+  const auto supporters = std::ranges::count_if(world.mates(), [](const auto& mate) {
+    return mate && mate->intention == Intention::Support;
+  });
   if (world.now() - m_placeAsked > forgets || supporters != m_supporters) {
     m_placeBegan = world.now();
     m_supporters = supporters;
@@ -140,7 +140,7 @@ std::size_t Supporter::placesFor(std::ptrdiff_t mates) {
 bool Supporter::mateHolds(const WorldModel& world, const Point& place) {
   constexpr double there = 0.6, asNear = 0.15;  // m
   const Point own = world.pose().position;
-  return std::any_of(world.mates().begin(), world.mates().end(), [&](const auto& mate) {
+  return std::ranges::any_of(world.mates(), [&](const auto& mate) {
     if (!mate || mate->intention != Intention::Support) return false;
     const double way = distance(mate->position, place);
     const double farther = distance(own, place) - way;  // this robot, than the mate

@@ -77,10 +77,9 @@ void Search::begin(const WorldModel& world) {
   m_lost = world.ballLastSeen();
   m_patience = 10.0 + 1.5 * distance(world.pose().position, *m_lost) / forwardSpeed(world);
   const auto places = searchPlaces(world.field());
-  const auto nearest =
-      std::min_element(places.begin(), places.end(), [this](const Point& a, const Point& b) {
-        return distance(a, *m_lost) < distance(b, *m_lost);
-      });
+  const auto nearest = std::ranges::min_element(places, [this](const Point& a, const Point& b) {
+    return distance(a, *m_lost) < distance(b, *m_lost);
+  });
   m_first = static_cast<std::size_t>(nearest - places.begin());
 }
 

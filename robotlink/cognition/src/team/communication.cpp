@@ -134,8 +134,7 @@ Result<std::unique_ptr<CognitiveProcess>> makeCommunication(const ProcessOptions
   }
   std::unique_ptr<RefereeListener> referee;
   if (options.refereeTeam) {
-    auto started = TRY(RefereeListener::start(options));
-    referee = std::move(started);
+    referee = TRY(RefereeListener::start(options));
   }
   return std::make_unique<Communication>(options, std::move(sender), std::move(referee));
 }

@@ -89,8 +89,7 @@ void InProcessTeamChannel::post(RobotId from, std::string_view message) {
 }
 
 std::vector<std::string> InProcessTeamChannel::take(RobotId to) {
-  const auto found =
-      std::find_if(m_boxes.begin(), m_boxes.end(), [to](const Box& b) { return b.owner == to; });
+  const auto found = std::ranges::find(m_boxes, to, &Box::owner);
   if (found == m_boxes.end()) {
     m_boxes.push_back({to, {}});
     return {};

@@ -113,9 +113,8 @@ class TeamTalk final : public CognitiveProcess {
 
   void hear(const TeamMessage& message, double now) {
     if (message.robot == m_robot.value) return;
-    auto mate = std::find_if(m_mates.begin(), m_mates.end(), [&](const Mate& known) {
-      return known.message.robot >= message.robot;
-    });
+    auto mate = std::ranges::find_if(
+        m_mates, [&](const Mate& known) { return known.message.robot >= message.robot; });
     if (mate == m_mates.end() || mate->message.robot != message.robot) {
       mate = m_mates.insert(mate, Mate{});
       if (m_mates.size() > 64) return;
@@ -133,11 +132,11 @@ class TeamTalk final : public CognitiveProcess {
           repeatable::hypot(static_cast<double>(m.x) - x, static_cast<double>(m.y) - y);
       return std::tuple(attacks ? 0 : 1, m.ball >= 0 ? 0 : 1, away, m.robot);
     };
-    std::sort(all.begin(), all.end(),
-              [&](const TeamMessage* a, const TeamMessage* b) { return rank(*a) < rank(*b); });
+    std::ranges::sort(
+        all, [&](const TeamMessage* a, const TeamMessage* b) { return rank(*a) < rank(*b); });
     if (all.size() > mostTeamMates) all.resize(mostTeamMates);
-    std::sort(all.begin(), all.end(),
-              [](const TeamMessage* a, const TeamMessage* b) { return a->robot < b->robot; });
+    std::ranges::sort(
+        all, [](const TeamMessage* a, const TeamMessage* b) { return a->robot < b->robot; });
     return all;
   }
 

@@ -8,11 +8,12 @@
 // fast runs with separate processes were played differs every time, and stands in times.csv. One
 // thread at a time; a second program that opens the folder is refused.
 
-#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include <base/descriptor.h>
 #include <base/result.h>
 #include <robotlink/experiment/experiment_summary.h>
 
@@ -29,14 +30,12 @@ class ExperimentFolder {
   /// not resumed, or those of another experiment.
   static Result<ExperimentFolder> begin(const std::string& path, const Experiment& experiment,
                                         bool resume);
-  ExperimentFolder(ExperimentFolder&&) noexcept;
-  ~ExperimentFolder();
 
-  const std::string& path() const;
+  const std::string& path() const { return m_path; }
   /// By number of run - 1.
-  const std::vector<char>& finished() const;
-  std::size_t finishedCount() const;
-  bool complete() const;
+  const std::vector<char>& finished() const { return m_finished; }
+  std::size_t finishedCount() const { return m_count; }
+  bool complete() const { return m_count == m_finished.size(); }
   /// Written and given to the system at once, so that a killed program loses nothing that is here.
   /// `timesRealTime`: how fast it was played, where that is to be kept.
   Result<void> add(const RunResult& result, std::optional<double> timesRealTime = {});
@@ -47,9 +46,19 @@ class ExperimentFolder {
   friend Result<ExperimentFolder> mergeFolders(const std::vector<std::string>& parts,
                                                const std::string& into,
                                                const Experiment& experiment);
-  struct Impl;
-  explicit ExperimentFolder(std::unique_ptr<Impl> made);
-  std::unique_ptr<Impl> m_impl;
+  ExperimentFolder(std::string path, const Experiment& experiment);
+  std::string file(const char* name) const;
+  tl::unexpected<Error> failed() const;
+  Result<void> putTimes(std::string_view rows);
+  Result<void> addTimesOf(const std::string& part);
+  Result<void> sortLines();
+  Result<void> writeReports() const;
+
+  std::string m_path;
+  const Experiment* m_experiment;
+  std::vector<char> m_finished;
+  std::size_t m_count = 0;
+  Descriptor m_lines, m_times;
 };
 
 /// The experiment whose results these are.

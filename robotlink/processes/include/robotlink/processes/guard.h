@@ -2,7 +2,7 @@
 #pragma once
 
 // The guard of a match: a small process that outlives it. When the match is killed, the guard
-// removes the segments that nobody uses any more. The match tells it of them over a socket, a line
+// removes the segments that nobody uses any more. The match tells it of them over a socket, a packet
 // for each; the end of the socket without "done" means that the match was killed.
 
 #include <string>
@@ -14,9 +14,9 @@ namespace pitchboard::link {
 inline constexpr std::string_view guardCommand = "guard";
 
 namespace guardWords {
-inline constexpr const char* done = "done\n";
+inline constexpr const char* done = "done";
 inline std::string segment(int key, int shmid) {
-  return "segment " + std::to_string(key) + ' ' + std::to_string(shmid) + '\n';
+  return "segment " + std::to_string(key) + ' ' + std::to_string(shmid);
 }
 }  // namespace guardWords
 
