@@ -331,12 +331,11 @@ class TestLiveFrame : public QObject {
     };
     sim::GameState& game = *world.game;
     for (int play = 0; play <= static_cast<int>(lastOf(sim::SetPlay{})); ++play) {
-      game.setPlay = static_cast<sim::SetPlay>(play);
-      game.setPlayTeam = play == 0 ? sim::GameState::nobody : 0;
+      if (play != 0)
+        game.restart = {sim::Restart::Step::Taking, static_cast<sim::SetPlay>(play), 0};
       same();
     }
-    game.setPlay = sim::SetPlay::None;
-    game.setPlayTeam = sim::GameState::nobody;
+    game.restart = {};
     for (const auto phase : {sim::GamePhase::ShootOut, sim::GamePhase::ExtraTime}) {
       game.phase = phase;
       same();

@@ -139,8 +139,9 @@ void SimulatedMatch::hearReferee(bool again) {
     const sim::RobotIdentity& robot = world.robots[i];
     const int team = world.game->teamOf(robot.team);
     if (team < 0 || m_seats[i]->runtime.hearsReferee) continue;
-    const int number = world.game->teams[static_cast<std::size_t>(team)].number;
-    if (const auto word = m_seats[i]->orders.take(m_referee->packet(), number, robot.number)) {
+    const sim::GameTeam& own = world.game->teams[static_cast<std::size_t>(team)];
+    if (const auto word =
+            m_seats[i]->orders.take(m_referee->packet(), own.number, own.slotOf(robot.number))) {
       m_seats[i]->board.write(m_variables.comReferee, *word);
     }
   }
