@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <robotlink/frame/referee_view.h>
 #include <simcore/rules/referee.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
 
@@ -180,61 +181,38 @@ telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNu
   const std::size_t left = game.leftTeam();
   fillTeam(world, game.teams[left], dialect, out.teams[0]);
   fillTeam(world, game.teams[1 - left], dialect, out.teams[1]);
+  // What this version does not send is not known to those who hear it.
+  if (const auto bytes = telemetry::encodeReferee(out)) {
+    const auto heard = telemetry::decodeReferee(std::string_view(*bytes));
+    if (const auto* state = heard ? std::get_if<telemetry::RefereeState>(&*heard) : nullptr) {
+      return *state;
+    }
+  }
   return out;
 }
 
-RefereeView refereeView(const sim::WorldState& world) {
+void showReferee(const sim::WorldState& world, MatchFrame& frame) {
+  frame.referee.reset();
+  for (RobotFrame& robot : frame.robots) robot.penalty.reset();
+  if (!world.game) return;
   const GameState& game = *world.game;
-  const sim::RefereeRules& rules = *world.settings.referee;
-  const double rate = world.settings.tickRate;
-  RefereeView view;
-  view.version = rules.packetVersion;
-  view.sender = rules.automatic ? "the simulated referee" : "a person";
-  view.state = wordsOf(game.state);
-  // A timeout stands in the place of a set play, as in the packets of the Humanoid League.
-  const bool timeout = game.phase == sim::GamePhase::Timeout;
-  view.setPlay = timeout ? wordsOf(game.phase) : wordsOf(game.setPlay());
-  if (game.phase != sim::GamePhase::Normal && !timeout) view.phase = wordsOf(game.phase);
-  view.firstHalf = game.half == 1;
-  view.stopped = game.stopped;
-  view.secondsLeft = sim::secondsOf(game.clock, rate);
-  if (game.countdown.ticks != 0) view.secondaryTime = sim::secondsOf(game.countdown.ticks, rate);
-  if (game.setPlayTeam() >= 0) {
-    view.performingTeam = game.teams[static_cast<std::size_t>(game.restart.team)].number;
-    view.setPlayStep = game.restart.step == Step::Placing     ? "stop"
-                       : game.restart.step == Step::Preparing ? "prepare"
-                                                              : "ready";
-  }
-  if (game.kickOff >= 0)
-    view.kickOffTeam = game.teams[static_cast<std::size_t>(game.kickOff)].number;
-  const std::size_t left = game.leftTeam();
+  const telemetry::RefereeState packet = refereePacket(world, 0, true);
+  frame.refereeAutomatic = world.settings.referee->automatic;
+  RefereeView& view = frame.referee.emplace(viewOf(packet));
+  view.sender = frame.refereeAutomatic ? "the simulated referee" : "a person";
   for (std::size_t side = 0; side < 2; ++side) {
-    const sim::GameTeam& team = game.teams[side == 0 ? left : 1 - left];
-    RefereeTeamView& shown = view.teams[side];
-    shown.number = team.number;
-    shown.colour = info(team.colour).name;
-    shown.score = team.score;
-    for (const sim::RobotIdentity& robot : world.robots) {
-      const sim::GamePlayer* found =
-          robot.team == team.colour ? game.player(robot.team, robot.number) : nullptr;
-      if (!found) continue;
-      const sim::GamePlayer& player = *found;
-      if (player.penalty == sim::PenaltyKind::None) ++shown.playersLeft;
-      shown.players.push_back({robot.number, std::string(wordsOf(player.penalty)),
-                               sim::secondsOf(player.ticksLeft, rate), player.warnings,
-                               player.yellow, player.red, player.cautions, player.goalkeeper});
+    const auto& shirts = game.teams[side == 0 ? game.leftTeam() : 1 - game.leftTeam()].shirts;
+    for (RefereePlayerView& player : view.teams[side].players) {
+      const int shirt = shirts[static_cast<std::size_t>(player.number - 1)];
+      if (shirt != 0) player.number = shirt;
     }
   }
-  return view;
-}
-
-std::optional<Penalty> refereePenalty(const sim::WorldState& world,
-                                      const sim::RobotIdentity& robot) {
-  if (!world.game) return {};
-  const sim::GamePlayer* player = world.game->player(robot.team, robot.number);
-  if (!player || player->penalty == sim::PenaltyKind::None) return {};
-  return Penalty{std::string(wordsOf(player->penalty)),
-                 sim::secondsOf(player->ticksLeft, world.settings.tickRate)};
+  for (RobotFrame& robot : frame.robots) {
+    const int team = game.teamOf(robot.identity.team);
+    if (team < 0) continue;
+    const sim::GameTeam& own = game.teams[static_cast<std::size_t>(team)];
+    robot.penalty = penaltyOf(packet, own.number, own.slotOf(robot.identity.number));
+  }
 }
 
 void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) {

@@ -82,7 +82,12 @@ const std::array<GameColumn, gameColumnCount> game{{
      ColumnKind::Enumeration},
     {"SET_PLAY_STEP", "",
      [](const WorldState&, const GameState& g) { return double(g.restart.step); },
-     [](WorldState&, GameState& g, double v) { g.restart.step = oneOf<sim::Restart::Step>(v); }},
+     [](WorldState&, GameState& g, double v) {
+       using Step = sim::Restart::Step;
+       // Until 0.9 the time of a kick-off or of an executed set play had no step.
+       const bool alone = g.state == sim::PlayState::Playing && g.countdown.ticks > 0;
+       g.restart.step = v == 0.0 && alone ? Step::Executed : oneOf<Step>(v);
+     }},
     {"SET_PLAY_TEAM", "",
      [](const WorldState&, const GameState& g) { return double(g.setPlayTeam()); },
      [](WorldState&, GameState& g, double v) { g.restart.team = whole(v, -1, 1); }},
@@ -124,12 +129,21 @@ const std::array<PlayerColumn, playerColumnCount> playerTable{{
        return double(sim::secondsOf(p.ticksLeft, rateOf(w)));
      },
      [](WorldState& w, GamePlayer& p, double v) { p.ticksLeft = ticksOf(v, w); }},
+    {"PENALTY_WAITS", "",
+     [](const WorldState&, const GamePlayer& p) {
+       return double(p.penalty != sim::PenaltyKind::None && !p.counting);
+     },
+     [](WorldState&, GamePlayer& p, double v) { p.counting = v == 0.0; }, ColumnKind::Flag},
     {"WARNINGS", "", [](const WorldState&, const GamePlayer& p) { return double(p.warnings); },
      [](WorldState&, GamePlayer& p, double v) { p.warnings = whole(v, 0, 1000); }},
     {"YELLOW_CARDS", "", [](const WorldState&, const GamePlayer& p) { return double(p.yellow); },
      [](WorldState&, GamePlayer& p, double v) { p.yellow = whole(v, 0, 1000); }},
     {"RED_CARDS", "", [](const WorldState&, const GamePlayer& p) { return double(p.red); },
      [](WorldState&, GamePlayer& p, double v) { p.red = whole(v, 0, 1000); }},
+    {"CAUTIONS", "", [](const WorldState&, const GamePlayer& p) { return double(p.cautions); },
+     [](WorldState&, GamePlayer& p, double v) { p.cautions = whole(v, 0, 1000); }},
+    {"GOALKEEPER", "", [](const WorldState&, const GamePlayer& p) { return double(p.goalkeeper); },
+     [](WorldState&, GamePlayer& p, double v) { p.goalkeeper = v != 0.0; }, ColumnKind::Flag},
 }};
 
 template <class Enum>
