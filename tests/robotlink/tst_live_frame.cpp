@@ -4,11 +4,16 @@
 #include <QtTest>
 
 #include <robotlink/frame/belief.h>
+#include <robotlink/frame/referee_view.h>
+#include <robotlink/match/match_runner.h>
+#include <robotlink/match/referee_packet.h>
+#include <robotlink/scenario/referee_rule_sets.h>
+#include <robotlink/session/match_sampler.h>
+#include <robotlink/session/recorded_frame.h>
 #include <simcore/world/published_frame.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
 
 #include "../support/recorded_packets.h"
-#include "../support/referee_game.h"
 #include "live_frame.h"
 
 namespace tst_live_frame {
@@ -55,6 +60,39 @@ struct Heard {
   }
   MatchFrame frame(double time = 3.0) { return liveFrame(options, team, referee, time); }
 };
+
+/// All but sender and ages.
+QString textOf(const RefereeView& view) {
+  const auto number = [](const std::optional<int>& value) {
+    return value ? QString::number(*value) : QStringLiteral("-");
+  };
+  QStringList out;
+  for (const std::string& text :
+       {view.state, view.setPlay, view.phase, view.countdown, view.setPlayStep}) {
+    out << QString::fromStdString(text);
+  }
+  for (const int value : {view.version, int(view.firstHalf), int(view.stopped), view.secondsLeft,
+                          view.secondaryTime.value_or(0), view.ourTeam}) {
+    out << QString::number(value);
+  }
+  out << number(view.performingTeam) << number(view.kickOffTeam);
+  for (const RefereeTeamView& team : view.teams) {
+    out << QStringLiteral("\nteam %1 %2 %3 %4")
+               .arg(team.number)
+               .arg(team.colour.c_str())
+               .arg(team.score)
+               .arg(team.playersLeft);
+    for (const RefereePlayerView& p : team.players) {
+      out << QStringLiteral("%1 %2 %3 %4")
+                     .arg(p.number)
+                     .arg(p.penalty.c_str())
+                     .arg(p.secondsLeft)
+                     .arg(p.warnings + 10 * p.yellow + 100 * p.red + 1000 * p.cautions) +
+                 (p.goalkeeper ? "g" : "");
+    }
+  }
+  return out.join("; ");
+}
 
 RefereeState stateOfGame() {
   RefereeState state;
@@ -297,55 +335,76 @@ class TestLiveFrame : public QObject {
   }
 
   // A simulated match in words, and its packets as another studio would show them.
-  void packetsSayWhatTheSimulatedRefereeSays_data() {
-    using enum sim::PenaltyKind;
-    using Kinds = std::vector<sim::PenaltyKind>;
-    QTest::addColumn<int>("version");
-    QTest::addColumn<int>("size");
-    QTest::addColumn<Kinds>("penalties");  // that the version has a code for
-    QTest::newRow("Humanoid League")
-        << 12 << 688 << Kinds{BallManipulation, Pushing, IllegalAttack, IllegalDefence,
-                              Incapable,        Service, Manual};
-    QTest::newRow("Humanoid Soccer League")
-        << 20 << 158 << Kinds{IllegalPosition, MotionInSet, MotionInStop, LocalStuck, Holding,
-                              Leaving,         Hands,       Pushing,      Cautioned,  SentOff};
+  // A packet that is heard, the match that would send it, and its recording.
+  void sameViewWhereverItComesFrom_data() {
+    QTest::addColumn<QString>("rules");
+    for (const char* rules : {"humanoid-2021", "humanoid-soccer-2026"}) {
+      QTest::newRow(rules) << QString(rules);
+    }
   }
-  void packetsSayWhatTheSimulatedRefereeSays() {
-    QFETCH(int, version);
-    QFETCH(int, size);
-    QFETCH(std::vector<sim::PenaltyKind>, penalties);
-    const RefereeGame played("humanoid-2021");
-    sim::WorldState world = played.simulation->state();
-    world.settings.referee->packetVersion = version;
-    world.settings.referee->packetSize = size;
-    const auto same = [&world] {
-      const auto sent = telemetry::encodeReferee(refereePacket(world, 1));
-      const auto packet = telemetry::decodeReferee(std::string_view(sent.value()));
+  void sameViewWhereverItComesFrom() {
+    QFETCH(QString, rules);
+    using sim::CallKind;
+    Scenario scenario = loadScenario("match").value();
+    scenario.settings.referee = refereeRuleSet(rules.toStdString()).value();
+    scenario.settings.referee->automatic = false;
+    scenario.settings.teams = {{TeamColor::Blue, 12, "RoboFEI"}, {TeamColor::Red, 5, "Guests"}};
+    for (ScenarioRobot& robot : scenario.robots) robot.behaviour = std::string(noBehaviour);
+    telemetry::SeriesStore store;
+    const auto sampler = std::make_shared<MatchSampler>(
+        std::shared_ptr<telemetry::RowSink>(std::shared_ptr<void>(), &store));
+    const auto runner =
+        MatchRunner::start(scenario, {}, true, VariableCatalog::published(), {sampler}).value();
+    std::uint64_t tick = 0;
+    QStringList countdowns;
+    const auto check = [&](const sim::RefereeCall& call) {
+      bool done = false;
+      runner->execute([&](SimulatedMatch& match) { done = match.call(call).has_value(); });
+      runner->runTo(tick += 30);
+      QVERIFY(runner->waitUntilStill(60s));
+      QVERIFY(done);
+      std::string bytes;
+      runner->execute([&](SimulatedMatch& match) {
+        bytes =
+            telemetry::encodeReferee(refereePacket(match.simulation().state(), 1, true)).value();
+      });
+      QVERIFY(runner->waitUntilStill(60s));
       Heard heard({});
-      heard.referee.accept(std::get<RefereeState>(packet.value()), {{1}, 3838}, start);
-      const RefereeView said = *heard.frame().referee, is = refereeView(world);
-      QCOMPARE(said.setPlay, is.setPlay);
-      QCOMPARE(said.phase, is.phase);
-      QCOMPARE(said.teams[0].players.size(), is.teams[0].players.size());
-      QCOMPARE(said.teams[0].players[0].penalty, is.teams[0].players[0].penalty);
+      const auto packet = telemetry::decodeReferee(std::string_view(bytes)).value();
+      QVERIFY(heard.referee.accept(std::get<RefereeState>(packet), {{1}, 3838}, start));
+      const MatchFrame live = heard.frame(), simulated = *runner->latest();
+      RecordedFrames frames;
+      const MatchFrame recorded = frames.frameAt(store, static_cast<double>(tick) / 60.0);
+      QCOMPARE(textOf(*simulated.referee), textOf(*live.referee));
+      QCOMPARE(textOf(*recorded.referee), textOf(*live.referee));
+      countdowns << QString::fromStdString(live.referee->countdown);
+      for (const RobotFrame& robot : simulated.robots) {
+        const int number = robot.identity.team == TeamColor::Blue ? 12 : 5;
+        const auto penalty =
+            penaltyOf(std::get<RefereeState>(packet), number, robot.identity.number);
+        QVERIFY(robot.penalty == penalty);
+        QVERIFY(recorded.robot(robot.id())->penalty == penalty);
+      }
     };
-    sim::GameState& game = *world.game;
-    for (int play = 0; play <= static_cast<int>(lastOf(sim::SetPlay{})); ++play) {
-      game.setPlay = static_cast<sim::SetPlay>(play);
-      game.setPlayTeam = play == 0 ? sim::GameState::nobody : 0;
-      same();
-    }
-    game.setPlay = sim::SetPlay::None;
-    game.setPlayTeam = sim::GameState::nobody;
-    for (const auto phase : {sim::GamePhase::ShootOut, sim::GamePhase::ExtraTime}) {
-      game.phase = phase;
-      same();
-    }
-    game.phase = sim::GamePhase::Normal;
-    for (const sim::PenaltyKind kind : penalties) {
-      game.teams[game.leftTeam()].players[0].penalty = kind;
-      same();
-    }
+    using enum sim::PlayState;
+    check({.kind = CallKind::KickOff, .team = 1});
+    check({.kind = CallKind::State, .state = Ready});
+    check({.kind = CallKind::State, .state = Set});
+    check({.kind = CallKind::State, .state = Playing});
+    check({.kind = CallKind::Penalise, .robot = {2}, .penalty = sim::PenaltyKind::Pushing});
+    check({.kind = CallKind::Card, .robot = {4}, .value = 1});
+    check({.kind = CallKind::Penalise, .robot = {5}, .penalty = sim::PenaltyKind::Substitute});
+    check({.kind = CallKind::Goal, .team = 0, .value = 1});
+    check({.kind = CallKind::State, .state = Set});
+    check({.kind = CallKind::State, .state = Playing});
+    check({.kind = CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::CornerKick});
+    check({.kind = CallKind::NextStep});
+    check({.kind = CallKind::NextStep});
+    check({.kind = CallKind::State, .state = Finished});
+    check({.kind = CallKind::NextHalf});
+    check({.kind = CallKind::Timeout, .team = 1});
+    for (const char* waits : {"set", "ball free", "timeout over"})
+      QVERIFY(countdowns.contains(waits));
   }
 
   void monitorModeShowsWhatReallyHappens() {

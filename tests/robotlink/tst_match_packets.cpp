@@ -5,6 +5,7 @@
 #include <map>
 
 #include <robotlink/cognition/referee_orders.h>
+#include <robotlink/match/referee_packet.h>
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <simcore/rules/referee.h>
@@ -79,7 +80,7 @@ class TestMatchPackets : public QObject {
 
  private slots:
   void everyVersionCanBeChosen() {
-    for (const auto& parameter : sim::refereeParameters) {
+    for (const auto& parameter : sim::refereeCounts) {
       if (parameter.member != &sim::RefereeRules::packetVersion) continue;
       for (int version = 0; version < 256; ++version) {
         if (!telemetry::refereePacketSize(version)) continue;
@@ -126,6 +127,64 @@ class TestMatchPackets : public QObject {
              qPrintable(QString::number(heard[version])));
     play(match, 5.0);
     QVERIFY(std::abs(heardBy(ear)[version] - 10) <= 1);
+  }
+
+  void teamsOfAnyColourNumberAndShirt_data() {
+    QTest::addColumn<int>("colour");
+    QTest::addColumn<int>("shirt");
+    for (const TeamColor colour : {TeamColor::Black, TeamColor::Orange, TeamColor::Yellow}) {
+      for (const int shirt : {1, 20, 23}) {
+        QTest::addRow("%s, %d", info(colour).name.data(), shirt) << int(colour) << shirt;
+      }
+    }
+  }
+  void teamsOfAnyColourNumberAndShirt() {
+    QFETCH(int, colour);
+    QFETCH(int, shirt);
+    Scenario scenario = scenarioFor(20, 158);
+    scenario.settings.teams = {{TeamColor::Red, 5, "Guests"},
+                               {static_cast<TeamColor>(colour), 12, "RoboFEI"}};
+    const RobotId ours{1};
+    for (ScenarioRobot& robot : scenario.robots) {
+      if (robot.identity.team != TeamColor::Blue) continue;
+      robot.identity.team = static_cast<TeamColor>(colour);
+      robot.identity.number = robot.identity.id == ours ? shirt : robot.identity.number + 1;
+    }
+    auto match = SimulatedMatch::create(scenario, {}).value();
+    play(match, 0.6);
+    const sim::WorldState& world = match.simulation().state();
+    const auto word = [&] { return match.blackboard(ours)->read(match.variables().comReferee); };
+    // What a robot of team 12 hears, whose communication process nobody has changed.
+    const auto heard = [&] {
+      const auto bytes = telemetry::encodeReferee(refereePacket(world, 1)).value();
+      const auto packet = telemetry::decodeReferee(std::string_view(bytes)).value();
+      return RefereeOrders().take(std::get<telemetry::RefereeState>(packet), 12,
+                                  world.game->teams[1].slotOf(shirt));
+    };
+    const auto call = [&](const sim::RefereeCall& one) {
+      QVERIFY(match.call(one));
+      play(match, 0.6);
+      QCOMPARE(heard().value_or(-1), word());
+    };
+    QCOMPARE(world.game->teams[1].number, 12);
+    call({.kind = sim::CallKind::State, .state = sim::PlayState::Ready});
+    QCOMPARE(word(), refereeReady);
+    call({.kind = sim::CallKind::Penalise, .robot = ours, .penalty = sim::PenaltyKind::Pushing});
+    QCOMPARE(word(), refereeStop);
+    const sim::RobotIdentity& robot = world.robots[*match.simulation().indexOf(ours)];
+    QCOMPARE(world.game->player(robot.team, robot.number)->penalty, sim::PenaltyKind::Pushing);
+    call({.kind = sim::CallKind::Pardon, .robot = ours});
+    QCOMPARE(word(), refereeReady);
+  }
+
+  void aThirdColourIsRefused() {
+    Scenario scenario = scenarioFor(20, 158);
+    scenario.robots[0].identity.team = TeamColor::Black;
+    const auto refused = SimulatedMatch::create(scenario, {});
+    QVERIFY(!refused);
+    QVERIFY2(refused.error().text().find("two teams, but here are blue, red, black") !=
+                 std::string::npos,
+             refused.error().text().c_str());
   }
 
   void obeyedByAnotherMatch_data() { everyVersion(); }

@@ -19,24 +19,6 @@ class TestRecordedLive : public QObject {
   QTemporaryDir m_folder;
 
  private slots:
-  void aPacketAsTheCommandLineWritesItIsRead() {
-    const auto view = refereeFromJson(
-        R"({"header":"RGme","version":12,"stateName":"SET","state":2,"firstHalf":false,"stopped":1,
-            "kickOffTeamNumber":null,"secsRemaining":-7,"time":3.5,
-            "teams":[{"number":5,"colour":0,"score":2,"players":[]},{"number":6,"colour":1,"score":1}]})");
-    QVERIFY(view);
-    QCOMPARE(view->state, std::string("SET"));
-    QVERIFY(!view->firstHalf && view->stopped && !view->kickOffTeam);
-    QCOMPARE(view->secondsLeft, -7);
-    QCOMPARE(view->teams[0].score, 2);
-    QVERIFY(!view->teams[0].colour.empty());
-    for (const char* bad :
-         {"", "[]", "{", "{\"stateName\":3}", "{\"stateName\":\"x\",\"teams\":[1]}"}) {
-      const auto read = refereeFromJson(bad);
-      QVERIFY(!read || read->state == "x");
-    }
-  }
-
   void liveIsRecordedAndSeenAgain_data() {
     QTest::addColumn<bool>("books");
     QTest::newRow("as it was known") << true;
@@ -112,12 +94,8 @@ class TestRecordedLive : public QObject {
       QCOMPARE(std::stod(robot.health->values[i].text), team.robots[0].values[i]);
       QCOMPARE(robot.health->values[i].name, team.robots[0].name(i));
     }
-    // The packet itself was none that can be read: only the decoded one says something.
-    QCOMPARE(seen.referee.has_value(), !books);
-    if (!books) {
-      QCOMPARE(seen.referee->state, std::string("PLAYING"));
-      QVERIFY(seen.snapshot.score == (sim::Score{0, 3}));
-    }
+    // The packet itself was none that can be read; what others read decoded says nothing here.
+    QVERIFY(!seen.referee);
     QVERIFY(!frames.frameAt(session, 1.1).robots[0].board->decisionWorking);
     QCOMPARE(momentFromSession(session, 2.0, VariableCatalog::published()).error().code,
              ErrorCode::NotFound);

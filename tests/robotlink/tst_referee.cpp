@@ -231,8 +231,8 @@ class TestReferee : public QObject {
     // Blue 2 stands at (-2.5, 2): the ball rolls past it over the touch line.
     game.touch({-2.5, 2.0 + game.atTheBall()}, {0.0, 3.0});
     game.runTo(82);
-    QCOMPARE(game.game().setPlay, SetPlay::ThrowIn);
-    QCOMPARE(game.game().setPlayTeam, 1);
+    QCOMPARE(game.game().setPlay(), SetPlay::ThrowIn);
+    QCOMPARE(game.game().setPlayTeam(), 1);
     game.runTo(90);
     const Point ball = game.simulation->snapshot().ball;
     QVERIFY2(std::abs(ball.y - 3.0) < 1e-6, qPrintable(QString::number(ball.y)));
@@ -246,8 +246,8 @@ class TestReferee : public QObject {
       QVERIFY(game.simulation->placeRobot(RobotId{robot}, {{4.0, 2.5}, 0.0}));
       game.touch({4.0 + game.atTheBall(), 2.5}, {3.0, 0.0});
       game.runTo(82);
-      QCOMPARE(game.game().setPlay, byDefender ? SetPlay::CornerKick : SetPlay::GoalKick);
-      QCOMPARE(game.game().setPlayTeam, byDefender ? 0 : 1);
+      QCOMPARE(game.game().setPlay(), byDefender ? SetPlay::CornerKick : SetPlay::GoalKick);
+      QCOMPARE(game.game().setPlayTeam(), byDefender ? 0 : 1);
       QVERIFY(game.game().stopped);
     }
   }
@@ -262,7 +262,7 @@ class TestReferee : public QObject {
     game.runTo(80);
     game.touch({-2.5, 2.0 + game.atTheBall()}, {0.0, 3.0});
     game.runTo(82);
-    QCOMPARE(game.game().setPlay, SetPlay::None);
+    QCOMPARE(game.game().setPlay(), SetPlay::None);
     QVERIFY(std::abs(game.simulation->snapshot().ball.y) < 3.0);
     game.runTo(200);
     QVERIFY(!game.happened(sim::EventKind::DropBall));
@@ -344,7 +344,7 @@ class TestReferee : public QObject {
     game.runTo(100);
     QCOMPARE(game.simulation->hash(), hash);
     sim::WorldState damaged = saved;
-    damaged.game->setPlayTeam = 7;
+    damaged.game->restart.team = 7;
     QVERIFY(!game.simulation->restore(damaged));
   }
 

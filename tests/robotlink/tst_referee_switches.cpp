@@ -94,28 +94,28 @@ std::map<std::string, Situation> situations() {
   all["throw_ins"] = {{},
                       [](Game& g) {
                         rollsOut(g, 2, {-2.5, 2.0}, {0.0, 3.0});
-                        return words(g.game().setPlay);
+                        return words(g.game().setPlay());
                       },
                       "throw-in",
                       "none"};
   all["goal_kicks"] = {{},
                        [](Game& g) {
                          rollsOut(g, 2, {4.0, 2.5}, {3.0, 0.0});
-                         return words(g.game().setPlay);
+                         return words(g.game().setPlay());
                        },
                        "goal kick",
                        "none"};
   all["corner_kicks"] = {{},
                          [](Game& g) {
                            rollsOut(g, 4, {4.0, 2.5}, {3.0, 0.0});
-                           return words(g.game().setPlay);
+                           return words(g.game().setPlay());
                          },
                          "corner kick",
                          "none"};
   all["free_kicks"] = {{},
                        [](Game& g) {
                          pushes(g, 0.4);
-                         return words(g.game().setPlay) + ", " + penaltyOf(g, 0, 1);
+                         return words(g.game().setPlay()) + ", " + penaltyOf(g, 0, 1);
                        },
                        "direct free kick, none",
                        "none, pushing"};
@@ -322,10 +322,11 @@ class TestRefereeSwitches : public QObject {
   void everyRuleSwitchedOff_data() {
     QTest::addColumn<QString>("key");
     for (const auto& one : sim::refereeSwitches) QTest::newRow(one.key) << QString(one.key);
-    for (const auto& one : sim::refereeParameters) {
-      const QString meaning = one.meaning;
-      if (meaning.contains("0 = ")) QTest::newRow(one.key) << QString(one.key);
-    }
+    const auto add = [](const auto& one) {
+      if (QString(one.meaning).contains("0 = ")) QTest::newRow(one.key) << QString(one.key);
+    };
+    for (const auto& one : sim::refereeCounts) add(one);
+    for (const auto& one : sim::refereeParameters) add(one);
   }
   void everyRuleSwitchedOff() {
     QFETCH(QString, key);
@@ -341,6 +342,9 @@ class TestRefereeSwitches : public QObject {
       }
       for (const auto& one : sim::refereeParameters) {
         if (key == one.key) rules.*one.member = on ? situation.number : 0.0;
+      }
+      for (const auto& one : sim::refereeCounts) {
+        if (key == one.key) rules.*one.member = on ? static_cast<int>(situation.number) : 0;
       }
       Game game(rules);
       QCOMPARE(situation.outcome(game), QString(on ? situation.with : situation.without));

@@ -116,6 +116,16 @@ class TestScenario : public QObject {
     QVERIFY(*read(scenarioToJson(*s)) == *s);
   }
 
+  void teamsComeBackAsTheyWere() {
+    const auto s = read(R"({"version": 1, "referee": "humanoid-2021", "teams": [
+        {"colour": "black", "number": 12, "name": "RoboFEI"}, {"colour": "blue"}]})");
+    QVERIFY2(s, s ? "" : s.error().text().c_str());
+    QCOMPARE(s->settings.teams.size(), std::size_t{2});
+    QVERIFY(s->settings.teams[0] == (sim::TeamSettings{TeamColor::Black, 12, "RoboFEI"}));
+    QCOMPARE(s->settings.teams[1].number, 0);  // one that is free
+    QVERIFY(*read(scenarioToJson(*s)) == *s);
+  }
+
   void complaintsNameFileLineAndKey_data() {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("error");
@@ -126,6 +136,9 @@ class TestScenario : public QObject {
         "my.json:5: robots[1].x: must be a number in metres");
     row("number before a line break", robot("\"team\":\"red\",\"number\":1,\"y\":0,\n\"x\": 99\n"),
         "my.json:5: robots[1].x: must lie between -5.2 and 5.2 metres");
+    row("one colour for both teams",
+        "{\"version\": 1, \"teams\": [{\"colour\": \"red\"},\n{\"colour\": \"red\"}]}",
+        "my.json:2: teams[1].colour: is that of the other team");
     row("not an object", "[1]", "my.json:1: must be an object in braces");
     row("unknown key", "{\"version\": 1,\n \"sed\": 3}",
         "my.json:2: sed: unknown key; did you mean \"seed\"?");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <QFile>
 #include <QtTest>
 
 #include <map>
@@ -191,9 +192,41 @@ class TestStateArchive : public QObject {
     // When this fails, what is saved has changed, and states of before would be read wrongly: give
     // the form its next number (`version` in state_codec.cpp, with a word on what is new), and
     // write down here what it is now. A further physics, behind the others, changes none of these.
-    const QStringList known{"form 4", "state: 445c51357c5d75a9", "physics 0: e2f2cfe159e75697",
+    const QStringList known{"form 5", "state: b949021519e1f1e3", "physics 0: e2f2cfe159e75697",
                             "physics 1: ee63afaaa2368095"};
     QCOMPARE(saved.mid(0, known.size()).join("; "), known.join("; "));
+  }
+
+  // Written by version 0.9, form 4: a match of match-4v4 that a corner kick is prepared in.
+  void aStateOfVersion09GoesOnAsItDid() {
+    QFile file(QString(PITCHBOARD_TEST_DATA) + "/states/refereed_0.9.state");
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    auto state = decode(file.readAll().toStdString());
+    QVERIFY2(state, state ? "" : state.error().text().c_str());
+    QCOMPARE(state->tick, quint64{3780});
+    QCOMPARE(state->settings.referee->mercy, 7);
+    QCOMPARE(state->settings.referee->packetSize, 688);
+    QCOMPARE(state->game->setPlay(), sim::SetPlay::CornerKick);
+    QCOMPARE(state->game->setPlayTeam(), 1);
+    QCOMPARE(state->game->countdown.ticks, 600);
+    QCOMPARE(state->game->clockUse, sim::ClockUse::Began);
+    QCOMPARE(state->game->teams[1].score, 1);
+    QCOMPARE(state->game->teams[1].slotOf(4), 4);
+    auto simulation = sim::Simulation::create({}).value();
+    QVERIFY(simulation.restore(*state));
+    const std::vector<sim::RobotCommand> commands(state->robots.size());
+    std::vector<sim::Percepts> percepts(state->robots.size());
+    for (int tick = 0; tick < 1500; ++tick) simulation.step(commands, percepts);
+    sim::WorldState after = simulation.state();
+    QVERIFY(after.game->ballFree());
+    QCOMPARE(after.game->clock, 33180);
+    after.settings.referee.reset();
+    after.game.reset();
+    quint64 hash = 0xcbf29ce484222325ULL;  // of what 0.9 came to
+    for (const char byte : encodeState(after).substr(5)) {
+      hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
+    }
+    QCOMPARE(hash, 0xaa0387c95653844cULL);
   }
 
   void aLaterFormIsNamed() {

@@ -14,14 +14,19 @@ using namespace pitchboard;
 
 namespace {
 
+void forEveryNumber(auto&& take) {
+  for (const auto& p : sim::refereeCounts) take(p);
+  for (const auto& p : sim::refereeParameters) take(p);
+}
+
 QString numbersTable() {
   const sim::RefereeRules usual;
   QString text = "| key | name | meaning | unit | default | range |\n|---|---|---|---|---|---|\n";
-  for (const auto& p : sim::refereeParameters) {
+  forEveryNumber([&](const auto& p) {
     text += QString("| `%1` | %2 | %3 | %4 | %5 | %6 to %7 |\n")
                 .arg(p.key, p.name, p.meaning, p.unit.symbol, QString::number(usual.*p.member),
                      QString::number(p.least), QString::number(p.most));
-  }
+  });
   return text;
 }
 
@@ -44,17 +49,17 @@ class TestRefereeParameters : public QObject {
     sim::RefereeRules rules;
     std::set<const void*> named, found;
     std::set<std::string> keys;
-    for (const auto& p : sim::refereeParameters) {
+    forEveryNumber([&](const auto& p) {
       named.insert(&(rules.*p.member));
       keys.insert(p.key);
-    }
+    });
     for (const auto& one : sim::refereeSwitches) {
       named.insert(&(rules.*one.member));
       keys.insert(one.key);
     }
     sim::visitRefereeRules(rules, [&found](auto&... values) {
       const auto look = [&found]<class T>(T& value) {
-        if constexpr (std::is_same_v<T, double> || std::is_same_v<T, bool>) found.insert(&value);
+        if constexpr (std::is_arithmetic_v<T>) found.insert(&value);
       };
       (look(values), ...);
     });
@@ -63,15 +68,16 @@ class TestRefereeParameters : public QObject {
   }
 
   void whatIsOutOfRangeIsRefused() {
-    for (const auto& p : sim::refereeParameters) {
+    forEveryNumber([](const auto& p) {
       sim::RefereeRules rules;
-      rules.*p.member = p.most;
+      using Number = std::remove_reference_t<decltype(rules.*p.member)>;
+      rules.*p.member = static_cast<Number>(p.most);
       QVERIFY2(sim::validate(rules), p.key);
-      rules.*p.member = p.most * 1.01;
+      rules.*p.member = static_cast<Number>(p.most + 1);
       const auto refused = sim::validate(rules);
       QVERIFY2(!refused, p.key);
       QVERIFY(refused.error().context.ends_with(p.key));
-    }
+    });
   }
 
   // PITCHBOARD_WRITE_DOCS=1 puts the tables into the document instead.

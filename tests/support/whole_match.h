@@ -49,8 +49,7 @@ class StuckWatch {
 
   void look(const SimulatedMatch& match, WholeMatch& out) {
     const sim::WorldState& world = match.simulation().state();
-    const bool playing = world.game->state == sim::PlayState::Playing &&
-                         world.game->setPlay == sim::SetPlay::None && world.game->ballFree;
+    const bool playing = world.game->state == sim::PlayState::Playing && world.game->ballFree();
     match.simulation().snapshot(m_now);
     m_robots.resize(world.robots.size());
     for (std::size_t i = 0; i < m_robots.size(); ++i) {

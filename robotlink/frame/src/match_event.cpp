@@ -229,8 +229,8 @@ namespace {
 
 /// " for red": the side that has the ball.
 std::string sideWithBall(const sim::WorldState& state) {
-  if (!state.game || state.game->restartTeam < 0) return {};
-  const auto team = static_cast<std::size_t>(state.game->restartTeam);
+  if (!state.game || state.game->restart.team < 0) return {};
+  const auto team = static_cast<std::size_t>(state.game->restart.team);
   return " for " + std::string(info(state.game->teams[team].colour).name);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <robotlink/frame/belief.h>
+#include <robotlink/frame/referee_view.h>
 #include <robotlink/frame/second_sender.h>
 #include <robotlink/live/live_teams.h>
 #include <simcore/world/published_frame.h>
@@ -13,9 +14,7 @@ namespace pitchboard::link {
 namespace {
 
 using telemetry::FieldMeaning;
-using telemetry::RefereePlayer;
 using telemetry::RefereeState;
-using telemetry::RefereeTeam;
 using telemetry::RobotStatus;
 
 /// Sane numbers for drawing; what was sent stays in `values`.
@@ -88,96 +87,6 @@ RobotBoardView boardOf(const RobotStatus& robot) {
   return board;
 }
 
-std::optional<Penalty> penaltyOf(const RefereeState* state, int ourTeam, int number) {
-  const RefereeTeam* team = state == nullptr ? nullptr : state->team(ourTeam);
-  if (team == nullptr) return std::nullopt;
-  for (const RefereePlayer& player : team->players()) {
-    if (player.number != number || player.penalty == 0 || player.unreliable ||
-        telemetry::isSubstitute(*state, player)) {
-      continue;
-    }
-    return Penalty{std::string(telemetry::penaltyWords(*state, player.penalty)),
-                   player.secondsLeft};
-  }
-  return std::nullopt;
-}
-
-/// The set play and the phase in words. One version says in one field what another says in two.
-void describeSetPlay(const RefereeState& state, std::string& setPlay, std::string& phase) {
-  constexpr int normal = 0, shootout = 1, overtime = 2;
-  if (state.secState && *state.secState != normal) {
-    const std::string words(telemetry::setPlayWords(telemetry::League::Humanoid, *state.secState));
-    (*state.secState == overtime || *state.secState == shootout ? phase : setPlay) = words;
-  }
-  if (state.gamePhase && *state.gamePhase != 0) {
-    phase = telemetry::gamePhaseWords(*state.gamePhase);
-  }
-  if (state.setPlay && *state.setPlay != 0) {
-    setPlay = telemetry::setPlayWords(state.league, *state.setPlay);
-  }
-}
-
-/// Who takes the set play and how far it is (docs/LIVE.md, "Referee").
-void describeTaking(const RefereeState& state, RefereeView& view) {
-  constexpr int firstOfSetPlays = 4;       // of the secondary state: free kicks and what follows
-  constexpr int sizeWithThreeSteps = 688;  // until 2018 there were two, counted the other way
-  if (state.secState && *state.secState >= firstOfSetPlays && *state.secState < 255 &&
-      state.secStateInfo) {
-    const auto& info = *state.secStateInfo;
-    if (state.team(info[0]) != nullptr) view.performingTeam = info[0];
-    if (state.size >= sizeWithThreeSteps) {
-      view.setPlayStep = info[1] == 0 ? "stop" : info[1] == 1 ? "prepare" : "ready";
-    } else {
-      view.setPlayStep = info[1] == 1 ? "stop" : "prepare";
-    }
-  } else if (state.setPlay.value_or(0) != 0) {
-    view.performingTeam = state.kickOffTeam;
-    if (view.stopped) view.setPlayStep = "stop";
-  }
-}
-
-/// What the secondary time counts down to.
-std::string countdownOf(const RefereeView& view) {
-  if (view.secondaryTime.value_or(0) == 0) return {};
-  if (view.setPlay == "timeout" || view.phase == "timeout") return "timeout over";
-  if (view.state == "READY") return "set";
-  if (view.state == "INITIAL" || view.state == "FINISHED") return "next half";
-  if (view.setPlay.empty()) return view.state == "PLAYING" ? "ball free" : "";
-  return view.setPlayStep == "prepare" ? "ready" : "ball free";
-}
-
-RefereeTeamView teamView(const RefereeState& state, const RefereeTeam& team) {
-  RefereeTeamView view{
-      team.number, std::string(telemetry::colourWords(team.colour)), team.score, 0, {}};
-  for (const RefereePlayer& player : team.players()) {
-    // Slots without a player are substitutes, and so are those who wait.
-    if (player.unreliable || telemetry::isSubstitute(state, player)) continue;
-    view.playersLeft += player.penalty == 0 ? 1 : 0;
-    view.players.push_back(
-        {player.number, std::string(telemetry::penaltyWords(state, player.penalty)),
-         player.secondsLeft, player.warnings.value_or(0), player.yellow.value_or(0),
-         player.red.value_or(0), player.cautions.value_or(0),
-         player.goalkeeper.value_or(0) != 0 || team.goalkeeper == player.number});
-  }
-  return view;
-}
-
-std::optional<RefereeTruth> truthOf(const telemetry::RefereeTracker& tracker,
-                                    telemetry::WallTime now) {
-  if (!tracker.trueData()) return std::nullopt;
-  const RefereeState& state = *tracker.trueData();
-  RefereeTruth truth;
-  truth.state = telemetry::stateName(state.state);
-  std::string phase;
-  describeSetPlay(state, truth.setPlay, phase);
-  if (truth.setPlay.empty()) truth.setPlay = phase;
-  truth.secondsLeft = state.secsRemaining;
-  truth.secondaryTime = state.secondaryTime;
-  truth.scores = {state.teams[0].score, state.teams[1].score};
-  truth.age = telemetry::secondsOf(std::max(now - tracker.trueDataTime(), telemetry::Duration{}));
-  return truth;
-}
-
 std::vector<RobotReplyView> repliesOf(const telemetry::RefereeTracker& tracker,
                                       telemetry::WallTime now) {
   constexpr double metres = 0.001;
@@ -201,29 +110,20 @@ std::vector<RobotReplyView> repliesOf(const telemetry::RefereeTracker& tracker,
   return views;
 }
 
-RefereeView viewOf(const telemetry::RefereeTracker& tracker, int ourTeam, telemetry::WallTime now) {
-  const RefereeState& state = *tracker.state();
-  RefereeView view;
-  view.version = state.version;
+/// As it is heard: from whom, how long ago, and what else is known.
+RefereeView heardView(const telemetry::RefereeTracker& tracker, int ourTeam,
+                      telemetry::WallTime now) {
+  RefereeView view = viewOf(*tracker.state(), ourTeam);
   view.sender = tracker.sender()->text();
   view.age = telemetry::secondsOf(*tracker.age(now));
   view.timedOut = tracker.timedOut(now);
   view.conflict = tracker.conflict(now);
-  view.truth = truthOf(tracker, now);
   view.replies = repliesOf(tracker, now);
-  view.state = telemetry::stateName(state.state);
-  describeSetPlay(state, view.setPlay, view.phase);
-  view.firstHalf = state.firstHalf != 0;
-  view.stopped = state.stopped.value_or(0) != 0;
-  view.secondsLeft = state.secsRemaining;
-  view.secondaryTime = state.secondaryTime;
-  describeTaking(state, view);
-  view.countdown = countdownOf(view);
-  view.kickOffTeam = state.kickOffTeam;
-  for (std::size_t i = 0; i < view.teams.size(); ++i) {
-    view.teams[i] = teamView(state, state.teams[i]);
+  if (tracker.trueData()) {
+    view.truth = truthOf(*tracker.trueData());
+    view.truth->age =
+        telemetry::secondsOf(std::max(now - tracker.trueDataTime(), telemetry::Duration{}));
   }
-  view.ourTeam = state.team(ourTeam) != nullptr ? ourTeam : 0;
   return view;
 }
 
@@ -248,7 +148,7 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
   TeamColor ours = options.colour;
   const RefereeState* state = referee.state() ? &*referee.state() : nullptr;
   if (state != nullptr) {
-    frame.referee = viewOf(referee, options.ourTeam, team.time);
+    frame.referee = heardView(referee, options.ourTeam, team.time);
     frame.snapshot.score = {frame.referee->teams[0].score, frame.referee->teams[1].score};
     frame.snapshot.clock = frame.referee->secondsLeft;
     frame.snapshot.clockRunning = frame.referee->state == "PLAYING" && !frame.referee->timedOut;
@@ -267,7 +167,10 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
     out.identity.team = colourOf(options, robot.number, ours, frame.referee);
     out.ownName = ownNameOf(options, robot.number);
     RobotHealth& health = out.health.emplace(healthOf(robot));
-    health.penalty = penaltyOf(state, refereeNumberOf(options, robot.number), out.identity.number);
+    if (state != nullptr) {
+      health.penalty =
+          penaltyOf(*state, refereeNumberOf(options, robot.number), out.identity.number);
+    }
     out.action = health.action.value_or(0);
     if (const auto pose = poseOf(robot, options.field)) {
       health.poseKnown = true;

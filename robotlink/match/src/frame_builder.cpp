@@ -45,7 +45,6 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
     robot.thoughts.reset();
     robot.runtime = runtimeChoiceToText(match.runtime(robot.id()));
     robot.ofOthers = false;
-    robot.penalty = refereePenalty(state, state.robots[i]);
   }
   for (const sim::RobotIdentity& other : match.robotsOfOthers()) {
     out.robots[*simulation.indexOf(other.id)].ofOthers = true;
@@ -70,13 +69,8 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
     out.drawings = drawings->book().at(m_snapshot.time);
     out.drawingProblem = drawings->problem();
   }
-  out.referee.reset();
-  out.refereeRules.clear();
-  if (state.game) {
-    out.referee = refereeView(state);
-    out.refereeRules = state.settings.referee->name;
-    out.refereeAutomatic = state.settings.referee->automatic;
-  }
+  showReferee(state, out);
+  out.refereeRules = state.game ? state.settings.referee->name : std::string();
   out.finishedBy = match.finishedBy();
   out.finished = !out.finishedBy.empty();
   out.field = state.settings.field;

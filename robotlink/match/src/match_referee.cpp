@@ -89,8 +89,7 @@ bool MatchReferee::tick(sim::Simulation& simulation, bool again) {
   };
   bool due =
       world.tick % every(period) == 0 || m_rhythm.lastTick == 0 || world.tick < m_rhythm.lastTick;
-  const bool soccer = world.settings.referee->style == sim::RefereeStyle::HumanoidSoccer2026;
-  if (soccer) {
+  if (!sim::conductOf(world.settings.referee->style).preparesSetPlays) {
     if (world.game->stopped && !m_rhythm.stopped) {
       due = true;
       m_rhythm.quick = quickPackets;

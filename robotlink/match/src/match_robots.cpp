@@ -23,6 +23,11 @@ bool isToldOtherwise(const sim::RobotModel& a, const sim::RobotModel& b) {
   return told(a) != told(b) || a.kickLaw != b.kickLaw;
 }
 
+tl::unexpected<Error> noSuchRobot(RobotId id) {
+  return failure(ErrorCode::NotFound,
+                 "there is no robot " + std::to_string(id.value) + " on the field");
+}
+
 /// Refuses a name that is neither one of our behaviours nor "none of ours".
 Result<void> checkBehaviour(const std::string& behaviour) {
   const auto known = behaviours();
@@ -190,10 +195,7 @@ Result<void> SimulatedMatch::reenter(const Moment& moment) {
 
 Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behaviour) {
   Seat* changed = seat(id);
-  if (!changed) {
-    return failure(ErrorCode::NotFound,
-                   "there is no robot " + std::to_string(id.value) + " on the field");
-  }
+  if (!changed) return noSuchRobot(id);
   if (auto known = checkBehaviour(behaviour); !known) return known;
   const std::string before = std::exchange(changed->behaviour, behaviour);
   // Nobody said who runs, so the behaviour does: without one the robot is somebody else's.
@@ -228,10 +230,7 @@ Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behavio
 
 Result<void> SimulatedMatch::setRuntime(RobotId id, const RuntimeChoice& choice) {
   Seat* changed = seat(id);
-  if (!changed) {
-    return failure(ErrorCode::NotFound,
-                   "there is no robot " + std::to_string(id.value) + " on the field");
-  }
+  if (!changed) return noSuchRobot(id);
   auto runtime =
       runtimeFor({id, changed->behaviour, m_scenario.runtimeOf(identityOf(id).team, choice)});
   if (!runtime) return tl::unexpected(runtime.error());
@@ -272,13 +271,10 @@ Result<void> SimulatedMatch::restartProcess(RobotId id, const std::string& proce
 
 Result<void> SimulatedMatch::setIdentity(const sim::RobotIdentity& identity) {
   Seat* changed = seat(identity.id);
-  const auto index = m_simulation.indexOf(identity.id);
-  if (!changed || !index) {
-    return failure(ErrorCode::NotFound,
-                   "there is no robot " + std::to_string(identity.id.value) + " on the field");
-  }
+  if (!changed) return noSuchRobot(identity.id);
   if (auto free = checkShirt(identity); !free) return free;
-  sim::RobotIdentity& robot = m_simulation.editState().robots[*index];
+  const std::size_t index = *m_simulation.indexOf(identity.id);
+  sim::RobotIdentity& robot = m_simulation.editState().robots[index];
   const sim::RobotIdentity before = std::exchange(robot, identity);
   auto started = restartProcesses(*changed);
   if (!started) robot = before;
@@ -291,13 +287,9 @@ const sim::RobotModel* SimulatedMatch::robotModel(RobotId id) const {
 }
 
 Result<void> SimulatedMatch::setRobotModel(RobotId id, const sim::RobotModel& model) {
-  const sim::RobotModel* known = robotModel(id);
   Seat* changed = seat(id);
-  if (!changed || !known) {
-    return failure(ErrorCode::NotFound,
-                   "there is no robot " + std::to_string(id.value) + " on the field");
-  }
-  const sim::RobotModel before = *known;
+  if (!changed) return noSuchRobot(id);
+  const sim::RobotModel before = *robotModel(id);
   if (before == model) return {};
   if (auto set = m_simulation.setRobotModel(id, model); !set) return set;
   if (!isToldOtherwise(before, model)) return {};

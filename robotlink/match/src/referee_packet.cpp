@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <robotlink/frame/referee_view.h>
 #include <simcore/rules/referee.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
 
@@ -15,7 +16,7 @@ namespace {
 using sim::GameState;
 using sim::PlayState;
 using sim::SetPlay;
-using sim::SetPlayStep;
+using Step = sim::Restart::Step;
 using telemetry::League;
 
 constexpr int dropBallJava = 128, dropBallColour = 2, nobodySoccer = 255;
@@ -31,17 +32,15 @@ struct Dialect {
 };
 
 Dialect dialectOf(const sim::RefereeRules& rules) {
-  const int version = static_cast<int>(std::lround(rules.packetVersion));
-  const int size =
-      telemetry::refereePacketSize(version, static_cast<int>(std::lround(rules.packetSize)))
-          .value_or(0);
+  const int version = rules.packetVersion;
+  const int size = telemetry::refereePacketSize(version, rules.packetSize).value_or(0);
   const League league = telemetry::refereeLeague(version, size).value_or(League::Humanoid);
   return {version, size, league, penaltyDialect(version, league)};
 }
 
 int kickOffRaw(const GameState& game, const Dialect& dialect) {
-  const bool stands = game.kickOffStands && game.state != PlayState::Finished &&
-                      !(game.state == PlayState::Playing && game.hidden == 0 && game.ballFree);
+  const bool stands = game.state != PlayState::Finished &&
+                      !(game.state == PlayState::Playing && game.hidden == 0 && game.ballFree());
   if (dialect.soccer() && !stands) return nobodySoccer;
   if (game.kickOff < 0) {
     return dialect.soccer() ? nobodySoccer : dialect.byColour() ? dropBallColour : dropBallJava;
@@ -72,8 +71,9 @@ void fillTeam(const sim::WorldState& world, const sim::GameTeam& team, const Dia
     const int number = static_cast<int>(i) + 1;
     slot.number = number;
     const bool there =
+        team.shirts[i] != 0 &&
         std::any_of(world.robots.begin(), world.robots.end(), [&](const sim::RobotIdentity& robot) {
-          return robot.team == team.colour && robot.number == number;
+          return robot.team == team.colour && robot.number == team.shirts[i];
         });
     slot.penalty =
         penaltyCode(dialect.penalties, there ? player.penalty : sim::PenaltyKind::Substitute);
@@ -112,12 +112,7 @@ void followTeams(const telemetry::RefereeState& packet, sim::WorldState& world) 
     game.teams[first].number = packet.teams[0].number;
     game.teams[1 - first].number = packet.teams[1].number;
   }
-  const bool swapped = game.teams[1].number == packet.teams[0].number;
-  if (swapped == game.swapped) return;
-  game.swapped = swapped;
-  for (sim::RobotIdentity& robot : world.robots) {
-    if (game.teamOf(robot.team) >= 0) robot.imuStartsAt180 = !robot.imuStartsAt180;
-  }
+  if (game.swapped != (game.teams[1].number == packet.teams[0].number)) sim::swapSides(world);
 }
 
 }  // namespace
@@ -147,14 +142,13 @@ telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNu
     const int key = dialect.byColour() ? colourCode(team.colour) : team.number;
     if (key == out.kickOffRaw) out.kickOffTeam = team.number;
   }
-  const bool full = hidden && !game.clockBeganBefore;
+  const bool full = hidden && game.clockUse == sim::ClockUse::BeganNow;
   out.secsRemaining =
       full ? static_cast<int>(std::ceil(
                  game.phase == sim::GamePhase::ExtraTime ? rules.extraHalfTime : rules.halfTime))
            : sim::secondsOf(game.clock, rate);
-  out.secondaryTime = hidden ? 0 : sim::secondsOf(game.secondary, rate);
-  if (dialect.soccer() && game.state == PlayState::Playing && game.ballFree &&
-      game.setPlay == SetPlay::None) {
+  out.secondaryTime = hidden ? 0 : sim::secondsOf(game.countdown.ticks, rate);
+  if (dialect.soccer() && game.state == PlayState::Playing && game.ballFree()) {
     out.secondaryTime = 0;
   }
 
@@ -162,16 +156,16 @@ telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNu
                                      : game.phase == sim::GamePhase::ExtraTime ? 2
                                      : game.phase == sim::GamePhase::Timeout   ? 3
                                                                                : 0);
-  const int setPlay = setPlayCode(dialect.league, dialect.version, dialect.size, game.setPlay);
+  const int setPlay = setPlayCode(dialect.league, dialect.version, dialect.size, game.setPlay());
   out.gamePhase = phase;
   out.setPlay = setPlay;
   out.secState = dialect.league == League::Humanoid && setPlay != 0 ? setPlay : phase;
   std::array<int, 4> info{};
-  if (dialect.league == League::Humanoid && setPlay != 0 && game.setPlayTeam >= 0) {
-    info[0] = game.teams[static_cast<std::size_t>(game.setPlayTeam)].number;
-    const bool placing = game.step == SetPlayStep::Placing;
+  if (dialect.league == League::Humanoid && setPlay != 0 && game.restart.team >= 0) {
+    info[0] = game.teams[static_cast<std::size_t>(game.restart.team)].number;
+    const bool placing = game.restart.step == Step::Placing;
     if (dialect.size == 688) {
-      info[1] = placing ? 0 : game.step == SetPlayStep::Preparing ? 1 : 2;
+      info[1] = placing ? 0 : game.restart.step == Step::Preparing ? 1 : 2;
     } else {
       info[1] = placing ? 1 : 0;
     }
@@ -179,75 +173,46 @@ telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNu
   out.secStateInfo = info;
   out.dropInTeam = 0;
   out.dropInTime = -1;
-  if (game.dropInTeam >= 0) {
-    const sim::GameTeam& team = game.teams[static_cast<std::size_t>(game.dropInTeam)];
+  if (game.dropIn.team >= 0) {
+    const sim::GameTeam& team = game.teams[static_cast<std::size_t>(game.dropIn.team)];
     out.dropInTeam = dialect.byColour() ? colourCode(team.colour) : team.number;
-    out.dropInTime = std::min(32767, static_cast<int>(game.dropInTicks / rate));
+    out.dropInTime = std::min(32767, static_cast<int>(game.dropIn.ticks / rate));
   }
   const std::size_t left = game.leftTeam();
   fillTeam(world, game.teams[left], dialect, out.teams[0]);
   fillTeam(world, game.teams[1 - left], dialect, out.teams[1]);
+  // What this version does not send is not known to those who hear it.
+  if (const auto bytes = telemetry::encodeReferee(out)) {
+    const auto heard = telemetry::decodeReferee(std::string_view(*bytes));
+    if (const auto* state = heard ? std::get_if<telemetry::RefereeState>(&*heard) : nullptr) {
+      return *state;
+    }
+  }
   return out;
 }
 
-RefereeView refereeView(const sim::WorldState& world) {
+void showReferee(const sim::WorldState& world, MatchFrame& frame) {
+  frame.referee.reset();
+  for (RobotFrame& robot : frame.robots) robot.penalty.reset();
+  if (!world.game) return;
   const GameState& game = *world.game;
-  const sim::RefereeRules& rules = *world.settings.referee;
-  const double rate = world.settings.tickRate;
-  RefereeView view;
-  view.version = static_cast<int>(std::lround(rules.packetVersion));
-  view.sender = rules.automatic ? "the simulated referee" : "a person";
-  view.state = wordsOf(game.state);
-  // A timeout stands in the place of a set play, as in the packets of the Humanoid League.
-  const bool timeout = game.phase == sim::GamePhase::Timeout;
-  view.setPlay = timeout ? wordsOf(game.phase) : wordsOf(game.setPlay);
-  if (game.phase != sim::GamePhase::Normal && !timeout) view.phase = wordsOf(game.phase);
-  view.firstHalf = game.half == 1;
-  view.stopped = game.stopped;
-  view.secondsLeft = sim::secondsOf(game.clock, rate);
-  if (game.secondary != 0) view.secondaryTime = sim::secondsOf(game.secondary, rate);
-  if (game.setPlay != SetPlay::None && game.setPlayTeam >= 0) {
-    view.performingTeam = game.teams[static_cast<std::size_t>(game.setPlayTeam)].number;
-    view.setPlayStep = game.step == SetPlayStep::Placing     ? "stop"
-                       : game.step == SetPlayStep::Preparing ? "prepare"
-                                                             : "ready";
-  }
-  if (game.kickOff >= 0)
-    view.kickOffTeam = game.teams[static_cast<std::size_t>(game.kickOff)].number;
-  const std::size_t left = game.leftTeam();
+  const telemetry::RefereeState packet = refereePacket(world, 0, true);
+  frame.refereeAutomatic = world.settings.referee->automatic;
+  RefereeView& view = frame.referee.emplace(viewOf(packet));
+  view.sender = frame.refereeAutomatic ? "the simulated referee" : "a person";
   for (std::size_t side = 0; side < 2; ++side) {
-    const sim::GameTeam& team = game.teams[side == 0 ? left : 1 - left];
-    RefereeTeamView& shown = view.teams[side];
-    shown.number = team.number;
-    shown.colour = info(team.colour).name;
-    shown.score = team.score;
-    for (const sim::RobotIdentity& robot : world.robots) {
-      if (robot.team != team.colour || robot.number < 1 ||
-          robot.number > static_cast<int>(sim::GameTeam::mostPlayers)) {
-        continue;
-      }
-      const sim::GamePlayer& player = team.players[static_cast<std::size_t>(robot.number - 1)];
-      if (player.penalty == sim::PenaltyKind::None) ++shown.playersLeft;
-      shown.players.push_back({robot.number, std::string(wordsOf(player.penalty)),
-                               sim::secondsOf(player.ticksLeft, rate), player.warnings,
-                               player.yellow, player.red, player.cautions, player.goalkeeper});
+    const auto& shirts = game.teams[side == 0 ? game.leftTeam() : 1 - game.leftTeam()].shirts;
+    for (RefereePlayerView& player : view.teams[side].players) {
+      const int shirt = shirts[static_cast<std::size_t>(player.number - 1)];
+      if (shirt != 0) player.number = shirt;
     }
   }
-  return view;
-}
-
-std::optional<Penalty> refereePenalty(const sim::WorldState& world,
-                                      const sim::RobotIdentity& robot) {
-  if (!world.game) return {};
-  const int team = world.game->teamOf(robot.team);
-  if (team < 0 || robot.number < 1 || robot.number > static_cast<int>(sim::GameTeam::mostPlayers)) {
-    return {};
+  for (RobotFrame& robot : frame.robots) {
+    const int team = game.teamOf(robot.identity.team);
+    if (team < 0) continue;
+    const sim::GameTeam& own = game.teams[static_cast<std::size_t>(team)];
+    robot.penalty = penaltyOf(packet, own.number, own.slotOf(robot.identity.number));
   }
-  const sim::GamePlayer& player = world.game->teams[static_cast<std::size_t>(team)]
-                                      .players[static_cast<std::size_t>(robot.number - 1)];
-  if (player.penalty == sim::PenaltyKind::None) return {};
-  return Penalty{std::string(wordsOf(player.penalty)),
-                 sim::secondsOf(player.ticksLeft, world.settings.tickRate)};
 }
 
 void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) {
@@ -259,11 +224,8 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
   const auto state = static_cast<PlayState>(std::clamp(packet.state, 0, 4));
   if (state != game.state) {
     game.stateTicks = 0;
-    if (state == PlayState::Playing) {
-      game.clockBeganBefore = game.clockBegan;
-      game.clockBegan = true;
-    }
-    if (state == PlayState::Initial) game.clockBegan = game.clockBeganBefore = false;
+    if (state == PlayState::Playing) game.beginClock();
+    if (state == PlayState::Initial) game.clockUse = sim::ClockUse::Full;
   }
   game.state = state;
   game.half = packet.firstHalf != 0 ? 1 : 2;
@@ -280,28 +242,22 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
     if (sim::secondsOf(have, rate) != seconds) have = ticks(seconds);
   };
   follow(game.clock, packet.secsRemaining);
-  follow(game.secondary, packet.secondaryTime.value_or(0));
-  game.secondaryRuns = game.secondary > 0;
+  follow(game.countdown.ticks, packet.secondaryTime.value_or(0));
+  game.countdown.runs = game.countdown.ticks > 0;
   const int code = packet.setPlay.value_or(packet.secState.value_or(0));
-  game.setPlay = setPlayOf(packet.league, packet.version, packet.size, code);
-  game.step = game.setPlay == SetPlay::None ? SetPlayStep::None
-              : game.stopped                ? SetPlayStep::Placing
-                                            : SetPlayStep::Taking;
   const auto indexOf = [&](std::optional<int> number) {
     for (std::size_t i = 0; number && i < game.teams.size(); ++i) {
       if (game.teams[i].number == *number) return static_cast<int>(i);
     }
     return GameState::nobody;
   };
-  if (packet.secStateInfo && packet.size == 688 && game.setPlay != SetPlay::None) {
-    const int step = (*packet.secStateInfo)[1];
-    game.step = step == 0   ? SetPlayStep::Placing
-                : step == 1 ? SetPlayStep::Preparing
-                            : SetPlayStep::Taking;
-    game.setPlayTeam = indexOf((*packet.secStateInfo)[0]);
-  } else {
-    game.setPlayTeam =
-        game.setPlay == SetPlay::None ? GameState::nobody : indexOf(packet.kickOffTeam);
+  game.restart = {};
+  game.restart.kind = setPlayOf(packet.league, packet.version, packet.size, code);
+  if (game.restart.kind != SetPlay::None) {
+    const bool says = packet.secStateInfo && packet.size == 688;
+    const int step = says ? (*packet.secStateInfo)[1] : game.stopped ? 0 : 2;
+    game.restart.step = step == 0 ? Step::Placing : step == 1 ? Step::Preparing : Step::Taking;
+    game.restart.team = indexOf(says ? (*packet.secStateInfo)[0] : packet.kickOffTeam);
   }
   game.kickOff = indexOf(packet.kickOffTeam);
   for (std::size_t side = 0; side < 2; ++side) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <robotlink/match/match_drawings.h>
 
@@ -38,36 +39,10 @@ SimulatedMatch::SimulatedMatch(const Scenario& scenario, const MatchOptions& opt
 SimulatedMatch::SimulatedMatch(SimulatedMatch&&) noexcept = default;
 
 SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
-  if (this == &other) return *this;
-  m_processes.reset();  // processes end before their blackboards go
-  m_seats.clear();
-  m_scenario = std::move(other.m_scenario);
-  m_options = std::move(other.m_options);
-  m_simulation = std::move(other.m_simulation);
-  m_catalog = other.m_catalog;
-  m_variables = std::move(other.m_variables);
-  m_bridge = std::move(other.m_bridge);
-  m_extendedBridge = std::move(other.m_extendedBridge);
-  m_writes = std::move(other.m_writes);
-  m_seats = std::move(other.m_seats);
-  m_commands = std::move(other.m_commands);
-  m_percepts = std::move(other.m_percepts);
-  m_nextWrite = other.m_nextWrite;
-  m_expectedTick = other.m_expectedTick;
-  m_goalSeen = other.m_goalSeen;
-  m_outSeen = other.m_outSeen;
-  m_teamChannels = std::move(other.m_teamChannels);
-  m_thoughts = std::move(other.m_thoughts);
-  m_events = std::move(other.m_events);
-  m_referee = std::move(other.m_referee);
-  m_drawings = std::move(other.m_drawings);
-  m_claim = std::move(other.m_claim);
-  m_speed = other.m_speed;
-  m_still = other.m_still;
-  m_measured = other.m_measured;
-  m_measuredTick = other.m_measuredTick;
-  m_turns = std::move(other.m_turns);
-  m_processes = std::move(other.m_processes);
+  if (this != &other) {
+    std::destroy_at(this);  // in its order: processes end before their blackboards go
+    std::construct_at(this, std::move(other));
+  }
   return *this;
 }
 
@@ -139,8 +114,9 @@ void SimulatedMatch::hearReferee(bool again) {
     const sim::RobotIdentity& robot = world.robots[i];
     const int team = world.game->teamOf(robot.team);
     if (team < 0 || m_seats[i]->runtime.hearsReferee) continue;
-    const int number = world.game->teams[static_cast<std::size_t>(team)].number;
-    if (const auto word = m_seats[i]->orders.take(m_referee->packet(), number, robot.number)) {
+    const sim::GameTeam& own = world.game->teams[static_cast<std::size_t>(team)];
+    if (const auto word =
+            m_seats[i]->orders.take(m_referee->packet(), own.number, own.slotOf(robot.number))) {
       m_seats[i]->board.write(m_variables.comReferee, *word);
     }
   }

@@ -21,7 +21,8 @@ constexpr std::string_view noReferee = "published";
 
 std::vector<std::string_view> keysOfRules(std::vector<std::string_view> keys) {
   keys.push_back("style");
-  for (const auto& parameter : sim::refereeParameters) keys.push_back(parameter.key);
+  keys = sim::withKeys(std::move(keys), sim::refereeCounts);
+  keys = sim::withKeys(std::move(keys), sim::refereeParameters);
   for (const auto& one : sim::refereeSwitches) keys.push_back(one.key);
   return keys;
 }
@@ -30,6 +31,7 @@ void readRules(const JsonObject& object, sim::RefereeRules& rules) {
   if (const auto style = object.choice("style", sim::refereeStyleNames, "style of referee")) {
     rules.style = static_cast<sim::RefereeStyle>(*style);
   }
+  readNumbers(object, sim::refereeCounts, rules);
   readNumbers(object, sim::refereeParameters, rules);
   for (const auto& one : sim::refereeSwitches) {
     rules.*one.member = object.boolean(one.key, rules.*one.member);

@@ -23,6 +23,7 @@ constexpr double longestClock = 1e6;  // s
 constexpr int mostGoals = 1'000'000;
 constexpr std::size_t mostWrites = 100000;
 constexpr std::size_t longestRuntime = 4096;
+constexpr std::size_t longestTeamName = 64;
 constexpr std::size_t mostFileBytes = 1024 * 1024;
 
 /// The default first, as in choosers.
@@ -46,7 +47,7 @@ class Reader {
                {"version", "name",        "title",         "description", "physics", "tick_rate",
                 "seed",    "after_goal",  "clock_running", "clock",       "score",   "field",
                 "noise",   "robot_model", "rigid_body",    "ball",        "robots",  "writes",
-                "stop",    "referee",     "runtime"}) {}
+                "stop",    "referee",     "runtime",       "teams"}) {}
 
   Scenario read() {
     readVersion();
@@ -59,6 +60,7 @@ class Reader {
     readRobotModel();
     readRigidBody();
     m_scenario.settings.referee = readReferee(m_report, m_root, "referee");
+    readTeams();
     readBall();
     m_scenario.clockRunning = m_root.boolean("clock_running", true);
     m_scenario.clock = m_root.number("clock", 0.0, {0, longestClock, "seconds"});
@@ -224,6 +226,27 @@ class Reader {
       }
     }
     return *choice;
+  }
+
+  void readTeams() {
+    std::vector<std::string_view> colours;
+    for (const TeamColorInfo& color : teamColors) colours.push_back(color.name);
+    const auto* items = m_root.array("teams", 2);
+    for (std::size_t i = 0; items && i < items->size() && !m_report.failed(); ++i) {
+      const JsonObject object(m_report, (*items)[i], m_root.pathOf("teams", i),
+                              {"colour", "number", "name"});
+      object.require("colour");
+      const std::size_t colour = object.choice("colour", colours, "colour of a team").value_or(0);
+      const sim::TeamSettings team{teamColors[colour].color, object.integer("number", 0, 0, 255),
+                                   object.text("name", "", longestTeamName)};
+      for (const sim::TeamSettings& other : m_scenario.settings.teams) {
+        if (other.colour == team.colour) object.fail("colour", "is that of the other team");
+        if (team.number != 0 && other.number == team.number) {
+          object.fail("number", "is that of the other team");
+        }
+      }
+      m_scenario.settings.teams.push_back(team);
+    }
   }
 
   void readRobot(const JsonNode& node, std::size_t index) {

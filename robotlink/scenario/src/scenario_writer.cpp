@@ -40,7 +40,8 @@ Json refereeToJson(const sim::RefereeRules& rules) {
     const auto built = refereeRuleSet(set.name);
     if (!built || !*built) continue;
     if (**built == rules) return set.name;
-    Json changed = differences(sim::refereeParameters, rules, **built);
+    Json changed = differences(sim::refereeCounts, rules, **built);
+    changed.update(differences(sim::refereeParameters, rules, **built));
     for (const auto& one : sim::refereeSwitches) {
       if (rules.*one.member != (**built).*one.member) changed[one.key] = rules.*one.member;
     }
@@ -116,6 +117,12 @@ std::string scenarioToJson(const Scenario& scenario) {
     out["rigid_body"] = std::move(body);
   }
   if (settings.referee) out["referee"] = refereeToJson(*settings.referee);
+  for (const sim::TeamSettings& team : settings.teams) {
+    Json one{{"colour", info(team.colour).name}};
+    if (team.number != 0) one["number"] = team.number;
+    if (!team.name.empty()) one["name"] = team.name;
+    out["teams"].push_back(std::move(one));
+  }
   Json ball{{"x", jsonNumber(scenario.ball.x)}, {"y", jsonNumber(scenario.ball.y)}};
   if (scenario.ballVelocity != Velocity{}) {
     ball["vx"] = jsonNumber(scenario.ballVelocity.x);

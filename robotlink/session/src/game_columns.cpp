@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <type_traits>
+#include <utility>
 
 #include <simcore/rules/referee.h>
 
@@ -52,9 +52,11 @@ const std::array<GameColumn, gameColumnCount> game{{
      ColumnKind::Enumeration},
     {"REFEREE_VERSION", "",
      [](const WorldState& w, const GameState&) {
-       return w.settings.referee ? w.settings.referee->packetVersion : 0.0;
+       return w.settings.referee ? double(w.settings.referee->packetVersion) : 0.0;
      },
-     [](WorldState& w, GameState&, double v) { w.settings.referee->packetVersion = v; }},
+     [](WorldState& w, GameState&, double v) {
+       w.settings.referee->packetVersion = whole(v, 0, 255);
+     }},
     {"GAME_STATE", "", [](const WorldState&, const GameState& g) { return double(g.state); },
      [](WorldState&, GameState& g, double v) { g.state = oneOf<sim::PlayState>(v); },
      ColumnKind::Enumeration},
@@ -70,19 +72,25 @@ const std::array<GameColumn, gameColumnCount> game{{
      [](WorldState& w, GameState& g, double v) { g.clock = ticksOf(v, w); }},
     {"COUNTDOWN", "s",
      [](const WorldState& w, const GameState& g) {
-       return double(sim::secondsOf(g.secondary, rateOf(w)));
+       return double(sim::secondsOf(g.countdown.ticks, rateOf(w)));
      },
-     [](WorldState& w, GameState& g, double v) { g.secondary = ticksOf(v, w); }},
+     [](WorldState& w, GameState& g, double v) { g.countdown.ticks = ticksOf(v, w); }},
     {"PLAY_STOPPED", "", [](const WorldState&, const GameState& g) { return double(g.stopped); },
      [](WorldState&, GameState& g, double v) { g.stopped = v != 0.0; }, ColumnKind::Flag},
-    {"SET_PLAY", "", [](const WorldState&, const GameState& g) { return double(g.setPlay); },
-     [](WorldState&, GameState& g, double v) { g.setPlay = oneOf<sim::SetPlay>(v); },
+    {"SET_PLAY", "", [](const WorldState&, const GameState& g) { return double(g.setPlay()); },
+     [](WorldState&, GameState& g, double v) { g.restart.kind = oneOf<sim::SetPlay>(v); },
      ColumnKind::Enumeration},
-    {"SET_PLAY_STEP", "", [](const WorldState&, const GameState& g) { return double(g.step); },
-     [](WorldState&, GameState& g, double v) { g.step = oneOf<sim::SetPlayStep>(v); }},
+    {"SET_PLAY_STEP", "",
+     [](const WorldState&, const GameState& g) { return double(g.restart.step); },
+     [](WorldState&, GameState& g, double v) {
+       using Step = sim::Restart::Step;
+       // Until 0.9 the time of a kick-off or of an executed set play had no step.
+       const bool alone = g.state == sim::PlayState::Playing && g.countdown.ticks > 0;
+       g.restart.step = v == 0.0 && alone ? Step::Executed : oneOf<Step>(v);
+     }},
     {"SET_PLAY_TEAM", "",
-     [](const WorldState&, const GameState& g) { return double(g.setPlayTeam); },
-     [](WorldState&, GameState& g, double v) { g.setPlayTeam = whole(v, -1, 1); }},
+     [](const WorldState&, const GameState& g) { return double(g.setPlayTeam()); },
+     [](WorldState&, GameState& g, double v) { g.restart.team = whole(v, -1, 1); }},
     {"KICK_OFF_TEAM", "", [](const WorldState&, const GameState& g) { return double(g.kickOff); },
      [](WorldState&, GameState& g, double v) { g.kickOff = whole(v, -1, 1); }},
     {"LEFT_TEAM", "", [](const WorldState&, const GameState& g) { return double(g.leftTeam()); },
@@ -121,12 +129,21 @@ const std::array<PlayerColumn, playerColumnCount> playerTable{{
        return double(sim::secondsOf(p.ticksLeft, rateOf(w)));
      },
      [](WorldState& w, GamePlayer& p, double v) { p.ticksLeft = ticksOf(v, w); }},
+    {"PENALTY_WAITS", "",
+     [](const WorldState&, const GamePlayer& p) {
+       return double(p.penalty != sim::PenaltyKind::None && !p.counting);
+     },
+     [](WorldState&, GamePlayer& p, double v) { p.counting = v == 0.0; }, ColumnKind::Flag},
     {"WARNINGS", "", [](const WorldState&, const GamePlayer& p) { return double(p.warnings); },
      [](WorldState&, GamePlayer& p, double v) { p.warnings = whole(v, 0, 1000); }},
     {"YELLOW_CARDS", "", [](const WorldState&, const GamePlayer& p) { return double(p.yellow); },
      [](WorldState&, GamePlayer& p, double v) { p.yellow = whole(v, 0, 1000); }},
     {"RED_CARDS", "", [](const WorldState&, const GamePlayer& p) { return double(p.red); },
      [](WorldState&, GamePlayer& p, double v) { p.red = whole(v, 0, 1000); }},
+    {"CAUTIONS", "", [](const WorldState&, const GamePlayer& p) { return double(p.cautions); },
+     [](WorldState&, GamePlayer& p, double v) { p.cautions = whole(v, 0, 1000); }},
+    {"GOALKEEPER", "", [](const WorldState&, const GamePlayer& p) { return double(p.goalkeeper); },
+     [](WorldState&, GamePlayer& p, double v) { p.goalkeeper = v != 0.0; }, ColumnKind::Flag},
 }};
 
 template <class Enum>
@@ -142,17 +159,6 @@ std::map<std::int32_t, std::string> labelsOf() {
 template <class Column>
 telemetry::ColumnInfo infoOf(const Column& column) {
   return {column.name, telemetry::ColumnType::Float64, column.unit, category, column.kind, {}, 0.0};
-}
-
-template <class World>
-auto* playerOf(World& world, const sim::RobotIdentity& robot) {
-  using Player = std::remove_reference_t<decltype(world.game->teams[0].players[0])>;
-  const int team = world.game ? world.game->teamOf(robot.team) : GameState::nobody;
-  const bool listed =
-      robot.number >= 1 && robot.number <= static_cast<int>(sim::GameTeam::mostPlayers);
-  if (team < 0 || !listed) return static_cast<Player*>(nullptr);
-  return &world.game->teams[static_cast<std::size_t>(team)]
-              .players[static_cast<std::size_t>(robot.number - 1)];
 }
 
 template <class Slots, class Table>
@@ -192,7 +198,7 @@ std::vector<telemetry::ColumnInfo> playerColumns() {
 
 void readPlayer(const WorldState& world, const sim::RobotIdentity& robot, std::span<double> out) {
   std::fill(out.begin(), out.end(), 0.0);
-  const GamePlayer* player = playerOf(world, robot);
+  const GamePlayer* player = world.game ? world.game->player(robot.team, robot.number) : nullptr;
   if (!player) return;
   for (std::size_t i = 0; i < playerTable.size(); ++i) {
     out[i] = playerTable[i].read(world, *player);
@@ -220,7 +226,9 @@ std::optional<WorldState> gameFromRow(const GameSlots& slots, const telemetry::R
 void addPlayer(const PlayerSlots& slots, const telemetry::RowView& row,
                const sim::RobotIdentity& robot, WorldState& world) {
   world.robots.push_back(robot);
-  GamePlayer* player = playerOf(world, robot);
+  sim::giveSlots(world.robots, *world.game);
+  auto* player =
+      const_cast<GamePlayer*>(std::as_const(*world.game).player(robot.team, robot.number));
   for (std::size_t i = 0; player && i < playerTable.size(); ++i) {
     playerTable[i].put(world, *player, slots.slots[i].readOr(row, 0.0));
   }

@@ -20,7 +20,7 @@ inline constexpr std::size_t gameColumnCount = 17;
 std::vector<telemetry::ColumnInfo> gameColumns();
 void readGame(const sim::WorldState& world, std::span<double> out);
 
-inline constexpr std::size_t playerColumnCount = 5;
+inline constexpr std::size_t playerColumnCount = 8;
 std::vector<telemetry::ColumnInfo> playerColumns();
 void readPlayer(const sim::WorldState& world, const sim::RobotIdentity& robot,
                 std::span<double> out);

@@ -23,8 +23,7 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double longestAge = 1e6;     // s; beyond it no clock is right
-constexpr double refereeMemory = 5.0;  // s; it sends twice a second
+constexpr double longestAge = 1e6;  // s; beyond it no clock is right
 
 constexpr std::array<bool RobotBoardView::*, 5> flagMembers{
     &RobotBoardView::controlWorking, &RobotBoardView::visionWorking,
@@ -181,31 +180,10 @@ MatchFrame RecordedFrames::rowFrameAt(const telemetry::SessionReader& session, d
     });
   };
   MatchFrame frame = build(time, lookBack);
-  addReferee(session, time, frame);
   if (session.count(telemetry::SessionStream::Telemetry) > 0) {
     frame.drawings = m_drawings.at(SessionHistory(session), time + timeTolerance);
   }
   return frame;
-}
-
-void RecordedFrames::addReferee(const telemetry::SessionReader& session, double time,
-                                MatchFrame& frame) {
-  if (session.count(telemetry::SessionStream::Referee) == 0) return;
-  double at = 0.0;
-  session.messages(telemetry::SessionStream::Referee, {time - refereeMemory, time + timeTolerance},
-                   [&](double sent, std::string_view json) {
-                     if (frame.referee && sent < at) return true;
-                     if (auto view = refereeFromJson(json)) {
-                       frame.referee = std::move(*view);
-                       at = sent;
-                     }
-                     return true;
-                   });
-  if (!frame.referee) return;
-  frame.referee->age = time - at;
-  frame.snapshot.score = {frame.referee->teams[0].score, frame.referee->teams[1].score};
-  frame.snapshot.clock = frame.referee->secondsLeft;
-  frame.snapshot.clockRunning = frame.referee->state == "PLAYING";
 }
 
 template <class LookBack>

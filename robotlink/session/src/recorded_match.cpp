@@ -29,11 +29,7 @@ void RecordedFrames::addGame(std::size_t match, MatchFrame& frame) {
       addPlayer(*layout.player, m_rows[i].view(), robot->identity, *world);
     }
   }
-  frame.referee = refereeView(*world);
-  frame.refereeAutomatic = world->settings.referee->automatic;
-  for (RobotFrame& robot : frame.robots) {
-    robot.penalty = refereePenalty(*world, robot.identity);
-  }
+  showReferee(*world, frame);
 }
 
 void RecordedFrames::fillMatch(std::size_t group, MatchFrame& frame) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/session/state_codec.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <type_traits>
 
+#include <simcore/rules/referee.h>
 #include <simcore/simulation/simulation.h>
 #include <simcore/world/state_values.h>
 
@@ -15,8 +17,8 @@ namespace pitchboard::link {
 namespace {
 
 constexpr std::string_view magic = "PBst";
-// 2: the referee and the game; 3: kinds of robots, past moments; 4: a kind that several have, once.
-constexpr std::uint64_t version = 4;
+// 4: versions 0.8 and 0.9; 5: the game as it is now, counts of the rules as whole numbers.
+constexpr std::uint64_t version = 5, versionOf08 = 4;
 constexpr std::size_t longestText = 256;
 // Physics stays well-behaved within this.
 constexpr double farthest = 1e6;
@@ -144,6 +146,53 @@ class Reader {
   CodecReader& m_in;
 };
 
+/// The referee's rules of form 4: counts were written as other numbers are.
+struct RulesReader4 {
+  Reader& in;
+  template <class T>
+  void value(T& value) {
+    in.value(value);
+  }
+  void value(int& count) {
+    double read = 0.0;
+    in.value(read);
+    count = static_cast<int>(std::lround(std::clamp(read, 0.0, 1e6)));
+  }
+};
+
+void readGame4(sim::GameState& g, Reader& in) {
+  const auto all = [&in](auto&... values) { (in.value(values), ...); };
+  bool kickOffStands = false, began = false, beganBefore = false, shown = false, ballFree = false;
+  int setPlayTeam = 0, shots = 0;
+  sim::SetPlay setPlay{};
+  sim::visitTeams(g, in);
+  all(g.swapped, g.state, g.phase, g.phaseBefore, g.half, g.firstKickOff, g.kickOff, kickOffStands,
+      setPlay, g.restart.step, setPlayTeam, g.stopped, g.over, g.clock, began, beganBefore, shown,
+      g.stateTicks, g.countdown.ticks, g.countdown.runs, g.hidden, g.dropIn.team, g.dropIn.ticks,
+      g.breakLeft, ballFree, g.restart.place.x, g.restart.place.y, g.restart.team, g.restart.kind,
+      g.restart.kicker, g.restart.passed, g.touch.robot, g.touch.team, g.still.place.x,
+      g.still.place.y, g.still.ticks, g.near.place.x, g.near.place.y, g.near.ticks, g.aloneTicks,
+      g.shooter, shots);
+  sim::visitWatches(g, in);
+  using Step = sim::Restart::Step;
+  if (setPlay == sim::SetPlay::None) g.restart.step = ballFree ? Step::Free : Step::Executed;
+  g.clockUse = beganBefore ? sim::ClockUse::Began
+               : began     ? sim::ClockUse::BeganNow
+                           : sim::ClockUse::Full;
+}
+
+void readState4(sim::WorldState& state, Reader& in) {
+  sim::visitWorld(state, in);
+  if (in.present(state.settings.referee)) {
+    RulesReader4 rules{in};
+    sim::visitRefereeRules(*state.settings.referee,
+                           [&rules](auto&... values) { (rules.value(values), ...); });
+  }
+  if (!in.present(state.game)) return;
+  readGame4(*state.game, in);
+  sim::giveSlots(state.robots, *state.game);
+}
+
 /// Whether every number of the physics is near: a match never comes near the limit.
 struct IsNear {
   bool all = true;
@@ -193,13 +242,13 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
     return failure(ErrorCode::ParseError, "this is not a saved state of a match");
   }
   const std::uint64_t found = in.varint();
-  if (in.ok() && found < version) {
+  if (in.ok() && found < versionOf08) {
     return failure(ErrorCode::Unsupported,
                    "this state was saved by an earlier version of Pitchboard (form " +
                        std::to_string(found) + ", this program reads " + std::to_string(version) +
                        "); the recording can be looked at, but not gone on from exactly");
   }
-  if (in.ok() && found != version) {
+  if (in.ok() && found > version) {
     return failure(ErrorCode::Unsupported,
                    "this state was saved by a later version of Pitchboard (form " +
                        std::to_string(found) + ", this program reads " + std::to_string(version) +
@@ -207,7 +256,11 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
   }
   sim::WorldState state;
   Reader reader(in);
-  sim::visitValues(state, reader);
+  if (found == versionOf08) {
+    readState4(state, reader);
+  } else {
+    sim::visitValues(state, reader);
+  }
   if (!in.ok()) {
     return failure(ErrorCode::ParseError, "the saved state is cut or damaged",
                    "byte " + std::to_string(in.offset()));

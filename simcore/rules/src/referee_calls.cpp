@@ -60,7 +60,7 @@ Result<void> RefereeTable::call(const RefereeCall& call) {
       beginSetPlay(call.setPlay, call.team, call.place.value_or(m_now.ball));
       break;
     case CallKind::NextStep:
-      if (m_game.setPlay == SetPlay::None) return refused("There is no set play to go on with.");
+      if (!m_game.restart.isTold()) return refused("There is no set play to go on with.");
       nextStep();
       break;
     case CallKind::DropBall:
@@ -106,8 +106,7 @@ Result<void> RefereeTable::call(const RefereeCall& call) {
       m_game.phaseBefore = m_game.phase;
       m_game.phase = GamePhase::Timeout;
       enter(PlayState::Initial);
-      m_game.secondary = ticks(m_rules.timeoutTime);
-      m_game.secondaryRuns = true;
+      m_game.countdown = {ticks(m_rules.timeoutTime), true};
       report(EventKind::PhaseChanged, static_cast<int>(GamePhase::Timeout));
       break;
     case CallKind::Stop:
@@ -117,7 +116,7 @@ Result<void> RefereeTable::call(const RefereeCall& call) {
       break;
     case CallKind::GoOn:
       if (!m_game.stopped) return refused("Play is not stopped.");
-      if (m_game.setPlay != SetPlay::None && m_game.step == SetPlayStep::Placing) {
+      if (m_game.restart.step == Restart::Step::Placing) {
         nextStep();
       } else {
         m_game.stopped = false;

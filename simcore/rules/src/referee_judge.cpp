@@ -30,7 +30,7 @@ void RefereeTable::judge(const BallWay& way) {
   const PlayState before = m_game.state;
   if (m_rules.goals && judgeLines(way)) return;
   if (m_game.state != before || !m_rules.automatic) return;
-  if (m_game.setPlay == SetPlay::None) judgeRest();
+  if (!m_game.restart.isTold()) judgeRest();
   if (m_game.state != PlayState::Playing) return;
   judgeRobots();
   if (m_game.state == PlayState::Playing) judgeHalf();
@@ -38,6 +38,8 @@ void RefereeTable::judge(const BallWay& way) {
 
 /// Who has the ball: a kick of this tick, else the nearest that touches it.
 void RefereeTable::followTouches(const BallWay&) {
+  Restart& restart = m_game.restart;
+  const bool placed = restart.step != Restart::Step::Placing;
   std::optional<std::size_t> toucher;
   double nearest = touchMargin;
   for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
@@ -57,33 +59,30 @@ void RefereeTable::followTouches(const BallWay&) {
   if (toucher) {
     const int team = teamOf(*toucher);
     const int id = m_world.robots[*toucher].id.value;
-    const bool begins = m_game.lastTouch != id;
-    m_game.lastTouch = id;
-    m_game.lastTouchTeam = team;
-    if (m_game.kicker == 0 && team == m_game.restartTeam) m_game.kicker = id;
-    if (m_game.kicker != 0 && m_game.kicker != id) m_game.passed = true;
+    const bool begins = m_game.touch.robot != id;
+    m_game.touch = {id, team};
+    if (restart.kicker == 0 && team == restart.team) restart.kicker = id;
+    if (restart.kicker != 0 && restart.kicker != id) restart.passed = true;
     // A kick-off that left the circle may be shot by who took it.
-    if (m_game.restartKind == SetPlay::None &&
+    if (restart.kind == SetPlay::None &&
         !within(m_now.ball, {}, m_field.centreCircleDiameter / 2.0)) {
-      m_game.passed = true;
+      restart.passed = true;
     }
-    const bool standing = m_game.step == SetPlayStep::Placing;
-    if (!m_game.ballFree && !standing && team != m_game.restartTeam && m_game.restartTeam >= 0 &&
-        begins && m_rules.automatic && m_rules.exclusiveBall && plays(*toucher) &&
+    if (!m_game.ballFree() && placed && team != restart.team && restart.team >= 0 && begins &&
+        m_rules.automatic && m_rules.exclusiveBall && plays(*toucher) &&
         m_game.phase != GamePhase::ShootOut) {
       penalise(*toucher, PenaltyKind::IllegalPosition);
     }
   }
-  const bool placed = m_game.step != SetPlayStep::Placing;
-  if (!m_game.ballFree && placed && m_game.kicker != 0 &&
-      !within(m_now.ball, m_game.restart, m_rules.inPlayDistance)) {
+  if (!m_game.ballFree() && placed && restart.kicker != 0 &&
+      !within(m_now.ball, restart.place, m_rules.inPlayDistance)) {
     inPlay();
   }
 }
 
 /// Goals and a ball that is out. True when play does not go on as it was.
 bool RefereeTable::judgeLines(const BallWay& way) {
-  if (m_game.step == SetPlayStep::Placing) return false;  // the ball is dead
+  if (m_game.restart.step == Restart::Step::Placing) return false;  // the ball is dead
   std::array<Standing, highestRobotNumber> robots;
   const std::size_t count = std::min(robots.size(), m_now.robots.size());
   for (std::size_t i = 0; i < count; ++i) robots[i] = {m_now.robots[i].pose.position, radiusOf(i)};
@@ -111,9 +110,9 @@ bool RefereeTable::judgeLines(const BallWay& way) {
   const bool touchLine = crossing.line == Crossing::Line::Touch;
   const int right = static_cast<int>(m_game.swapped ? 0 : 1);  // defends the right goal
   const int defenders = crossing.right ? right : 1 - right;
-  const int lastTouch = m_game.lastTouchTeam >= 0 ? m_game.lastTouchTeam
-                        : touchLine               ? (crossing.where.x > 0.0 ? 1 - right : right)
-                                                  : 1 - defenders;
+  const int lastTouch = m_game.touch.team >= 0 ? m_game.touch.team
+                        : touchLine            ? (crossing.where.x > 0.0 ? 1 - right : right)
+                                               : 1 - defenders;
   if (touchLine) {
     if (m_rules.throwIns) {
       beginSetPlay(SetPlay::ThrowIn, 1 - lastTouch, crossing.where);
@@ -139,9 +138,10 @@ void RefereeTable::judgeGoal(bool right, const Point& where) {
   }
   // Straight from a kick-off, a throw-in or an indirect free kick it is none; into the own goal it
   // is a corner.
-  if (!m_game.passed && m_game.kicker != 0 && m_game.lastTouch == m_game.kicker) {
+  const Restart& restart = m_game.restart;
+  if (!restart.passed && restart.kicker != 0 && m_game.touch.robot == restart.kicker) {
     report(EventKind::BallOut);
-    if (m_game.lastTouchTeam == static_cast<int>(scorer)) {
+    if (m_game.touch.team == static_cast<int>(scorer)) {
       beginSetPlay(SetPlay::GoalKick, conceding, where);
     } else {
       beginSetPlay(SetPlay::CornerKick, static_cast<int>(scorer), where);
@@ -158,24 +158,20 @@ void RefereeTable::judgeRest() {
     if (g.clock <= 0) endShot();
     return;
   }
-  if (!within(m_now.ball, g.still, m_rules.stillDistance)) {
-    g.still = m_now.ball;
-    g.stillTicks = 0;
-  }
-  if (!within(m_now.ball, g.near, heap)) {
-    g.near = m_now.ball;
-    g.nearTicks = 0;
-  }
+  const auto rest = [&](BallRest& at, double distance) {
+    if (!within(m_now.ball, at.place, distance)) at = {m_now.ball, 0};
+    ++at.ticks;
+  };
+  rest(g.still, m_rules.stillDistance);
+  rest(g.near, heap);
   bool somebody = false;
   for (std::size_t i = 0; !somebody && i < m_now.robots.size(); ++i) {
     somebody = plays(i) && within(m_now.robots[i].pose.position, m_now.ball, alone);
   }
-  ++g.stillTicks;
-  ++g.nearTicks;
   g.aloneTicks = somebody ? 0 : g.aloneTicks + 1;
   if (!m_rules.dropBalls) return;
   const auto over = [this](int passed, double time) { return time > 0.0 && passed >= ticks(time); };
-  if (over(g.nearTicks, m_rules.localStuckTime)) {
+  if (over(g.near.ticks, m_rules.localStuckTime)) {
     std::optional<std::size_t> nearest;
     double least = heapReach * heapReach;
     for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
@@ -184,13 +180,13 @@ void RefereeTable::judgeRest() {
       least = d;
       nearest = i;
     }
-    g.nearTicks = 0;
+    g.near.ticks = 0;
     if (nearest) {
       penalise(*nearest, PenaltyKind::LocalStuck);
       return;
     }
   }
-  if (over(g.stillTicks, m_rules.stillTime) || over(g.aloneTicks, m_rules.nobodyTime)) dropBall();
+  if (over(g.still.ticks, m_rules.stillTime) || over(g.aloneTicks, m_rules.nobodyTime)) dropBall();
 }
 
 void RefereeTable::judgeRobots() {
@@ -213,7 +209,7 @@ void RefereeTable::judgeRobots() {
     const bool out = std::abs(robot.pose.position.x) > m_field.halfLength() + radius ||
                      std::abs(robot.pose.position.y) > m_field.halfWidth() + radius;
     // Who fetches a ball from the line may stand behind it.
-    const bool fetches = m_game.setPlay != SetPlay::None || !m_game.ballFree;
+    const bool fetches = !m_game.ballFree();
     watch.outsideTicks = out && !fetches ? watch.outsideTicks + 1 : 0;
     if (m_rules.fallenTime > 0.0 && watch.downTicks > ticks(m_rules.fallenTime)) {
       penalise(i, PenaltyKind::Incapable);
@@ -262,9 +258,8 @@ void RefereeTable::judgePushing(std::size_t robot) {
 void RefereeTable::foul(std::size_t robot, PenaltyKind penalty) {
   const Point& at = m_now.robots[robot].pose.position;
   const int team = teamOf(robot);
-  const bool near =
-      within(at, m_now.ball, foulNearBall) && m_game.setPlay == SetPlay::None && m_game.ballFree;
-  if (!near || !m_rules.freeKicks || m_rules.style == RefereeStyle::Humanoid2014) {
+  const bool near = within(at, m_now.ball, foulNearBall) && m_game.ballFree();
+  if (!near || !m_rules.freeKicks || m_conduct.replacesBall) {
     penalise(robot, penalty);
     return;
   }
@@ -277,14 +272,14 @@ void RefereeTable::foul(std::size_t robot, PenaltyKind penalty) {
 /// At the whistle: who does not stand where it may begins beside the field.
 void RefereeTable::judgeKickOff() {
   const double circle = m_field.centreCircleDiameter / 2.0;
-  const bool penaltyKick = m_game.setPlay == SetPlay::PenaltyKick;
+  const bool penaltyKick = m_game.setPlay() == SetPlay::PenaltyKick;
   for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
     if (!plays(i)) continue;
     const Point at = place(i);
     const int team = teamOf(i);
     if (penaltyKick) {
-      const bool keeper = player(i)->goalkeeper && team != m_game.setPlayTeam;
-      if (team != m_game.setPlayTeam && !keeper && within(at, ball(), m_rules.distanceToBall)) {
+      const bool keeper = player(i)->goalkeeper && team != m_game.restart.team;
+      if (team != m_game.restart.team && !keeper && within(at, ball(), m_rules.distanceToBall)) {
         penalise(i, PenaltyKind::IllegalPosition);
       }
       continue;
@@ -305,11 +300,10 @@ void RefereeTable::judgeKickOff() {
 void RefereeTable::judgeSetPlay() {
   if (!m_rules.automatic) return;
   const int passed = m_game.stateTicks;
-  const bool soccer = m_rules.style == RefereeStyle::HumanoidSoccer2026;
   const auto clearBall = [this] {
     for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
       const int team = teamOf(i);
-      if (!plays(i) || team == m_game.setPlayTeam) continue;
+      if (!plays(i) || team == m_game.restart.team) continue;
       const bool keeper =
           player(i)->goalkeeper && -way(team) * m_now.robots[i].pose.position.x >
                                        m_field.halfLength() - std::max(0.5, m_field.goalAreaLength);
@@ -319,33 +313,33 @@ void RefereeTable::judgeSetPlay() {
       penalise(i, PenaltyKind::IllegalPosition);
     }
   };
-  switch (m_game.step) {
-    case SetPlayStep::Placing:
+  switch (m_game.restart.step) {
+    case Restart::Step::Placing:
       if (passed >= ticks(m_rules.placingTime)) nextStep();
       break;
-    case SetPlayStep::Preparing:
-      if (m_game.secondary > 0) break;
+    case Restart::Step::Preparing:
+      if (m_game.countdown.ticks > 0) break;
       if (m_rules.freeKicks) clearBall();
       nextStep();
       break;
-    case SetPlayStep::Taking:
-      if (!soccer) {
+    case Restart::Step::Taking:
+      if (m_conduct.preparesSetPlays) {
         if (passed >= ticks(m_rules.readyStepTime)) nextStep();
         break;
       }
       if (m_rules.freeKicks && passed == ticks(clearTime) && m_game.state == PlayState::Playing &&
-          m_game.restartKind != SetPlay::PenaltyKick) {
+          m_game.restart.kind != SetPlay::PenaltyKick) {
         clearBall();
       }
-      if (m_game.secondaryRuns && m_game.secondary <= 0) inPlay();
+      if (m_game.countdown.runs && m_game.countdown.ticks <= 0) inPlay();
       break;
-    case SetPlayStep::None:
+    default:
       break;
   }
 }
 
 void RefereeTable::judgeHalf() {
-  if (m_game.phase == GamePhase::ShootOut || m_game.setPlay == SetPlay::PenaltyKick) return;
+  if (m_game.phase == GamePhase::ShootOut || m_game.setPlay() == SetPlay::PenaltyKick) return;
   if (!m_rules.halfEndsWithBall) {
     if (m_game.clock <= 0) finish();
     return;

@@ -110,11 +110,10 @@ void RefereeTable::putOutside(std::size_t robot) {
 
 void RefereeTable::runPenalties() {
   if (m_game.phase == GamePhase::Timeout) return;
-  const bool stands = m_game.setPlay != SetPlay::None && m_rules.clockStopsInSetPlays;
-  const bool runs =
-      m_rules.countsAlways || (m_game.state == PlayState::Playing && !stands) ||
-      m_game.state == PlayState::Ready ||
-      (m_game.state == PlayState::Set && m_rules.style != RefereeStyle::HumanoidSoccer2026);
+  const bool stands = m_game.restart.isTold() && m_rules.clockStopsInSetPlays;
+  const bool runs = m_rules.countsAlways || (m_game.state == PlayState::Playing && !stands) ||
+                    m_game.state == PlayState::Ready ||
+                    (m_game.state == PlayState::Set && m_conduct.penaltiesCountInSet);
   for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
     GamePlayer* one = player(i);
     if (!one || one->penalty == PenaltyKind::None) continue;

@@ -26,7 +26,7 @@ void RefereeTable::goal(std::size_t team) {
   }
   if (m_game.state != PlayState::Playing) return;
   const int lead = std::abs(m_game.teams[0].score - m_game.teams[1].score);
-  if (m_rules.mercy > 0.0 && lead >= static_cast<int>(m_rules.mercy)) {
+  if (m_rules.mercy > 0 && lead >= m_rules.mercy) {
     m_game.half = 2;
     finish();
     return;
@@ -36,7 +36,7 @@ void RefereeTable::goal(std::size_t team) {
 
 /// Where the rules put the ball, of one that left the field or lay at `where`.
 Point RefereeTable::placeOf(SetPlay play, int team, const Point& where) const {
-  const bool replaced = m_rules.style == RefereeStyle::Humanoid2014;
+  const bool replaced = m_conduct.replacesBall;
   const double inside = replaced ? replacedInside : 0.0;
   const double side = where.y < 0.0 ? -1.0 : 1.0;
   const double x = m_field.halfLength(), y = m_field.halfWidth();
@@ -51,7 +51,7 @@ Point RefereeTable::placeOf(SetPlay play, int team, const Point& where) const {
       return {at, side * (y - inside)};
     }
     case SetPlay::GoalKick:
-      if (m_rules.style == RefereeStyle::HumanoidSoccer2026) {
+      if (m_conduct.goalKickAtArea) {
         return {-way(team) * (x - m_field.goalAreaLength), side * m_field.goalAreaWidth / 2.0};
       }
       return {0.0, side * (y - inside)};
@@ -73,117 +73,93 @@ Point RefereeTable::placeOf(SetPlay play, int team, const Point& where) const {
 void RefereeTable::beginSetPlay(SetPlay play, int team, const Point& place) {
   const Point where = placeOf(play, team, place);
   report(EventKind::SetPlayBegan, static_cast<int>(play));
-  if (m_rules.style == RefereeStyle::Humanoid2014 && play != SetPlay::PenaltyKick) {
+  if (m_conduct.replacesBall && play != SetPlay::PenaltyKick) {
     // The ball is put back, in play at once.
     freeBall(where);
-    m_game.dropInTeam = 1 - team;
-    m_game.dropInTicks = 0;
+    m_game.dropIn = {1 - team, 0};
     return;
   }
-  m_game.setPlay = play;
-  m_game.setPlayTeam = team;
-  m_game.restart = where;
-  m_game.restartTeam = team;
-  m_game.restartKind = play;
-  m_game.ballFree = false;
-  m_game.kicker = 0;
-  m_game.hidden = 0;
-  m_game.kickOffStands = true;
   const bool indirect = play == SetPlay::ThrowIn || play == SetPlay::IndirectFreeKick;
-  m_game.passed = !(m_rules.directGoals && indirect);
-  if (m_rules.style == RefereeStyle::HumanoidSoccer2026) m_game.kickOff = team;
+  m_game.restart = {
+      Restart::Step::Placing, play, team, where, 0, !(m_rules.directGoals && indirect)};
+  m_game.hidden = 0;
+  if (!m_conduct.preparesSetPlays) m_game.kickOff = team;
   if (play == SetPlay::PenaltyKick && m_rules.penaltyKickReady > 0.0) {
     enter(PlayState::Ready);
-    m_game.secondary = ticks(m_rules.penaltyKickReady);
-    m_game.secondaryRuns = true;
-    m_game.step = SetPlayStep::Preparing;
+    m_game.countdown = {ticks(m_rules.penaltyKickReady), true};
+    m_game.restart.step = Restart::Step::Preparing;
     ballPlaced();
     return;
   }
-  m_game.step = SetPlayStep::Placing;
   m_game.stateTicks = 0;
-  m_game.secondaryRuns = false;
-  m_game.secondary = 0;
-  m_game.kickOffStands = true;
-  if (m_rules.style == RefereeStyle::HumanoidSoccer2026) {
+  m_game.countdown = {};
+  if (!m_conduct.preparesSetPlays) {
     m_game.stopped = true;
-    m_game.secondary = ticks(m_rules.takeTime);
+    m_game.countdown.ticks = ticks(m_rules.takeTime);
   }
 }
 
 /// Puts the ball where it is taken, and robots that stand on that place beside it.
 void RefereeTable::ballPlaced() {
-  putBall(m_game.restart);
+  const Point where = m_game.restart.place;
+  putBall(where);
   for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
     const double room = radiusOf(i) + m_field.ballRadius + 0.1;
     const Point at = place(i);
-    if (!within(at, m_game.restart, room)) continue;
-    const double dx = at.x - m_game.restart.x, dy = at.y - m_game.restart.y;
+    if (!within(at, where, room)) continue;
+    const double dx = at.x - where.x, dy = at.y - where.y;
     const double d = std::sqrt(dx * dx + dy * dy);
     // A robot exactly on the place goes towards its own goal.
     const double nx = d > 1e-6 ? dx / d : (teamOf(i) >= 0 ? -way(teamOf(i)) : 1.0);
     const double ny = d > 1e-6 ? dy / d : 0.0;
-    putRobot(i, {{m_game.restart.x + nx * room, m_game.restart.y + ny * room},
-                 m_now.robots[i].pose.yaw});
+    putRobot(i, {{where.x + nx * room, where.y + ny * room}, m_now.robots[i].pose.yaw});
   }
 }
 
 /// Placing, preparing, taking, in play: with the steps that the style knows.
 void RefereeTable::nextStep() {
+  Restart& restart = m_game.restart;
   m_game.stateTicks = 0;
-  switch (m_game.step) {
-    case SetPlayStep::Placing:
+  switch (restart.step) {
+    case Restart::Step::Placing:
       ballPlaced();
-      if (m_rules.style == RefereeStyle::HumanoidSoccer2026) {
-        m_game.stopped = false;
-        m_game.step = SetPlayStep::Taking;
-        m_game.secondaryRuns = true;
+      if (m_conduct.preparesSetPlays) {
+        restart.step = Restart::Step::Preparing;
+        m_game.countdown = {ticks(m_rules.prepareTime), true};
       } else {
-        m_game.step = SetPlayStep::Preparing;
-        m_game.secondary = ticks(m_rules.prepareTime);
-        m_game.secondaryRuns = true;
+        m_game.stopped = false;
+        restart.step = Restart::Step::Taking;
+        m_game.countdown.runs = true;
       }
       return;
-    case SetPlayStep::Preparing:
-      m_game.step = SetPlayStep::Taking;
-      m_game.secondary = 0;
-      m_game.secondaryRuns = false;
+    case Restart::Step::Preparing:
+      restart.step = Restart::Step::Taking;
+      m_game.countdown = {};
       return;
     default:
       break;
   }
-  if (m_rules.style == RefereeStyle::HumanoidSoccer2026) {
+  if (!m_conduct.preparesSetPlays) {
     inPlay();
     return;
   }
-  // Executed: the ball is the side's alone until it is in play.
-  m_game.setPlay = SetPlay::None;
-  m_game.step = SetPlayStep::None;
-  m_game.setPlayTeam = GameState::nobody;
-  m_game.secondary = ticks(m_rules.takeTime);
-  m_game.secondaryRuns = true;
+  restart.step = Restart::Step::Executed;
+  m_game.countdown = {ticks(m_rules.takeTime), true};
   report(EventKind::SetPlayOver);
 }
 
 /// The restart is taken.
 void RefereeTable::inPlay() {
-  m_game.ballFree = true;
-  if (m_game.setPlay == SetPlay::None && m_game.restartKind == SetPlay::None) return;
-  const bool shown = m_game.setPlay != SetPlay::None;
-  if (m_game.setPlay == SetPlay::PenaltyKick && m_rules.penaltyKickReady > 0.0 &&
+  if (m_game.setPlay() == SetPlay::PenaltyKick && m_rules.penaltyKickReady > 0.0 &&
       m_game.state == PlayState::Playing && m_game.hidden > 0) {
     return;  // robots do not know that it has begun
   }
-  m_game.setPlay = SetPlay::None;
-  m_game.step = SetPlayStep::None;
-  m_game.setPlayTeam = GameState::nobody;
-  if (shown) {
-    m_game.stopped = false;
-    m_game.secondary = 0;
-    m_game.secondaryRuns = false;
-    m_game.kickOffStands = false;
-    report(EventKind::SetPlayOver);
-  }
+  const bool told = m_game.restart.isTold();
+  m_game.restart.step = Restart::Step::Free;
+  if (!told) return;
+  m_game.stopped = false;
+  m_game.countdown = {};
+  report(EventKind::SetPlayOver);
 }
 
 void RefereeTable::dropBall() {
@@ -198,13 +174,11 @@ void RefereeTable::beginShot() {
   } else {
     m_game.shooter = m_game.firstKickOff;
   }
-  ++m_game.shotsBegan;
   const int team = m_game.shooter;
   m_game.teams[static_cast<std::size_t>(team)].penaltyShots += 1;
   m_game.kickOff = team;
-  m_game.kickOffStands = true;
   m_game.clock = ticks(m_rules.shotTime);
-  m_game.clockBegan = m_game.clockBeganBefore = false;
+  m_game.clockUse = ClockUse::Full;
   enter(PlayState::Set);
   const double mark = way(team) * (m_field.halfLength() - m_field.penaltyMarkDistance);
   freeBall({mark, 0.0});
@@ -231,16 +205,14 @@ void RefereeTable::beginShot() {
 
 void RefereeTable::endShot() {
   enter(PlayState::Finished);
-  m_game.kickOffStands = false;
-  m_game.setPlay = SetPlay::None;
-  m_game.step = SetPlayStep::None;
+  m_game.restart = {};
 }
 
 bool RefereeTable::shootOutDecided() const {
   const auto scored = [this](std::size_t team) {
     return std::popcount(static_cast<unsigned>(m_game.teams[team].singleShots));
   };
-  const int shots = static_cast<int>(m_rules.shots);
+  const int shots = m_rules.shots;
   const int taken0 = m_game.teams[0].penaltyShots, taken1 = m_game.teams[1].penaltyShots;
   const int lead = scored(0) - scored(1);
   if (taken0 < shots || taken1 < shots) {

@@ -19,13 +19,7 @@ bool RefereeTable::plays(std::size_t robot) const {
 
 const GamePlayer* RefereeTable::player(std::size_t robot) const {
   const RobotIdentity& identity = m_world.robots[robot];
-  const int team = m_game.teamOf(identity.team);
-  if (team < 0 || identity.number < 1 ||
-      identity.number > static_cast<int>(GameTeam::mostPlayers)) {
-    return nullptr;
-  }
-  return &m_game.teams[static_cast<std::size_t>(team)]
-              .players[static_cast<std::size_t>(identity.number - 1)];
+  return std::as_const(m_game).player(identity.team, identity.number);
 }
 
 GamePlayer* RefereeTable::player(std::size_t robot) {
@@ -47,15 +41,14 @@ Point RefereeTable::clamped(const Point& p, double inside) const {
 
 void RefereeTable::putBall(const Point& place) {
   m_placements.ball = place;
-  m_game.still = m_game.near = place;
-  m_game.stillTicks = m_game.nearTicks = m_game.aloneTicks = 0;
+  m_game.still = m_game.near = {place, 0};
+  m_game.aloneTicks = 0;
 }
 
 void RefereeTable::enter(PlayState state) {
   m_game.state = state;
   m_game.stateTicks = 0;
-  m_game.secondary = 0;
-  m_game.secondaryRuns = false;
+  m_game.countdown = {};
   m_game.hidden = 0;
   m_game.stopped = false;
   if (state == PlayState::Set) {
@@ -69,57 +62,36 @@ void RefereeTable::enter(PlayState state) {
 void RefereeTable::beginReady(int kickOff) {
   enter(PlayState::Ready);
   m_game.kickOff = kickOff;
-  m_game.kickOffStands = true;
-  m_game.setPlay = SetPlay::None;
-  m_game.step = SetPlayStep::None;
-  m_game.setPlayTeam = GameState::nobody;
-  m_game.secondary = ticks(m_rules.readyTime);
-  m_game.secondaryRuns = true;
-  m_game.dropInTeam = GameState::nobody;
-  m_game.dropInTicks = -1;
-  m_game.lastTouch = 0;
-  m_game.lastTouchTeam = GameState::nobody;
+  m_game.countdown = {ticks(m_rules.readyTime), true};
+  m_game.dropIn = {};
+  m_game.touch = {};
   freeBall({});
 }
 
 /// Nobody has it alone, wherever it is put.
 void RefereeTable::freeBall(const Point& place) {
   putBall(place);
-  m_game.ballFree = true;
-  m_game.passed = true;
-  m_game.restartTeam = GameState::nobody;
-  m_game.restartKind = SetPlay::None;
-  m_game.kicker = 0;
+  m_game.restart = {};
 }
 
 void RefereeTable::beginPlaying() {
-  const bool began = m_game.clockBegan;
   enter(PlayState::Playing);
-  m_game.clockBeganBefore = began;
-  m_game.clockBegan = true;
+  m_game.beginClock();
   m_game.hidden = ticks(m_rules.playingHidden);
-  m_game.restart = ball();
-  m_game.kicker = 0;
-  const bool shot = m_game.phase == GamePhase::ShootOut;
-  if (shot || m_game.setPlay == SetPlay::PenaltyKick) {
-    m_game.step = SetPlayStep::Taking;
-    m_game.restartTeam = shot ? m_game.shooter : m_game.setPlayTeam;
-    m_game.restartKind = SetPlay::PenaltyKick;
-    m_game.ballFree = false;
-    m_game.passed = true;
-    if (!shot) {
-      m_game.secondary = ticks(m_rules.penaltyKickTime);
-      m_game.secondaryRuns = true;
-    }
+  using Step = Restart::Step;
+  if (m_game.phase == GamePhase::ShootOut) {
+    m_game.restart = {Step::Executed, SetPlay::PenaltyKick, m_game.shooter, ball()};
+    return;
+  }
+  if (m_game.setPlay() == SetPlay::PenaltyKick) {
+    m_game.restart = {Step::Taking, SetPlay::PenaltyKick, m_game.restart.team, ball()};
+    m_game.countdown = {ticks(m_rules.penaltyKickTime), true};
     return;
   }
   if (m_game.kickOff >= 0) {
-    m_game.secondary = ticks(m_rules.kickOffTime);
-    m_game.secondaryRuns = true;
-    m_game.restartTeam = m_game.kickOff;
-    m_game.restartKind = SetPlay::None;
-    m_game.ballFree = false;
-    m_game.passed = !m_rules.directGoals;
+    m_game.countdown = {ticks(m_rules.kickOffTime), true};
+    m_game.restart = {Step::Executed,      SetPlay::None, m_game.kickOff, ball(), 0,
+                      !m_rules.directGoals};
   }
   // REFEREE.md section 4: all at SET -> PLAYING, but not who is penalised at this whistle.
   if (m_rules.pardonsAtPlay) pardonAll(1);
@@ -127,23 +99,17 @@ void RefereeTable::beginPlaying() {
 
 void RefereeTable::finish() {
   enter(PlayState::Finished);
-  m_game.setPlay = SetPlay::None;
-  m_game.step = SetPlayStep::None;
-  m_game.kickOffStands = false;
+  m_game.restart = {};
   m_game.breakLeft = ticks(std::max(m_rules.breakTime, m_rules.beforeHalf));
-  if (m_game.half == 1) {
-    m_game.secondary = ticks(m_rules.breakTime);
-    m_game.secondaryRuns = true;
-  }
+  if (m_game.half == 1) m_game.countdown = {ticks(m_rules.breakTime), true};
   pardonAll();
 }
 
-void RefereeTable::swapSides() {
+void RefereeTable::changeSides() {
   if (!m_rules.changeSides) return;
-  m_game.swapped = !m_game.swapped;
+  swapSides(m_world);
   for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
     if (teamOf(i) < 0) continue;
-    m_world.robots[i].imuStartsAt180 = !m_world.robots[i].imuStartsAt180;
     // Carried over: everybody at once, so that nobody is in the way.
     const Pose& pose = m_now.robots[i].pose;
     const double yaw = std::remainder(pose.yaw + std::numbers::pi, 2.0 * std::numbers::pi);
@@ -153,8 +119,7 @@ void RefereeTable::swapSides() {
 }
 
 void RefereeTable::nextHalf() {
-  const int breakShown = m_game.secondary;
-  const bool breakRuns = m_game.secondaryRuns;
+  const GameState::Countdown shown = m_game.countdown;
   if (m_game.half == 1) {
     m_game.half = 2;
   } else {
@@ -163,16 +128,14 @@ void RefereeTable::nextHalf() {
     report(EventKind::PhaseChanged, static_cast<int>(m_game.phase));
   }
   enter(PlayState::Initial);
-  m_game.secondary = breakShown;
-  m_game.secondaryRuns = breakRuns;
+  m_game.countdown = shown;
   m_game.clock =
       ticks(m_game.phase == GamePhase::ExtraTime ? m_rules.extraHalfTime : m_rules.halfTime);
-  m_game.clockBegan = m_game.clockBeganBefore = false;
+  m_game.clockUse = ClockUse::Full;
   m_game.kickOff = m_game.half == 1 ? m_game.firstKickOff : 1 - m_game.firstKickOff;
-  m_game.kickOffStands = true;
   for (GameTeam& team : m_game.teams) team.timeouts = 0;
   report(EventKind::HalfBegan, m_game.half);
-  swapSides();
+  changeSides();
   freeBall({});
 }
 
@@ -182,7 +145,7 @@ void RefereeTable::beginPhase(GamePhase phase) {
   enter(PlayState::Initial);
   m_game.half = 2;
   m_game.clock = ticks(m_rules.shotTime);
-  m_game.clockBegan = m_game.clockBeganBefore = false;
+  m_game.clockUse = ClockUse::Full;
   m_game.shooter = GameState::nobody;
   m_game.breakLeft = ticks(m_rules.beforeHalf);
   pardonAll();
@@ -191,13 +154,13 @@ void RefereeTable::beginPhase(GamePhase phase) {
 
 bool RefereeTable::clockRuns() const {
   if (m_game.phase == GamePhase::Timeout) return false;
-  const bool setPlay = m_game.setPlay != SetPlay::None && m_rules.clockStopsInSetPlays;
+  const bool setPlay = m_game.restart.isTold() && m_rules.clockStopsInSetPlays;
   switch (m_game.state) {
     case PlayState::Playing:
       return !setPlay;
     case PlayState::Ready:
     case PlayState::Set:
-      return m_game.clockBegan && m_game.phase != GamePhase::ShootOut;
+      return m_game.clockUse != ClockUse::Full && m_game.phase != GamePhase::ShootOut;
     default:
       return false;
   }
@@ -209,14 +172,13 @@ void RefereeTable::runClocks() {
   // What waits waits while play is stopped; a break and a timeout run on.
   const bool waits =
       m_game.stopped && m_game.state != PlayState::Finished && m_game.state != PlayState::Initial;
-  if (m_game.secondaryRuns && !waits) {
-    const bool below =
-        m_game.state == PlayState::Initial && m_rules.style == RefereeStyle::HumanoidSoccer2026;
-    if (m_game.secondary > 0 || below) --m_game.secondary;
+  if (m_game.countdown.runs && !waits) {
+    const bool below = m_game.state == PlayState::Initial && m_conduct.countsBelowZero;
+    if (m_game.countdown.ticks > 0 || below) --m_game.countdown.ticks;
   }
   if (m_game.hidden > 0) --m_game.hidden;
   if (m_game.breakLeft > 0) --m_game.breakLeft;
-  if (m_game.dropInTicks >= 0) ++m_game.dropInTicks;
+  if (m_game.dropIn.ticks >= 0) ++m_game.dropIn.ticks;
 }
 
 /// What goes on by itself, by timers of the rules or of the automatic referee.
@@ -232,7 +194,7 @@ void RefereeTable::whistle() {
       }
       break;
     case PlayState::Ready:
-      if (m_game.secondary <= 0) enter(PlayState::Set);
+      if (m_game.countdown.ticks <= 0) enter(PlayState::Set);
       break;
     case PlayState::Set: {
       const bool shot = m_game.phase == GamePhase::ShootOut;
@@ -244,12 +206,11 @@ void RefereeTable::whistle() {
       break;
     }
     case PlayState::Playing:
-      if (m_game.setPlay != SetPlay::None) {
+      if (m_game.restart.isTold()) {
         judgeSetPlay();
-      } else if (m_game.secondaryRuns && m_game.secondary <= 0) {
-        m_game.secondaryRuns = false;
-        m_game.ballFree = true;
-        m_game.kickOffStands = false;
+      } else if (m_game.countdown.runs && m_game.countdown.ticks <= 0) {
+        m_game.countdown.runs = false;
+        m_game.restart.step = Restart::Step::Free;
       }
       break;
     case PlayState::Finished:

@@ -22,10 +22,13 @@ class RefereeTable {
       : m_world(world),
         m_game(*world.game),
         m_rules(*world.settings.referee),
+        m_conduct(conductOf(m_rules.style)),
         m_field(world.settings.field),
         m_now(now),
         m_placements(placements),
-        m_events(events) {}
+        m_events(events) {
+    giveSlots(world.robots, m_game);
+  }
 
   Result<void> call(const RefereeCall& call);
   void tick(const BallWay& way);
@@ -39,7 +42,7 @@ class RefereeTable {
   void finish();
   void nextHalf();
   void beginPhase(GamePhase phase);
-  void swapSides();
+  void changeSides();
   void runClocks();
   void whistle();
   void afterFinished();
@@ -110,6 +113,7 @@ class RefereeTable {
   WorldState& m_world;
   GameState& m_game;
   const RefereeRules& m_rules;
+  const RefereeConduct m_conduct;
   const FieldSpec& m_field;
   const Snapshot& m_now;
   Placements& m_placements;

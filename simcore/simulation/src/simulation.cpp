@@ -125,11 +125,18 @@ Result<void> Simulation::setReferee(const std::optional<RefereeRules>& rules) {
   if (rules) {
     TRY(sim::validate(*rules));
   }
-  m_state.settings.referee = rules;
-  m_state.game.reset();
-  if (!rules) return {};
+  const std::optional<RefereeRules> before = std::exchange(m_state.settings.referee, rules);
+  if (!rules) {
+    m_state.game.reset();
+    return {};
+  }
   snapshot(m_seen);
-  m_state.game = newGame(m_state, m_seen);
+  auto game = newGame(m_state, m_seen);
+  if (!game) {
+    m_state.settings.referee = before;
+    return tl::unexpected(game.error());
+  }
+  m_state.game = std::move(*game);
   m_state.score = {};
   m_state.clockRunning = false;
   return {};

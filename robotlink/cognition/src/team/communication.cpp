@@ -5,11 +5,12 @@
 
 #include <base/try.h>
 #include <robotlink/blackboard/robot_variables.h>
+#include <robotlink/cognition/referee_orders.h>
+#include <telemetry/wire/referee_tracker.h>
 #include <telemetry/wire/socket_address.h>
 #include <telemetry/wire/text_protocol.h>
+#include <telemetry/wire/udp_receiver.h>
 #include <telemetry/wire/udp_sender.h>
-
-#include "team/referee_listener.h"
 
 namespace pitchboard::link {
 namespace {
@@ -18,6 +19,65 @@ constexpr int teamPorts = 4;
 constexpr int distanceMessage = 2;  // the kind of team message, and the request in CONTROL_MESSAGES
 
 constexpr double cycle = 0.05;  // s: how soon a referee's word is on the blackboard
+
+/// Hears the GameController for one robot, on a UDP port that it shares with others of this
+/// computer: each hears every broadcast. While the port cannot be had it is tried again every few
+/// seconds.
+class RefereeListener {
+ public:
+  RefereeListener(int team, int player, std::unique_ptr<telemetry::UdpReceiver> receiver)
+      : m_team(team), m_player(player), m_receiver(std::move(receiver)) {}
+
+  /// What the newest packet since the last call means to this robot; nothing when there was none
+  /// for it. Never waits. A referee that falls silent has said its last word: it stays.
+  std::optional<int> newWord() {
+    std::optional<int> word;
+    if (!m_receiver->take(m_batch)) return word;
+    for (std::size_t i = 0; i < m_batch.size(); ++i) {
+      const telemetry::DatagramView datagram = m_batch[i];
+      const auto packet = telemetry::decodeReferee(datagram.payload);
+      if (!packet) continue;
+      const auto* state = std::get_if<telemetry::RefereeState>(&*packet);
+      if (state == nullptr || !m_tracker.accept(*state, datagram.sender, datagram.time)) continue;
+      if (const auto meant = m_orders.take(*state, m_team, m_player)) word = meant;
+    }
+    return word;
+  }
+
+ private:
+  int m_team, m_player;
+  std::unique_ptr<telemetry::UdpReceiver> m_receiver;
+  RefereeOrders m_orders;
+  telemetry::RefereeTracker m_tracker;  // two versions at once, a second controller
+  telemetry::DatagramBatch m_batch;
+};
+
+/// Listens to options.refereePort for options.refereeTeam and options.shirt. Fails when the numbers
+/// are out of range or the system gives no means to receive.
+Result<std::unique_ptr<RefereeListener>> listenToReferee(const ProcessOptions& options) {
+  const int player = options.shirt.value_or(options.robot.value);
+  const auto refuse = [](const std::string& text) {
+    return failure(ErrorCode::InvalidArgument, text, "referee");
+  };
+  if (!options.refereeTeam || *options.refereeTeam < 0 || *options.refereeTeam > 255) {
+    return refuse("the number of a team is 0 to 255");
+  }
+  if (player < 1 || player > static_cast<int>(telemetry::RefereeTeam::maxPlayers)) {
+    return refuse("a shirt has a number from 1 to 20, not " + std::to_string(player) +
+                  "; give --shirt");
+  }
+  if (!telemetry::isPort(options.refereePort)) {
+    return refuse("the port " + std::to_string(options.refereePort) + " does not lie in 1..65535");
+  }
+  telemetry::ReceiverOptions receiving;
+  receiving.ports = {static_cast<std::uint16_t>(options.refereePort)};
+  receiving.receiveBufferBytes = 1 << 18;
+  receiving.maxDatagrams = 256;
+  receiving.maxBytes = 1U << 18;
+  auto receiver = telemetry::UdpReceiver::start(receiving);
+  if (!receiver) return tl::unexpected<Error>(receiver.error());
+  return std::make_unique<RefereeListener>(*options.refereeTeam, player, std::move(*receiver));
+}
 
 // Obeys the referee in every cycle. Once a second (or as often as asked), as published: says which
 // robot this blackboard belongs to, sends a team message and the telemetry datagram, and clears the
@@ -134,7 +194,7 @@ Result<std::unique_ptr<CognitiveProcess>> makeCommunication(const ProcessOptions
   }
   std::unique_ptr<RefereeListener> referee;
   if (options.refereeTeam) {
-    referee = TRY(RefereeListener::start(options));
+    referee = TRY(listenToReferee(options));
   }
   return std::make_unique<Communication>(options, std::move(sender), std::move(referee));
 }

@@ -23,12 +23,12 @@ nlohmann::ordered_json noiseToJson(const sim::NoiseParameters& noise);
 nlohmann::ordered_json robotModelToJson(const sim::RobotModel& model);
 
 /// What differs from `base`, by key.
-template <class Values, std::size_t N>
-nlohmann::ordered_json differences(const std::array<sim::Parameter<Values>, N>& parameters,
+template <class Values, class Number, std::size_t N>
+nlohmann::ordered_json differences(const std::array<sim::Parameter<Values, Number>, N>& parameters,
                                    const Values& value, const Values& base) {
   nlohmann::ordered_json out = nlohmann::ordered_json::object();
   for (const auto& p : parameters) {
-    const double stored = value.*p.member;
+    const Number stored = value.*p.member;
     if (stored == base.*p.member) continue;
     out[p.key] = jsonNumber(p.unit.angle ? fileDegrees(stored) : stored);
   }

@@ -60,7 +60,6 @@ class RecordedFrames {
   MatchFrame wholeFrameAt(const telemetry::SessionReader& session, double time);
   MatchFrame rowFrameAt(const telemetry::SessionReader& session, double time);
   const Layout& layoutOf(std::size_t group);
-  void addReferee(const telemetry::SessionReader& session, double time, MatchFrame& frame);
   void addGame(std::size_t match, MatchFrame& frame);
   void fillMatch(std::size_t group, MatchFrame& frame);
   void addRobot(std::size_t group, double time, Flags& flags, MatchFrame& frame);

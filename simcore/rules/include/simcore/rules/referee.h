@@ -58,9 +58,13 @@ struct Placements {
   }
 };
 
-/// The game before its first whistle. `now`: where everybody stands; the robot nearest to its goal
-/// keeps it.
-GameState newGame(const WorldState& world, const Snapshot& now);
+/// The game before its first whistle: of the teams of the settings, or of the colours on the field.
+/// `now`: where everybody stands; the robot nearest to its goal keeps it. Robots are told where
+/// their team attacks. Error InvalidArgument when more than two teams are on the field.
+Result<GameState> newGame(WorldState& world, const Snapshot& now);
+
+/// Each robot of the two teams that has none gets a slot, while there are any.
+void giveSlots(std::span<const RobotIdentity> robots, GameState& game);
 
 /// Refuses rules that cannot be played by: InvalidArgument, with the key as the context.
 Result<void> validate(const RefereeRules& rules);
@@ -76,6 +80,10 @@ Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCa
 /// and gets those of the game. `world.game` is there.
 void stepReferee(WorldState& world, const Snapshot& now, const BallWay& way, Placements& placements,
                  std::vector<Event>& events);
+
+/// The teams defend the other goals, and their robots are told so; nobody is moved. world.game is
+/// there.
+void swapSides(WorldState& world);
 
 /// Ticks as people read a clock: whole seconds, rounded up.
 int secondsOf(int ticks, double tickRate);

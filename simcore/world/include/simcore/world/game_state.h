@@ -4,6 +4,7 @@
 // The game as the referee has it: the part of WorldState that the rules own. Times are ticks, so
 // that they repeat to the bit and seconds on the scoreboard come out whole. Plain values.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -33,12 +34,6 @@ enum class SetPlay : std::uint8_t {
 };
 constexpr SetPlay lastOf(SetPlay) {
   return SetPlay::CornerKick;
-}
-/// Placing: everybody stands. Preparing: who has the ball may take its place. Taking: it may be
-/// kicked.
-enum class SetPlayStep : std::uint8_t { None, Placing, Preparing, Taking };
-constexpr SetPlayStep lastOf(SetPlayStep) {
-  return SetPlayStep::Taking;
 }
 enum class PenaltyKind : std::uint8_t {
   None,
@@ -90,7 +85,14 @@ struct GameTeam {
   int singleShots = 0;                          ///< a bit for each shot that scored
   int timeouts = 0;                             ///< taken in this half
   int penalties = 0;                            ///< escalating ones so far
-  std::array<GamePlayer, mostPlayers> players;  ///< by shirt, from 1
+  std::array<GamePlayer, mostPlayers> players;  ///< by slot, as packets have them
+  /// Who has which slot: that of its number, or above 20 a free one; 0: nobody.
+  std::array<int, mostPlayers> shirts{};
+  /// From 1, as in packets; 0 when this shirt has none (yet).
+  int slotOf(int shirt) const {
+    const auto found = std::find(shirts.begin(), shirts.end(), shirt);
+    return shirt > 0 && found != shirts.end() ? static_cast<int>(found - shirts.begin()) + 1 : 0;
+  }
   bool operator==(const GameTeam&) const = default;
 };
 
@@ -104,8 +106,65 @@ struct RobotWatch {
   bool operator==(const RobotWatch&) const = default;
 };
 
+/// How the ball came, or comes, back into play: whose it is, and how far that has gone. As it is by
+/// default, it is nobody's.
+struct Restart {
+  /// Free: anybody may play the ball. Of a set play that robots are told of: Placing, everybody
+  /// stands; Preparing, who has the ball may take its place; Taking, it may be kicked. Executed:
+  /// the ball of a kick-off, a shot, or a set play that is not told of any more is the side's
+  /// alone.
+  enum class Step : std::uint8_t { Free, Placing, Preparing, Taking, Executed };
+  Step step = Step::Free;
+  SetPlay kind = SetPlay::None;  ///< none: a kick-off
+  int team = -1;                 ///< index; below 0: nobody's
+  Point place;                   ///< where the ball lies for it
+  int kicker = 0;                ///< robot that took it
+  bool passed = true;            ///< a second player has touched it since, or it needs none
+  bool isTold() const {
+    return step == Step::Placing || step == Step::Preparing || step == Step::Taking;
+  }
+  bool operator==(const Restart&) const = default;
+};
+constexpr Restart::Step lastOf(Restart::Step) {
+  return Restart::Step::Executed;
+}
+
+/// Whether the clock of the half has been used.
+enum class ClockUse : std::uint8_t {
+  Full,
+  BeganNow,  ///< with this PLAYING
+  Began
+};
+constexpr ClockUse lastOf(ClockUse) {
+  return ClockUse::Began;
+}
+
+/// A place that the ball has hardly left.
+struct BallRest {
+  Point place;
+  int ticks = 0;
+  bool operator==(const BallRest&) const = default;
+};
+
 struct GameState {
   static constexpr int nobody = -1;
+  /// What the state waits for: ticks left, and whether they go by.
+  struct Countdown {
+    int ticks = 0;
+    bool runs = false;
+    bool operator==(const Countdown&) const = default;
+  };
+  /// Who put the ball out, and how long ago (leagues without set plays).
+  struct DropIn {
+    int team = nobody;
+    int ticks = -1;
+    bool operator==(const DropIn&) const = default;
+  };
+  struct Touch {
+    int robot = 0;
+    int team = nobody;
+    bool operator==(const Touch&) const = default;
+  };
 
   std::array<GameTeam, 2> teams;
   bool swapped = false;  ///< teams[1] defends the left goal
@@ -113,43 +172,32 @@ struct GameState {
   GamePhase phase = GamePhase::Normal;
   GamePhase phaseBefore = GamePhase::Normal;  ///< a timeout
   int half = 1;
-  int firstKickOff = 0;       ///< index of the team that began the game
-  int kickOff = 0;            ///< index, or nobody: drop ball
-  bool kickOffStands = true;  ///< false: the kick-off is over, for leagues that say so
-  SetPlay setPlay = SetPlay::None;
-  SetPlayStep step = SetPlayStep::None;
-  int setPlayTeam = nobody;
+  int firstKickOff = 0;  ///< index of the team that began the game
+  int kickOff = 0;       ///< index, or nobody: drop ball
+  Restart restart;
   bool stopped = false;
-  bool over = false;              ///< the final whistle
-  int clock = 0;                  ///< ticks left of the half, negative after its end
-  bool clockBegan = false;        ///< the half has seen PLAYING
-  bool clockBeganBefore = false;  ///< before this PLAYING
-  bool clockShown = true;
-  int stateTicks = 0;  ///< since the state began
-  int secondary = 0;   ///< ticks left of what the state waits for
-  bool secondaryRuns = false;
+  bool over = false;  ///< the final whistle
+  int clock = 0;      ///< ticks left of the half, negative after its end
+  ClockUse clockUse = ClockUse::Full;
+  int stateTicks = 0;  ///< since the state, or the step of the set play, began
+  Countdown countdown;
   int hidden = 0;  ///< ticks for which PLAYING is not told yet
-  int dropInTeam = nobody;
-  int dropInTicks = -1;
   int breakLeft = 0;
-
-  bool ballFree = true;  ///< nobody has it alone
-  Point restart;         ///< where the ball lies for a restart
-  int restartTeam = nobody;
-  SetPlay restartKind = SetPlay::None;
-  int kicker = 0;      ///< robot that took the restart
-  bool passed = true;  ///< a second player has touched it since, or it needs none
-  int lastTouch = 0;   ///< robot
-  int lastTouchTeam = nobody;
-  Point still;  ///< where the ball has been lying
-  int stillTicks = 0;
-  Point near;  ///< the same, for a heap of robots
-  int nearTicks = 0;
+  DropIn dropIn;
+  Touch touch;           ///< the last one
+  BallRest still, near;  ///< near: for a heap of robots
   int aloneTicks = 0;
-  int shooter = nobody;  ///< team of the shot, in a shoot-out
-  int shotsBegan = 0;
+  int shooter = nobody;             ///< team of the shot, in a shoot-out
   std::vector<RobotWatch> watches;  ///< in the order of the robots
 
+  /// At the beginning of PLAYING.
+  void beginClock() {
+    clockUse = clockUse == ClockUse::Full ? ClockUse::BeganNow : ClockUse::Began;
+  }
+  /// The set play that robots are told of, and whose it is.
+  SetPlay setPlay() const { return restart.isTold() ? restart.kind : SetPlay::None; }
+  int setPlayTeam() const { return restart.isTold() ? restart.team : nobody; }
+  bool ballFree() const { return restart.step == Restart::Step::Free; }
   /// Index of the team that defends this side.
   std::size_t leftTeam() const { return swapped ? 1 : 0; }
   /// Index of the team of this colour, or nobody.
@@ -159,13 +207,22 @@ struct GameState {
     }
     return nobody;
   }
+  /// The player of this colour and shirt; null when it plays in neither team.
+  const GamePlayer* player(TeamColor colour, int shirt) const {
+    const int team = teamOf(colour);
+    const int slot = team < 0 ? 0 : teams[static_cast<std::size_t>(team)].slotOf(shirt);
+    return slot == 0
+               ? nullptr
+               : &teams[static_cast<std::size_t>(team)].players[static_cast<std::size_t>(slot - 1)];
+  }
   /// Attacks towards +x.
   bool attacksRight(std::size_t team) const { return team == leftTeam(); }
   bool operator==(const GameState&) const = default;
 };
 
+/// The teams' scores and penalties.
 template <class Game, class Visitor>
-void visitGame(Game& g, Visitor& v) {
+void visitTeams(Game& g, Visitor& v) {
   const auto all = [&v](auto&... values) { (v.value(values), ...); };
   for (auto& t : g.teams) {
     all(t.number, t.colour, t.score, t.penaltyShots, t.singleShots, t.timeouts, t.penalties);
@@ -174,17 +231,35 @@ void visitGame(Game& g, Visitor& v) {
           p.cautions, p.goalkeeper);
     }
   }
-  all(g.swapped, g.state, g.phase, g.phaseBefore, g.half, g.firstKickOff, g.kickOff,
-      g.kickOffStands, g.setPlay, g.step, g.setPlayTeam, g.stopped, g.over, g.clock, g.clockBegan,
-      g.clockBeganBefore, g.clockShown, g.stateTicks, g.secondary, g.secondaryRuns, g.hidden,
-      g.dropInTeam, g.dropInTicks, g.breakLeft, g.ballFree, g.restart.x, g.restart.y, g.restartTeam,
-      g.restartKind, g.kicker, g.passed, g.lastTouch, g.lastTouchTeam, g.still.x, g.still.y,
-      g.stillTicks, g.near.x, g.near.y, g.nearTicks, g.aloneTicks, g.shooter, g.shotsBegan);
+}
+
+template <class Game, class Visitor>
+void visitWatches(Game& g, Visitor& v) {
   v.count(g.watches);
   for (auto& w : g.watches) {
-    all(w.downTicks, w.outsideTicks, w.contactTicks, w.immuneTicks, w.setPose.position.x,
-        w.setPose.position.y, w.setPose.yaw);
+    for (auto* value : {&w.downTicks, &w.outsideTicks, &w.contactTicks, &w.immuneTicks}) {
+      v.value(*value);
+    }
+    for (auto* value : {&w.setPose.position.x, &w.setPose.position.y, &w.setPose.yaw}) {
+      v.value(*value);
+    }
   }
+}
+
+template <class Game, class Visitor>
+void visitGame(Game& g, Visitor& v) {
+  const auto all = [&v](auto&... values) { (v.value(values), ...); };
+  visitTeams(g, v);
+  for (auto& t : g.teams) {
+    for (auto& shirt : t.shirts) v.value(shirt);
+  }
+  all(g.swapped, g.state, g.phase, g.phaseBefore, g.half, g.firstKickOff, g.kickOff, g.restart.step,
+      g.restart.kind, g.restart.team, g.restart.place.x, g.restart.place.y, g.restart.kicker,
+      g.restart.passed, g.stopped, g.over, g.clock, g.clockUse, g.stateTicks, g.countdown.ticks,
+      g.countdown.runs, g.hidden, g.breakLeft, g.dropIn.team, g.dropIn.ticks, g.touch.robot,
+      g.touch.team, g.still.place.x, g.still.place.y, g.still.ticks, g.near.place.x, g.near.place.y,
+      g.near.ticks, g.aloneTicks, g.shooter);
+  visitWatches(g, v);
 }
 
 }  // namespace pitchboard::sim

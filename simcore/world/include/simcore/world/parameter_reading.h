@@ -13,27 +13,32 @@
 
 namespace pitchboard::sim {
 
-template <class Values>
-NumberRange rangeOf(const Parameter<Values>& parameter) {
+template <class Values, class Number>
+NumberRange rangeOf(const Parameter<Values, Number>& parameter) {
   return {parameter.least, parameter.most, parameter.unit.words};
 }
 
 /// `keys`, and those of the parameters.
-template <class Values, std::size_t N>
+template <class Values, class Number, std::size_t N>
 std::vector<std::string_view> withKeys(std::vector<std::string_view> keys,
-                                       const std::array<Parameter<Values>, N>& parameters) {
+                                       const std::array<Parameter<Values, Number>, N>& parameters) {
   for (const auto& parameter : parameters) keys.push_back(parameter.key);
   return keys;
 }
 
 /// Reads those parameters that the object has over `values`.
-template <class Values, std::size_t N>
-void readNumbers(const JsonObject& object, const std::array<Parameter<Values>, N>& parameters,
-                 Values& values) {
+template <class Values, class Number, std::size_t N>
+void readNumbers(const JsonObject& object,
+                 const std::array<Parameter<Values, Number>, N>& parameters, Values& values) {
   for (const auto& parameter : parameters) {
     if (!object.find(parameter.key)) continue;
-    const double written = object.number(parameter.key, 0.0, rangeOf(parameter));
-    values.*parameter.member = parameter.stored(written);
+    if constexpr (std::is_same_v<Number, int>) {
+      values.*parameter.member = object.integer(parameter.key, 0, static_cast<int>(parameter.least),
+                                                static_cast<int>(parameter.most));
+    } else {
+      const double written = object.number(parameter.key, 0.0, rangeOf(parameter));
+      values.*parameter.member = parameter.stored(written);
+    }
   }
 }
 

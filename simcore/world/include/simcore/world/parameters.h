@@ -31,11 +31,11 @@ struct ShownParameter {
   int decimals = -1;
 };
 
-/// One number of `Values`.
-template <class Values>
+/// One number of `Values`: a measure, or with Number = int a count.
+template <class Values, class Number = double>
 struct Parameter {
   const char* key;  ///< in files
-  double Values::*member;
+  Number Values::*member;
   Unit unit;
   double least;         ///< allowed, in `unit`
   double most;          ///< allowed, in `unit`

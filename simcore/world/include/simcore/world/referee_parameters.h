@@ -26,11 +26,14 @@ struct RefereeSwitch {
 };
 
 // clang-format off
+inline constexpr auto refereeCounts = std::to_array<Parameter<RefereeRules, int>>({
+    {"packet_version", &RefereeRules::packetVersion, units::plain, 7, 20, "Packet version", "Of the GameController's packets"},
+    {"packet_size", &RefereeRules::packetSize, units::plain, 0, 1000, "Packet size", "In bytes, where a version has several"},
+    {"shots", &RefereeRules::shots, units::plain, 1, 15, "Shots", "Of each team in a shoot-out"},
+    {"mercy", &RefereeRules::mercy, units::plain, 0, 1000, "Mercy", "Difference of goals that ends the match; 0 = none"},
+});
+
 inline constexpr auto refereeParameters = std::to_array<Parameter<RefereeRules>>({
-    {"packet_version", &RefereeRules::packetVersion, units::plain, 7, 20,
-     "Packet version", "Of the GameController's packets"},
-    {"packet_size", &RefereeRules::packetSize, units::plain, 0, 1000,
-     "Packet size", "In bytes, where a version has several"},
     {"half_time", &RefereeRules::halfTime, units::seconds, 1, 7200, "Half", ""},
     {"extra_half_time", &RefereeRules::extraHalfTime, units::seconds, 1, 7200, "Half of extra time", ""},
     {"break_time", &RefereeRules::breakTime, units::seconds, 0, 7200, "Break", "From the end of a half to READY"},
@@ -42,7 +45,6 @@ inline constexpr auto refereeParameters = std::to_array<Parameter<RefereeRules>>
     {"kick_off_time", &RefereeRules::kickOffTime, units::seconds, 0, 600, "Kick-off", "The ball is the side's alone"},
     {"playing_hidden", &RefereeRules::playingHidden, units::seconds, 0, 600, "PLAYING hidden", "From robots, after the whistle"},
     {"shot_time", &RefereeRules::shotTime, units::seconds, 1, 600, "Shot", "Of a shoot-out"},
-    {"shots", &RefereeRules::shots, units::plain, 1, 15, "Shots", "Of each team in a shoot-out"},
     {"timeout_time", &RefereeRules::timeoutTime, units::seconds, 0, 3600, "Timeout", ""},
     {"placing_time", &RefereeRules::placingTime, units::seconds, 0, 600, "Placing", "Of the ball for a set play; play is stopped"},
     {"prepare_time", &RefereeRules::prepareTime, units::seconds, 0, 600, "Preparing", "The side takes its place at the ball"},
@@ -65,7 +67,6 @@ inline constexpr auto refereeParameters = std::to_array<Parameter<RefereeRules>>
     {"pushing_time", &RefereeRules::pushingTime, units::seconds, 0, 3600, "Pushing", "Longer: a foul; 0 = not judged"},
     {"motion_in_set", &RefereeRules::motionInSet, units::metres, 0, 10, "Motion in SET", "Farther: penalised; 0 = not judged"},
     {"in_play_distance", &RefereeRules::inPlayDistance, units::metres, 0, 10, "In play after", "The ball has moved"},
-    {"mercy", &RefereeRules::mercy, units::plain, 0, 1000, "Mercy", "Difference of goals that ends the match; 0 = none"},
 });
 
 inline constexpr auto refereeSwitches = std::to_array<RefereeSwitch>({

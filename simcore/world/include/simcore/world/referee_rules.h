@@ -21,11 +21,26 @@ constexpr RefereeStyle lastOf(RefereeStyle) {
   return RefereeStyle::HumanoidSoccer2026;
 }
 
+/// What a style means, where that is no rule of its own.
+struct RefereeConduct {
+  bool replacesBall;         ///< a ball that is out is put back, in play at once
+  bool preparesSetPlays;     ///< placing, preparing, taking; else stopped, then taken at once
+  bool goalKickAtArea;       ///< from its front corner; else from the halfway line
+  bool countsBelowZero;      ///< the break's countdown
+  bool penaltiesCountInSet;  ///< their times
+};
+constexpr RefereeConduct conductOf(RefereeStyle style) {
+  constexpr RefereeConduct all[] = {{true, true, false, false, true},
+                                    {false, true, false, false, true},
+                                    {false, false, true, true, false}};
+  return all[static_cast<std::size_t>(style)];
+}
+
 struct RefereeRules {
   std::string name = "custom";
   RefereeStyle style = RefereeStyle::Humanoid2021;
-  double packetVersion = 12;  ///< of the GameController's packets
-  double packetSize = 688;    ///< bytes; version 12 has two
+  int packetVersion = 12;  ///< of the GameController's packets
+  int packetSize = 688;    ///< bytes; version 12 has two
 
   // The states' times.
   double halfTime = 600;
@@ -39,7 +54,7 @@ struct RefereeRules {
   double kickOffTime = 10;  ///< the ball is the kicking side's alone
   double playingHidden = 0;
   double shotTime = 60;
-  double shots = 5;
+  int shots = 5;
   double timeoutTime = 120;
 
   // Set plays.
@@ -68,7 +83,7 @@ struct RefereeRules {
   double pushingTime = 1;
   double motionInSet = 0;  ///< m
   double inPlayDistance = 0.05;
-  double mercy = 0;  ///< goals' difference that ends the match
+  int mercy = 0;  ///< goals' difference that ends the match
 
   // Rules that are judged.
   bool goals = true;

@@ -100,8 +100,9 @@ void physics(Physics& state, Visitor& v) {
 
 }  // namespace state_values
 
+/// All but the referee and its game.
 template <class World, class Visitor>
-void visitValues(World& world, Visitor& v) {
+void visitWorld(World& world, Visitor& v) {
   auto& s = world.settings;
   state_values::all(v, s.physics, s.tickRate, s.seed, s.afterGoal);
   state_values::field(s.field, v);
@@ -124,8 +125,16 @@ void visitValues(World& world, Visitor& v) {
   }
   v.alternative(world.physics);
   std::visit([&v](auto& state) { state_values::physics(state, v); }, world.physics);
+}
+
+template <class World, class Visitor>
+void visitValues(World& world, Visitor& v) {
+  visitWorld(world, v);
+  auto& s = world.settings;
   if (v.present(s.referee)) {
     visitRefereeRules(*s.referee, [&v](auto&... values) { state_values::all(v, values...); });
+    v.count(s.teams);
+    for (auto& t : s.teams) state_values::all(v, t.colour, t.number, t.name);
   }
   if (v.present(world.game)) visitGame(*world.game, v);
 }

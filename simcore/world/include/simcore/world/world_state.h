@@ -28,6 +28,14 @@ enum class AfterGoal : std::uint8_t {
   CentreBall  ///< the ball is put on the centre mark and play goes on
 };
 
+/// One of the two teams of a match with a referee.
+struct TeamSettings {
+  TeamColor colour = TeamColor::Blue;
+  int number = 0;  ///< in the GameController; 0: a free one
+  std::string name;
+  bool operator==(const TeamSettings&) const = default;
+};
+
 struct SimulationSettings {
   std::string physics = "rigid-body";  ///< a name of physicsModels()
   double tickRate = 60.0;              ///< ticks per simulated second
@@ -37,6 +45,7 @@ struct SimulationSettings {
   AfterGoal afterGoal = AfterGoal::CentreBall;
   RigidBodySettings rigidBody;
   std::optional<RefereeRules> referee;  ///< nothing: the published rules, without a referee
+  std::vector<TeamSettings> teams;      ///< at most two; others are the colours on the field
   bool operator==(const SimulationSettings&) const = default;
 };
 
