@@ -8,6 +8,8 @@
 #include <robotlink/report/report.h>
 #include <robotlink/session/match_sampler.h>
 
+#include "../support/robot_keys.h"
+
 namespace tst_report {
 
 using namespace pitchboard;
@@ -142,6 +144,7 @@ class TestReport : public QObject {
     MatchFrame frame;
     RobotFrame robot;
     robot.identity = {RobotId{1}, TeamColor::Red, 1};
+    robot.key = red(1);
     robot.pose = {{1.0, 0.5}, std::numbers::pi / 2};
     frame.robots = {robot};
     const auto layer = [](const char* text) {
@@ -149,7 +152,7 @@ class TestReport : public QObject {
       if (!drawing) qFatal("%s", drawing.error().text().c_str());
       return std::make_shared<const telemetry::DrawingLayer>(drawing->layers.at(0));
     };
-    telemetry::RobotDrawings drawn{1, {}}, stranger{9, {}};
+    telemetry::RobotDrawings drawn{red(1), {}}, stranger{red(9), {}};
     drawn.layers = {layer("layer way\ncolour #ff000080\nwidth 3\nline 0 0 2 -1\n"
                           "text 0 1 <pass> & go\narea -1 -1 0 -1 0 0"),
                     layer("layer near robot\nline 1 0 0 1\ndisc 1 0 0.25\narrow 0 0 0 0\n"
@@ -194,7 +197,7 @@ class TestReport : public QObject {
       MatchEvent event;
       event.kind = kind;
       event.time = time;
-      event.robot = RobotId{1};
+      event.robot = blue(1);
       event.name = "B1";
       event.process = "localization";
       event.detail = detail;

@@ -180,7 +180,7 @@ const char* fillOf(const RobotFrame& robot) {
 /// What the robots' programs drew, as the studio shows it with all of its layers.
 void drawDrawings(Drawing& d, const MatchFrame& frame) {
   for (const telemetry::RobotDrawings& drawn : frame.drawings) {
-    const RobotFrame* robot = frame.robot(RobotId{drawn.robot});
+    const RobotFrame* robot = frame.robot(drawn.robot);
     const char* team = robot ? fillOf(*robot) : teamFill.front();
     for (const auto& layer : drawn.layers) {
       const auto origin = drawingOrigin(layer->frame, robot, frame.field);

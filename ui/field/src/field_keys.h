@@ -36,7 +36,7 @@ class FieldKeyTarget {
   virtual void addRobotAtCursor(int color) = 0;  ///< index into teamColors
   virtual void addRobotByShift() = 0;            ///< left Shift yellow, right Shift orange
   virtual void placeBallAtCursor() = 0;
-  virtual void selectRobot(int number) = 0;  ///< RobotId
+  virtual void selectRobot(int number) = 0;  ///< RobotKey
   virtual void selectAll() = 0;
   virtual void moveSelectedToCursor() = 0;
   virtual void removeSelected() = 0;

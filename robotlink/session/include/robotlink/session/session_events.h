@@ -17,8 +17,7 @@ telemetry::SessionEvent sessionEvent(const MatchEvent& event);
 /// of a session before 0.2: what it was stands in its words there.
 MatchEvent matchEvent(const telemetry::SessionEvent& event);
 
-/// All of a session in order of time. Where old events have no number of their robot, it is that of
-/// the robot's rows.
+/// All of a session in order of time. Events of 0.8 get the key of their robot from its rows.
 std::vector<MatchEvent> eventsOf(const telemetry::SessionReader& session);
 
 }  // namespace pitchboard::link
