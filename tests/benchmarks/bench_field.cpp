@@ -54,8 +54,9 @@ std::unique_ptr<FieldView> viewOf(const benchmark::State& state) {
   }
   view->show();
   for (int i = 0; i < firstSerial; ++i) view->showFrame(movingFrame(i));
-  std::vector<RobotId> selected;
-  for (int i = 1; i <= static_cast<int>(state.range(3)); ++i) selected.push_back(RobotId{i});
+  std::vector<RobotKey> selected;
+  for (int i = 1; i <= static_cast<int>(state.range(3)); ++i)
+    selected.push_back(frame->robots[static_cast<std::size_t>(i - 1)].key);
   view->select(selected);
   QCoreApplication::processEvents();
   return view;

@@ -4,7 +4,6 @@
 // and sender.
 #include <cstdlib>
 
-#include <robotlink/frame/second_sender.h>
 #include <robotlink/live/live_books.h>
 #include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_teams.h>

@@ -62,7 +62,8 @@ inline QString difference(const RobotBoardView& a, const RobotBoardView& b) {
 }
 
 inline QString difference(const RobotFrame& a, const RobotFrame& b) {
-  SAME(identity.id);
+  SAME(key);
+  SAME(name);
   SAME(identity.number);
   SAME(identity.team);
   SAME(ownName);
@@ -134,7 +135,7 @@ inline QString difference(const MatchFrame& a, const MatchFrame& b) {
   }
   for (std::size_t i = 0; i < a.robots.size(); ++i) {
     if (const QString found = difference(a.robots[i], b.robots[i]); !found.isEmpty()) {
-      return QStringLiteral("robot %1 ").arg(a.robots[i].id().value) + found;
+      return QStringLiteral("robot %1 ").arg(QString::fromStdString(a.robots[i].name)) + found;
     }
   }
   return {};

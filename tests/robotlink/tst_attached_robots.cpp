@@ -179,7 +179,7 @@ class TestAttachedRobots : public QObject {
     const auto again = recorded.attachedAt(*store, last);
     QCOMPARE(again.size(), std::size_t(1));
     const RobotFrame &then = seen.robots[0], &now = again[0];
-    QCOMPARE(now.id().value, then.id().value);
+    QVERIFY(now.key == then.key);
     QCOMPARE(now.identity.name(), then.identity.name());
     QCOMPARE(now.action, then.action);
     QVERIFY(now.pose == then.pose);

@@ -2,6 +2,7 @@
 // What two live frames differ in, as events: frames are made by hand, there is no network.
 #include <QtTest>
 
+#include "../support/robot_keys.h"
 #include "live_events.h"
 
 namespace tst_live_events {
@@ -22,7 +23,9 @@ struct Stage {
   }
   RobotHealth& robot(int id, TeamColor team = TeamColor::Blue) {
     RobotFrame& seen = frame.robots.emplace_back();
-    seen.identity = {RobotId{id}, team, id, false};
+    seen.identity = {{}, team, id, false};
+    seen.key = keyOf(seen.identity);
+    seen.name = seen.identity.name();
     RobotHealth& health = seen.health.emplace();
     health.sender = {*telemetry::parseAddress("192.168.0." + std::to_string(id)), 4000};
     return health;
@@ -74,7 +77,7 @@ class TestLiveEvents : public QObject {
     told = s.at(7.5);
     QCOMPARE(kindsOf(told), (Kinds{Kind::RobotSilent}));
     QCOMPARE(told[0].time, 7.5);
-    QCOMPARE(told[0].robot, RobotId{3});
+    QCOMPARE(told[0].robot, red(3));
     QCOMPARE(told[0].name, std::string("R3"));
     QCOMPARE(sentenceOf(told[0]), std::string("R3 is not heard any more"));
     s.frame.robots[0].health->timedOut = false;
@@ -100,7 +103,7 @@ class TestLiveEvents : public QObject {
     s.frame.robots[0].health->sender.address = *telemetry::parseAddress("192.168.0.77");
     const auto told = s.at(3.0);
     QCOMPARE(kindsOf(told), (Kinds{Kind::AddressChanged}));
-    QCOMPARE(told[0].robot, RobotId{3});
+    QCOMPARE(told[0].robot, blue(3));
     QCOMPARE(told[0].detail, std::string("192.168.0.3 to 192.168.0.77"));
     QVERIFY(s.at(4.0).empty());
   }

@@ -14,6 +14,7 @@
 #include <telemetry/wire/gamecontroller_encoder.h>
 
 #include "../support/recorded_packets.h"
+#include "../support/robot_keys.h"
 #include "live_frame.h"
 
 namespace tst_live_frame {
@@ -126,7 +127,7 @@ class TestLiveFrame : public QObject {
     QVERIFY(!frame.truthKnown && !frame.ballKnown);
     QVERIFY(frame.robots.empty() && !frame.referee && !frame.teamBall);
     QCOMPARE(frame.snapshot.time, 7.5);
-    QVERIFY(frame.robot(RobotId{1}) == nullptr);
+    QVERIFY(frame.robot(heardAs(1)) == nullptr);
   }
 
   void aRobotStandsWhereItSays() {
@@ -134,7 +135,7 @@ class TestLiveFrame : public QObject {
     const MatchFrame frame = heard.frame();
     QCOMPARE(frame.robots.size(), std::size_t{1});
     const RobotFrame& robot = frame.robots[0];
-    QCOMPARE(frame.robot(RobotId{3}), &robot);
+    QCOMPARE(frame.robot(heardAs(3)), &robot);
     QCOMPARE(robot.identity.number, 3);
     QVERIFY(robot.poseKnown() && !robot.timedOut());
     const Pose centre =
@@ -227,12 +228,12 @@ class TestLiveFrame : public QObject {
     second.slot = 1;
     Heard heard({first, second});
     const MatchFrame frame = heard.frame();
-    QCOMPARE(frame.robots[0].id(), RobotId{3});
-    QCOMPARE(frame.robots[1].id(), RobotId{3 + 65536});
+    QCOMPARE(frame.robots[0].key, heardAs(3));
+    QCOMPARE(frame.robots[1].key, heardAs(3, 1));
     QCOMPARE(frame.robots[1].identity.number, 3);
     // The slot makes the id, whoever else is there.
     heard.team.robots = {second};
-    QCOMPARE(heard.frame().robots.at(0).id(), RobotId{3 + 65536});
+    QCOMPARE(heard.frame().robots.at(0).key, heardAs(3, 1));
   }
 
   void theRefereeGivesColourScoreAndPenalties() {

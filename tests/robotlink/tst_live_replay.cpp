@@ -36,8 +36,8 @@ class Screen : public LiveObserver {
     MatchFrame frame;
     std::size_t datagrams;
   };
-  void heard(RobotId, double time, const telemetry::DatagramView&, const telemetry::TextDecoder&,
-             const telemetry::DecodedText&) override {
+  void heard(const RobotKey&, double time, const telemetry::DatagramView&,
+             const telemetry::TextDecoder&, const telemetry::DecodedText&) override {
     note(time);
   }
   void refereeHeard(double time, const telemetry::DatagramView&,
@@ -318,7 +318,7 @@ class TestLiveReplay : public QObject {
     QCOMPARE(scored, std::size_t{2});
     for (const RobotSummary& robot : s.robots) {
       const auto shown = std::ranges::find_if(m_frames.back().robots, [&](const RobotFrame& r) {
-        return r.identity.name() + (r.id().value > 65535 ? " (second)" : "") == robot.name;
+        return r.identity.name() + (r.key.sender > 0 ? " (second)" : "") == robot.name;
       });
       QVERIFY2(shown != m_frames.back().robots.end(), robot.name.c_str());
       QVERIFY(robot.link && robot.distance);

@@ -42,10 +42,10 @@ std::size_t bound(const LiveWatch& watch) {
 /// Counts what the watch's thread tells.
 class Witness : public LiveObserver {
  public:
-  void heard(RobotId id, double time, const telemetry::DatagramView& datagram,
+  void heard(const RobotKey& robot, double time, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder&, const telemetry::DecodedText& decoded) override {
     const std::lock_guard lock(mutex);
-    ids.push_back(id.value);
+    ids.push_back(robot.number);
     numbers.push_back(decoded.robot);
     times.push_back(time);
     payloads.emplace_back(datagram.payload);
@@ -232,7 +232,7 @@ class TestLiveWatch : public QObject {
     QVERIFY(one.send(portOf(options, 1), message(1)));
     QVERIFY(two.send(portOf(options, 2), message(2)));
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{2});
-    watch.forget(RobotId{1});
+    watch.forget(RobotKey{0, 1, 0});
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
     QCOMPARE(watch.details().team.robots[0].number, 2);
     QVERIFY(one.send(portOf(options, 1), message(1)));

@@ -9,6 +9,8 @@
 #include <robotlink/session/session_events.h>
 #include <telemetry/session/session_writer.h>
 
+#include "../support/robot_keys.h"
+
 namespace tst_match_events {
 
 using namespace pitchboard;
@@ -35,7 +37,7 @@ MatchEvent full(Kind kind) {
   MatchEvent event;
   event.kind = kind;
   event.time = 12.25;
-  event.robot = RobotId{7};
+  event.robot = red(7);
   event.name = "R2";
   event.side = Side::Right;
   event.team = 5;
@@ -98,8 +100,11 @@ class TestMatchEvents : public QObject {
     for (std::size_t i = 0; i < raw.size(); ++i) {
       const MatchEvent& event = all[i + 1];
       QCOMPARE(event.time, static_cast<double>(raw[i].tick) / 60.0);
-      QCOMPARE(event.robot, raw[i].robot);
-      if (raw[i].robot == RobotId{1}) QCOMPARE(event.name, std::string("B1"));
+      QCOMPARE(event.robot.number != 0, raw[i].robot.value != 0);
+      if (raw[i].robot == RobotId{1}) {
+        QVERIFY(event.robot == blue(1));
+        QCOMPARE(event.name, std::string("B1"));
+      }
     }
     QCOMPARE(all.back().kind, Kind::MatchOver);
     QCOMPARE(all.back().detail, std::string("duration"));
@@ -228,7 +233,7 @@ class TestMatchEvents : public QObject {
       QCOMPARE(std::string(info(events[i].kind).name), raw[i].kind);
       QCOMPARE(events[i].time, raw[i].time);
       QCOMPARE(events[i].name, raw[i].group);
-      QCOMPARE(events[i].robot.value != 0, !raw[i].group.empty());
+      QCOMPARE(events[i].robot.number != 0, !raw[i].group.empty());
     }
   }
 

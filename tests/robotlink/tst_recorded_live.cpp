@@ -42,7 +42,7 @@ class TestRecordedLive : public QObject {
       datagram.localPort = 1241;
       datagram.payload = text;
       QVERIFY(monitor.take(datagram) == telemetry::TeamMonitor::Verdict::Used);
-      recorder->heard(RobotId{1}, time, datagram, monitor.decoder(), monitor.decoded());
+      recorder->heard({0, 1, 0}, time, datagram, monitor.decoder(), monitor.decoded());
     };
     hear(1.0, "1 450 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT");
     recorder->reported(monitor.status(zero + std::chrono::milliseconds(1500)));

@@ -5,6 +5,8 @@
 #include <robotlink/report/report.h>
 #include <robotlink/session/match_sampler.h>
 
+#include "../support/robot_keys.h"
+
 namespace tst_report {
 
 using namespace pitchboard;
@@ -157,7 +159,7 @@ class TestReport : public QObject {
       MatchEvent event;
       event.kind = kind;
       event.time = time;
-      event.robot = RobotId{1};
+      event.robot = blue(1);
       event.name = "B1";
       event.process = "localization";
       event.detail = detail;

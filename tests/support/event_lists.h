@@ -26,7 +26,7 @@ inline QStringList linesOf(const std::vector<pitchboard::link::MatchEvent>& even
   for (const auto& event : events) {
     const std::string kind(pitchboard::link::info(event.kind).name);
     const std::string side(event.side ? pitchboard::link::sideName(*event.side) : "");
-    lines << line(event.time, QString::fromStdString(kind), event.robot.value,
+    lines << line(event.time, QString::fromStdString(kind), event.robot.number,
                   QString::fromStdString(side));
   }
   return lines;

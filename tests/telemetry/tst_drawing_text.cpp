@@ -150,11 +150,11 @@ class TestDrawingText : public QObject {
   void aLayerIsReplacedAddedToAndGoes() {
     DrawingBook book;
     QVERIFY(book.take("PBD1 1\nlayer a\npoint 0 0\nlayer b field 3\npoint 1 1", 10.0));
-    QVERIFY(book.take("PBD1 2\nlayer a\npoint 5 5", 10.2, 1000));
+    QVERIFY(book.take("PBD1 2\nlayer a\npoint 5 5", 10.2, 2));
     QCOMPARE(layersOf(book, 9.9), std::size_t{0});
     QCOMPARE(layersOf(book, 10.0), std::size_t{2});
     QCOMPARE(layersOf(book, 10.5), std::size_t{3});
-    QCOMPARE(book.at(10.5).back().robot, 1002);
+    QVERIFY((book.at(10.5).back().robot == RobotKey{2, 2}));
     QVERIFY(book.take("PBD1 1\nmore a\npoint 2 2", 10.5));
     QCOMPARE(book.at(10.6).front().layers.front()->shapes.size(), std::size_t{2});
     QVERIFY(book.take("PBD1 1\nlayer a\npoint 3 3", 10.7));

@@ -19,6 +19,8 @@ link::MatchFrame frameOf(std::uint64_t serial) {
   frame.serial = serial;
   link::RobotFrame robot;
   robot.identity = {RobotId{4}, TeamColor::Red, 2, true};
+  robot.key = link::keyOf(robot.identity);
+  robot.name = robot.identity.name();
   robot.action = 8;
   link::RobotBoardView& board = robot.board.emplace();
   board.actionA = 8;

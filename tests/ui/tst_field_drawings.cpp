@@ -10,11 +10,13 @@
 #include <cmath>
 #include <numbers>
 
+#include <robotlink/frame/drawing_origin.h>
 #include <robotlink/frame/match_frame.h>
 #include <telemetry/wire/drawing_book.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 
+#include "../support/robot_keys.h"
 #include "drawings_menu.h"
 #include "hover_text.h"
 #include "made_frames.h"
@@ -66,6 +68,7 @@ class TestFieldDrawings : public QObject {
     const QImage without = m_view->picture(size);
     frame = std::make_shared<link::MatchFrame>(*frame);
     frame->drawings = book.at(0.0);
+    link::keyDrawings(*frame);
     m_view->showFrame(frame);
     const QImage all = m_view->picture(size);
     QVERIFY(all != without);
@@ -112,7 +115,7 @@ class TestFieldDrawings : public QObject {
     QCOMPARE(m_view->picture(size), all);
     QVERIFY(toggle({"Only of selected robots"}));
     QCOMPARE(m_view->picture(size), without);
-    m_view->select({RobotId{2}});
+    m_view->select({red(1)});
     now = m_view->picture(size);
     QVERIFY(changed(now, 3.0, -2.5) && !changed(now, 3.0, -2.0));
     m_view->select({});

@@ -20,6 +20,7 @@
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 
+#include "../support/robot_keys.h"
 #include "drawings_menu.h"
 #include "hover_text.h"
 #include "live_items.h"
@@ -120,7 +121,7 @@ class TestFieldLook : public QObject {
     frame->drawings = book.at(0.0);
     for (QAction* layer : m_view->layerActions()) layer->setChecked(true);
     m_view->showFrame(frame);
-    m_view->select({RobotId{1}, RobotId{2}});
+    m_view->select({blue(1), red(1)});
     const QPoint middle = m_canvas->viewport()->rect().center();
     for (int i = 0; i < std::abs(zoom); ++i) wheel(middle, zoom > 0 ? 120 : -120);
     QCOMPARE(leftBehind(), QString());
@@ -134,7 +135,7 @@ class TestFieldLook : public QObject {
     QTest::mouseRelease(m_canvas->viewport(), Qt::MiddleButton, {}, middle);
 
     for (const bool follow : {false, true}) {
-      m_view->follow(follow ? std::optional(RobotId{2}) : std::nullopt);
+      m_view->follow(follow ? std::optional(red(1)) : std::nullopt);
       for (int step = 0; step < 5; ++step) {
         auto next = std::make_shared<link::MatchFrame>(*frame);
         next->serial += 1;
@@ -152,7 +153,7 @@ class TestFieldLook : public QObject {
         QVERIFY2(left.isEmpty(), qPrintable(QStringLiteral("followed: ") + left));
       }
     }
-    for (const auto& ids : {std::vector<RobotId>{}, {RobotId{3}}, {RobotId{4}, RobotId{8}}}) {
+    for (const auto& ids : {std::vector<RobotKey>{}, {blue(2)}, {red(2), red(4)}}) {
       m_view->select(ids);
       const QString left = leftBehind();
       QVERIFY2(left.isEmpty(), qPrintable(QStringLiteral("selected: ") + left));
@@ -180,9 +181,9 @@ class TestFieldLook : public QObject {
     QFETCH(double, radius);
     std::vector<NamedRobot> crowd;
     for (int i = 0; i < robots; ++i) {
-      crowd.push_back({RobotId{i + 1}, {apart * i, 3.0 * (i % 3)}, radius, {18.0, 9.0}});
+      crowd.push_back({blue(i + 1), {apart * i, 3.0 * (i % 3)}, radius, {18.0, 9.0}});
     }
-    std::map<RobotId, int> before;
+    std::map<RobotKey, int> before;
     const auto placed = placeNames(crowd, before);
     QCOMPARE(placed.size(), crowd.size());
     const auto box = [](const PlacedName& name) {
@@ -211,10 +212,10 @@ class TestFieldLook : public QObject {
   void wordsOfACrowdHideNobody() {
     std::vector<NamedRobot> crowd;
     for (const QPointF at : {QPointF(0, 0), QPointF(30, 2), QPointF(62, 0), QPointF(30, 32)}) {
-      crowd.push_back({RobotId{static_cast<int>(crowd.size()) + 1}, at, 9.0, {}, {80.0, 14.0}});
+      crowd.push_back({blue(static_cast<int>(crowd.size()) + 1), at, 9.0, {}, {80.0, 14.0}});
     }
     const QRectF area(-200, -200, 460, 246);
-    std::map<RobotId, int> before;
+    std::map<RobotKey, int> before;
     const auto placed = placeWords(crowd, area, before);
     QCOMPARE(placed.size(), crowd.size());
     std::vector<QRectF> boxes;
@@ -229,17 +230,17 @@ class TestFieldLook : public QObject {
       boxes.push_back(box);
     }
     // Names keep off them.
-    std::map<RobotId, int> none;
-    const std::vector<NamedRobot> two{{RobotId{1}, {0, 0}, 4.0, {18.0, 9.0}}};
+    std::map<RobotKey, int> none;
+    const std::vector<NamedRobot> two{{blue(1), {0, 0}, 4.0, {18.0, 9.0}}};
     const QRectF taken(-40, -20, 80, 14);
     const QPointF name = placeNames(two, none, {taken})[0].centre;
     QVERIFY(!taken.intersects(QRectF(name - QPointF(9, 4.5), QSizeF(18, 9))));
   }
 
   void aNumberThatCanBeReadNeedsNoName() {
-    std::map<RobotId, int> before;
-    const std::vector<NamedRobot> robots{{RobotId{1}, {0, 0}, 10.0, {18.0, 9.0}},
-                                         {RobotId{2}, {21, 0}, 10.0, {18.0, 9.0}}};
+    std::map<RobotKey, int> before;
+    const std::vector<NamedRobot> robots{{blue(1), {0, 0}, 10.0, {18.0, 9.0}},
+                                         {blue(2), {21, 0}, 10.0, {18.0, 9.0}}};
     QVERIFY(placeNames(robots, before).empty());
   }
 
@@ -297,7 +298,7 @@ class TestFieldLook : public QObject {
     path->points = {{0.0, 0.0}, {1.25, -0.5}};
     frame->robots[0].thoughts = link::RobotThoughts{RobotId{1}, nullptr, path, 0.0, 0.0};
     m_view->showFrame(frame);
-    const QString text = hoverText(*frame, RobotId{1});
+    const QString text = hoverText(*frame, blue(1));
     for (const char* part : {"B1 Lea · Striker", "Action: stop", "Target: x 1.25 m",
                              "Belief: 50 cm and 29° off, σ 30 cm"}) {
       QVERIFY2(text.contains(QString::fromUtf8(part)), qPrintable(text));
@@ -310,7 +311,7 @@ class TestFieldLook : public QObject {
     QHelpEvent beside(QEvent::ToolTip, ground, m_canvas->viewport()->mapToGlobal(ground));
     QCoreApplication::sendEvent(m_canvas->viewport(), &beside);
     QTRY_VERIFY(!QToolTip::isVisible());
-    QVERIFY(hoverText(*frame, RobotId{9}).isEmpty());
+    QVERIFY(hoverText(*frame, blue(9)).isEmpty());
   }
 
   // By the formula of the Web Content Accessibility Guidelines, 4.5 for small text: the lightest
@@ -348,7 +349,7 @@ class TestFieldLook : public QObject {
       RobotLook look;
       look.word = QStringLiteral("timeout 37 s");
       look.opacity = 0.45;
-      auto* robot = new RobotItem(&style, RobotId{1});
+      auto* robot = new RobotItem(&style, blue(1));
       robot->setLook(look);
       scene.addItem(robot);
       plate = plateSize(look.word);

@@ -15,6 +15,7 @@
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 
+#include "../support/robot_keys.h"
 #include "field_rig.h"
 
 namespace tst_field_menus {
@@ -42,13 +43,13 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     QFETCH(QString, text);
     QFETCH(int, action);
     QVERIFY(trigger(pose(1).position, text));
-    QCOMPARE(m_view->selection(), std::vector{RobotId{1}});
+    QCOMPARE(m_view->selection(), std::vector{blue(1)});
     QTRY_COMPARE(m_controller->frame()->robots.front().board->actionA, action);
   }
 
   void menuOfARobotRemovesAndFollows() {
     QVERIFY(trigger(pose(2).position, "Follow"));
-    QCOMPARE(m_view->followed(), std::optional(RobotId{2}));
+    QCOMPARE(m_view->followed(), std::optional(blue(2)));
     QVERIFY(trigger(pose(2).position, "Remove robot"));
     QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(5));
     QVERIFY(!m_view->followed());
@@ -99,7 +100,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
   }
 
   void selectedRobotsChangeTeamTogether() {
-    m_view->select({RobotId{1}, RobotId{2}, RobotId{4}});
+    m_view->select({blue(1), blue(2), red(1)});
     QVERIFY(trigger(pose(1).position, "Orange"));
     const auto inOrange = [this] {
       int count = 0;
@@ -193,7 +194,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     options[0]->setChecked(true);  // fields of view of robots that are not selected
     const QImage all = m_view->picture(size);
     QVERIFY(all != one);
-    m_view->select({RobotId{1}});
+    m_view->select({blue(1)});
     m_view->layerActions()[std::size_t(FieldLayer::Eopra)]->setChecked(true);
     const QImage four = m_view->picture(size);
     options[2]->setChecked(true);
@@ -208,7 +209,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     auto path = std::make_shared<link::PlannedPath>();
     path->points = {{-1.0, -2.0}, {0.0, -2.5}, {2.0, -2.0}};
     frame->robots.at(0).thoughts = {RobotId{1}, cloud, path, 0.0, 0.0};
-    QCOMPARE(frame->robots[0].id(), RobotId{1});
+    QCOMPARE(frame->robots[0].key, blue(1));
     FieldView view(nullptr);
     view.resize(900, 660);
     view.showFrame(frame);
@@ -219,9 +220,9 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
       QVERIFY(!action->isChecked());  // off at first
       action->setChecked(true);
       QVERIFY(view.picture(size) != without);
-      view.select({RobotId{2}});  // of selected robots only, and this one tells nothing
+      view.select({blue(2)});  // of selected robots only, and this one tells nothing
       const QImage other = view.picture(size);
-      view.select({RobotId{1}});
+      view.select({blue(1)});
       QVERIFY(view.picture(size) != other);
       view.select({});
       action->setChecked(false);

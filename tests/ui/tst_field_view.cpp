@@ -19,6 +19,7 @@
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 
+#include "../support/robot_keys.h"
 #include "../support/segment_keys.h"
 #include "field_rig.h"
 
@@ -125,7 +126,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
   }
 
   void handleTurns() {
-    m_view->select({RobotId{1}});
+    m_view->select({blue(1)});
     const Pose before = pose(1);  // faces right: the handle lies to the right of the robot
     const double scale = m_canvas->transform().m11();
     const int reach = static_cast<int>(std::lround(std::max(0.13 * scale, 5.0) * 1.7 + 18));
@@ -140,14 +141,14 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     wheel(at(pose(1).position), 120);
     QVERIFY(m_canvas->transform().m11() > scale);
     QTest::keyClick(m_canvas, Qt::Key_Home);
-    m_view->select({RobotId{1}});
+    m_view->select({blue(1)});
     wheel(at(pose(1).position), 120);
     QCOMPARE(m_canvas->transform().m11(), scale);
     QTRY_VERIFY(std::abs(pose(1).yaw - radiansFromDegrees(5)) < 1e-6);
   }
 
   void everyNotchOfTheWheelCounts() {
-    m_view->select({RobotId{1}});
+    m_view->select({blue(1)});
     for (int i = 0; i < 4; ++i) wheel(at(pose(1).position), 120);
     QTRY_VERIFY(std::abs(pose(1).yaw - radiansFromDegrees(20)) < 1e-6);
   }
@@ -177,7 +178,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     QTest::mouseClick(m_canvas->viewport(), Qt::LeftButton, {}, at(pose(1).position));
     QTest::mouseClick(m_canvas->viewport(), Qt::LeftButton, Qt::ControlModifier,
                       at(pose(2).position));
-    QCOMPARE(m_view->selection(), (std::vector{RobotId{1}, RobotId{2}}));
+    QCOMPARE(m_view->selection(), (std::vector{blue(1), blue(2)}));
     QCOMPARE(changed.count(), 2);
     const Pose one = pose(1), two = pose(2);
     drag(at(one.position), at(one.position) + QPoint(30, 0));
@@ -187,14 +188,14 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
   }
 
   void aClickOnOneOfSeveralSelectsThatOne() {
-    m_view->select({RobotId{1}, RobotId{2}});
+    m_view->select({blue(1), blue(2)});
     QTest::mouseClick(m_canvas->viewport(), Qt::LeftButton, {}, at(pose(2).position));
-    QCOMPARE(m_view->selection(), std::vector{RobotId{2}});
+    QCOMPARE(m_view->selection(), std::vector{blue(2)});
   }
 
   void rubberBandSelects() {
     drag(at({-4.6, 3.3}), at({-0.2, -3.3}));
-    QCOMPARE(m_view->selection(), (std::vector{RobotId{1}, RobotId{2}, RobotId{3}}));
+    QCOMPARE(m_view->selection(), (std::vector{blue(1), blue(2), blue(3)}));
   }
 
   void arrowsNudge_data() {
@@ -214,7 +215,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     QFETCH(bool, flipped);
     QFETCH(QPointF, way);
     m_view->setFlipped(flipped);
-    m_view->select({RobotId{1}});
+    m_view->select({blue(1)});
     const Pose before = pose(1);
     const auto modifier = coarse ? Qt::ShiftModifier : Qt::NoModifier;
     for (int i = 0; i < 3; ++i) QTest::keyClick(m_canvas, Qt::Key(key), modifier);
@@ -223,7 +224,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
   }
 
   void deleteRemovesAndUndoBringsBack() {
-    m_view->select({RobotId{4}});
+    m_view->select({red(1)});
     QTest::keyClick(m_canvas, Qt::Key_Delete);
     QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(5));
     QVERIFY(m_view->selection().empty());
@@ -253,7 +254,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
 
   void digitsSelect() {
     QTest::keyClick(m_canvas, Qt::Key_4);
-    QCOMPARE(m_view->selection(), std::vector{RobotId{4}});
+    QCOMPARE(m_view->selection(), std::vector{red(1)});
   }
 
   void spaceTurnsTheFieldRound() {
@@ -324,7 +325,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
 
   void aGroupKeepsItsFormationAtTheWall() {
     const Pose one = pose(1), two = pose(2);
-    m_view->select({RobotId{1}, RobotId{2}});
+    m_view->select({blue(1), blue(2)});
     const QPoint from = at(one.position);
     drag(from, QPoint(2, from.y()));
     QTRY_VERIFY(pose(1).position.x < one.position.x - 0.1);
@@ -366,7 +367,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     m_view->layerActions()[std::size_t(FieldLayer::Grid)]->setChecked(false);
     m_controller->edits()->moveRobots(
         {{RobotId{1}, pose(1), {{-4.9, 0.0}, radiansFromDegrees(180)}}});
-    m_view->select({RobotId{1}});
+    m_view->select({blue(1)});
     QTRY_VERIFY(pose(1).position.x < -4.8);
     const QImage image = m_view->picture(QSize(1400, 455));
     const QRgb ground = image.pixel(0, 0);

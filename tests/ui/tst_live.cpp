@@ -17,6 +17,7 @@
 #include <ui/sources/match_edits.h>
 #include <ui/window/main_window.h>
 
+#include "../support/robot_keys.h"
 #include "live_rig.h"
 #include "live_studio.h"
 #include "plot_page.h"
@@ -45,8 +46,8 @@ class TestLive : public QObject {
     const FramePtr frame = s.live()->frame();
     QCOMPARE(frame->origin, link::FrameOrigin::Live);
     QVERIFY(!frame->truthKnown && !frame->ballKnown);
-    const sim::RobotSnapshot& shown = frame->robots[0];
-    QCOMPARE(shown.identity.id, RobotId{3});
+    const link::RobotFrame& shown = frame->robots[0];
+    QCOMPARE(shown.key, heardAs(3));
     const Pose believed = sim::published_frame::studioFromLocalization(
         s.options.field, {double(said.x), double(said.y), double(said.theta)});
     QCOMPARE(shown.pose.position.x, believed.position.x);
@@ -156,7 +157,7 @@ class TestLive : public QObject {
     const QPoint here = canvas->mapFromScene(QPointF(at.x, at.y));
     canvas->setFocus();
     QTest::mouseClick(canvas->viewport(), Qt::LeftButton, {}, here);
-    QCOMPARE(s.window.field()->selection(), std::vector<RobotId>{RobotId{1}});
+    QCOMPARE(s.window.field()->selection(), std::vector{heardAs(1)});
     QTest::mousePress(canvas->viewport(), Qt::LeftButton, {}, here);
     QTest::mouseMove(canvas->viewport(), here + QPoint(60, 40));
     QTest::mouseRelease(canvas->viewport(), Qt::LeftButton, {}, here + QPoint(60, 40));
@@ -299,7 +300,7 @@ class TestLive : public QObject {
     QVERIFY(Robot(s.options, 1).say(m));
     const auto error = [&]() -> QString {
       for (RobotCard* card : s.cards()) {
-        if (card->state().id != RobotId{1}) continue;
+        if (card->state().id != blue(1)) continue;
         for (const CardValue& value : card->state().values) {
           if (value.name == QStringLiteral("BELIEF_ERROR")) return value.text;
         }

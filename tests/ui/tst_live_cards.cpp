@@ -16,6 +16,7 @@
 #include <ui/sources/match_edits.h>
 #include <ui/window/main_window.h>
 
+#include "../support/robot_keys.h"
 #include "live_rig.h"
 #include "live_studio.h"
 #include "scoreboard.h"
@@ -66,7 +67,7 @@ class TestLiveCards : public QObject {
     }
     QTRY_COMPARE(s.robots(), std::size_t(2));
     QVERIFY(s.health(0).conflict && s.health(1).conflict);
-    QVERIFY(s.live()->frame()->robots[0].id() != s.live()->frame()->robots[1].id());
+    QVERIFY(s.live()->frame()->robots[0].key != s.live()->frame()->robots[1].key);
     QTRY_COMPARE(s.cards().size(), qsizetype(2));
     QCOMPARE(s.cards()[0]->state().tag, QStringLiteral("number sent twice"));
   }
@@ -125,11 +126,11 @@ class TestLiveCards : public QObject {
     QTest::mouseMove(first, below);
     QTest::mouseRelease(first, Qt::LeftButton, {}, below);
     QCOMPARE(s.cards()[2], first);
-    dock->floatCard(RobotId{1});
+    dock->floatCard(heardAs(1));
     QCOMPARE(s.cards().size(), qsizetype(2));
-    QVERIFY(dock->floating(RobotId{1})->isFloating());
+    QVERIFY(dock->floating(heardAs(1))->isFloating());
     QVERIFY(first->isVisible());
-    dock->floating(RobotId{1})->close();
+    dock->floating(heardAs(1))->close();
     QCOMPARE(s.cards().size(), qsizetype(3));
     QVERIFY(first->isVisible());
     CardParts parts = dock->parts();

@@ -198,8 +198,8 @@ class TestMainWindow : public QObject {
     const auto cards = [&s] { return s.window.findChildren<RobotCard*>(); };
     QTRY_COMPARE(cards().size(), qsizetype(6));
     cards()[2]->setCollapsed(true);
-    const RobotId id = cards()[2]->state().id;
-    s.controller.edits()->removeRobots({cards()[0]->state().id});
+    const RobotKey id = cards()[2]->state().id;
+    s.controller.edits()->removeRobots(s.controller.frame()->slotsOf({cards()[0]->state().id}));
     QTRY_COMPARE(cards().size(), qsizetype(5));
     QCOMPARE(cards()[1]->state().id, id);
     QVERIFY(cards()[1]->isCollapsed());

@@ -8,6 +8,7 @@
 #include <ui/sources/timeline.h>
 #include <ui/timeline/timeline_actions.h>
 
+#include "../support/robot_keys.h"
 #include "chart_pane.h"
 #include "legend_bar.h"
 #include "plot_page.h"
@@ -35,7 +36,7 @@ class MomentSource : public PlotSource {
     emit frameReceived(m_frame);
   }
   void happen(double time, link::MatchEventKind kind, const char* robot) {
-    emit eventsReceived({{kind, time, RobotId{1}, robot}});
+    emit eventsReceived({{kind, time, blue(1), robot}});
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <ui/base/theme.h>
 #include <ui/plots/plots_dock.h>
 
+#include "../support/robot_keys.h"
 #include "chart_pane.h"
 #include "lane_pane.h"
 #include "legend_bar.h"
@@ -109,7 +110,7 @@ class TestPlotMarks : public QObject {
   void eventsBetweenTheMarksAreNamed() {
     std::deque<link::MatchEvent> events;
     for (const double time : {1.0, 2.0, 3.0, 4.0, 9.0}) {
-      events.push_back({link::MatchEventKind::Kick, time, RobotId{1}, "B1"});
+      events.push_back({link::MatchEventKind::Kick, time, blue(1), "B1"});
     }
     PlotBench bench;
     PlotFeed feed(&bench.source, &bench.time);

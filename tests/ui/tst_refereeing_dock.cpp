@@ -303,7 +303,7 @@ class TestRefereeingDock : public QObject {
       QTRY_VERIFY(desk.frame().robots[1].pose != before[1].pose);
       for (const link::RobotFrame& a : desk.frame().robots) {
         for (const link::RobotFrame& b : desk.frame().robots) {
-          if (a.id() == b.id()) continue;
+          if (a.key == b.key) continue;
           QVERIFY2(distance(a.pose.position, b.pose.position) > 0.27,
                    qPrintable(formation->currentText()));
         }

@@ -20,6 +20,8 @@
 #include <ui/sources/match_edits.h>
 #include <ui/window/main_window.h>
 
+#include "../support/robot_keys.h"
+
 namespace tst_robots_menu {
 
 using namespace pitchboard;
@@ -94,7 +96,7 @@ class TestRobotsMenu : public QObject {
     QTRY_COMPARE(s.cards().size(), qsizetype(6));
     QVERIFY(!s.entry({"Behaviour"}));  // of nobody
     QVERIFY(s.trigger({"Select", "B2"}));
-    QCOMPARE(s.window.field()->selection(), std::vector{RobotId{2}});
+    QCOMPARE(s.window.field()->selection(), std::vector{blue(2)});
     QVERIFY(s.entry({"Select", "B2"})->isChecked());
     QVERIFY(s.trigger({"Behaviour", "Keeper"}));
     QTRY_COMPARE(s.controller.frame()->robot(RobotId{2})->board->behaviour, std::string("keeper"));
@@ -145,12 +147,12 @@ class TestRobotsMenu : public QObject {
     first->setFocus();
     QTRY_VERIFY(first->hasFocus());
     QTest::keyClick(first, Qt::Key_Space);
-    QCOMPARE(s.window.field()->selection(), std::vector{RobotId{1}});
+    QCOMPARE(s.window.field()->selection(), std::vector{blue(1)});
     QVERIFY(first->hasFocus());
     QTest::keyClick(first, Qt::Key_Tab);
     QVERIFY(s.cards()[1]->hasFocus());
     QTest::keyClick(s.cards()[1], Qt::Key_Space, Qt::ControlModifier);
-    QCOMPARE(s.window.field()->selection(), (std::vector{RobotId{1}, RobotId{2}}));
+    QCOMPARE(s.window.field()->selection(), (std::vector{blue(1), blue(2)}));
     QVERIFY(s.cards()[1]->hasFocus());
     // A click with the mouse gives the keys to the field.
     QTest::mouseClick(s.cards()[2], Qt::LeftButton, {}, QPoint(8, 8));
@@ -171,10 +173,10 @@ class TestRobotsMenu : public QObject {
     chooser->setFocus();
     QTest::mouseClick(s.cards()[1], Qt::LeftButton, {}, QPoint(60, 60));
     QVERIFY(canvas->hasFocus());
-    const RobotId id = s.cards()[1]->state().id;
-    const Pose before = s.pose(id.value);
+    const int slot = s.controller.frame()->robot(s.cards()[1]->state().id)->slot().value;
+    const Pose before = s.pose(slot);
     QTest::keyClick(QApplication::focusWidget(), Qt::Key_Right, Qt::ShiftModifier);
-    QTRY_VERIFY(std::abs(s.pose(id.value).position.x - before.position.x - 0.1) < 1e-6);
+    QTRY_VERIFY(std::abs(s.pose(slot).position.x - before.position.x - 0.1) < 1e-6);
   }
 
   void manyCardsCollapseByThemselves() {

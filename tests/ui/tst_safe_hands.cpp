@@ -23,6 +23,7 @@
 #include <ui/sources/match_edits.h>
 
 #include "../support/mouse_wheel.h"
+#include "../support/robot_keys.h"
 #include "field_keys.h"
 #include "window_rig.h"
 
@@ -116,7 +117,7 @@ class TestSafeHands : public QObject {
       QVERIFY2(s.menuAction(QString::fromUtf8(dialog)), dialog);
       s.menuAction(QString::fromUtf8(dialog))->trigger();
     }
-    s.window.field()->editPose(RobotId{1});
+    s.window.field()->editPose(blue(1));
     int inDialogs = 0, inDocks = 0;
     for (QWidget* top : QApplication::topLevelWidgets()) {
       if (top == &s.window || !top->isVisible()) continue;
@@ -227,7 +228,7 @@ class TestSafeHands : public QObject {
     for (const FieldKey& key : fieldKeys()) {
       for (int i = 0; i < key.count; ++i) {
         lookBack();
-        s.window.field()->select({RobotId{1}});
+        s.window.field()->select({blue(1)});
         QTest::keyClick(s.window.field()->focusProxy(), static_cast<Qt::Key>(key.key + i),
                         key.modifiers);
         if (s.controller.stateHash() != hash) qWarning() << key.shown << "acted on the match";
@@ -235,7 +236,7 @@ class TestSafeHands : public QObject {
       }
     }
     lookBack();
-    s.window.field()->select({RobotId{1}});
+    s.window.field()->select({blue(1)});
     for (const char* text : {"Seed", "Robots decide", "Match number", "Reset score", "Speed",
                              "Game clock runs", "Undo"}) {
       QAction* action = s.menuAction(QString::fromUtf8(text));
@@ -271,7 +272,7 @@ class TestSafeHands : public QObject {
     QTRY_VERIFY(state->text().startsWith(QStringLiteral("SET")));
     QCOMPARE(stack->count(), steps + 1);
     QVERIFY(s.menuAction(QStringLiteral("Reset score"))->isEnabled());
-    s.window.field()->select({RobotId{1}});
+    s.window.field()->select({blue(1)});
     const std::size_t robots = s.controller.frame()->robots.size();
     s.menuAction(QStringLiteral("Delete selected robots"))->trigger();
     QTRY_COMPARE(s.controller.frame()->robots.size(), robots - 1);
@@ -287,7 +288,7 @@ class TestSafeHands : public QObject {
     QVERIFY(panel->isFloating() && dock->window() != &s.window);
     QTRY_VERIFY(dock->cards()[1]->geometry().top() > dock->cards()[0]->geometry().bottom());
     RobotCard* card = dock->cards()[0];
-    const RobotId first = card->state().id, second = dock->cards()[1]->state().id;
+    const RobotKey first = card->state().id, second = dock->cards()[1]->state().id;
     const QPoint grip(60, 30);
     const QPoint away = card->mapFromGlobal(panel->frameGeometry().topRight() + QPoint(90, 60));
     QTest::mousePress(card, Qt::LeftButton, {}, grip);
@@ -309,7 +310,7 @@ class TestSafeHands : public QObject {
     QVERIFY(dock->floating(second)->isVisible());
     dock->floating(first)->close();
     QCOMPARE(dock->cards().size(), qsizetype(5));
-    QCOMPARE(dock->cards()[0]->state().id.value, first.value);
+    QVERIFY(dock->cards()[0]->state().id == first);
   }
 };
 

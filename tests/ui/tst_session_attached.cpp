@@ -17,6 +17,7 @@
 #include <ui/sources/replay_controller.h>
 
 #include "../robotlink/frame_difference.h"
+#include "../support/robot_keys.h"
 #include "chart_pane.h"
 #include "live_rig.h"
 #include "session_rig.h"
@@ -265,7 +266,7 @@ class TestSessionAttached : public QObject {
 
     QAction* forget = nullptr;
     const auto isOffered = [&] {
-      s.window.field()->select({RobotId{2}});  // not before the field has it, too
+      s.window.field()->select({blue(2)});  // not before the field has it, too
       for (QAction* action : s.window.menuBar()->actions()) {
         if (action->text() != QStringLiteral("&Robots")) continue;
         emit action->menu()->aboutToShow();

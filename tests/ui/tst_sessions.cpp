@@ -27,6 +27,7 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
+#include "../support/robot_keys.h"
 #include "chart_pane.h"
 #include "live_rig.h"
 #include "log_model.h"
@@ -66,7 +67,7 @@ class TestSessions : public QObject {
     QCOMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(600));
     // Nothing can be moved there.
     s.window.field()->setFocus();
-    s.window.field()->select({RobotId{1}});
+    s.window.field()->select({blue(1)});
     QTest::keyClick(s.window.field()->focusProxy(), Qt::Key_Delete);
     // Asked of the match itself, behind whatever the key may have told it to do.
     QCOMPARE(s.controller.currentMoment().robots.size(), std::size_t(6));

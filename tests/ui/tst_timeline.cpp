@@ -14,6 +14,7 @@
 #include <ui/timeline/timeline_actions.h>
 #include <ui/timeline/timeline_dock.h>
 
+#include "../support/robot_keys.h"
 #include "field_signs.h"
 #include "timeline_strip.h"
 
@@ -36,6 +37,8 @@ class TestSource : public FrameSource {
     robot.identity.id = RobotId{7};
     robot.identity.team = TeamColor::Red;
     robot.identity.number = 2;
+    robot.key = red(2);
+    robot.name = "R2";
     robot.pose.position.x = time;
     frame->robots.push_back(robot);
     return frame;
@@ -47,7 +50,7 @@ class TestSource : public FrameSource {
     emit frameReceived(m_frame);
   }
   void happen(double time, link::MatchEventKind kind) {
-    link::MatchEvent event{kind, time, RobotId{7}, "R2"};
+    link::MatchEvent event{kind, time, red(2), "R2"};
     if (kind == link::MatchEventKind::Goal)
       event = {kind, time, {}, {}, link::Side::Right, 0, "red"};
     emit eventsReceived({event});

@@ -7,6 +7,7 @@
 
 #include <ui/sources/match_memory.h>
 
+#include "../support/robot_keys.h"
 #include "variables_bench.h"
 
 namespace tst_variables_dock {
@@ -314,7 +315,7 @@ class TestVariablesDock : public QObject {
     QTRY_VERIFY(bench.model->find(QStringLiteral("B11/TRUE_X")).isValid());
     QTRY_VERIFY(bench.controller.frame());  // rows may be there before it
     bench.press("changedOnly");
-    emit bench.selection.blackboardRequested(RobotId{1});
+    emit bench.selection.blackboardRequested(blue(1));
     QCOMPARE(bench.dock->findChild<QLineEdit*>(QStringLiteral("variablesFilter"))->text(),
              QStringLiteral("B1/"));
     QVERIFY(bench.at(QStringLiteral("B1")).isValid());

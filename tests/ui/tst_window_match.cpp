@@ -22,6 +22,7 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
+#include "../support/robot_keys.h"
 #include "field_scene.h"
 #include "menu_actions.h"
 #include "plot_page.h"
@@ -175,8 +176,8 @@ class TestWindowMatch : public QObject {
       s.window.field()->layerOptionActions()[2]->setChecked(true);
       scene(s)->changeStyle([](FieldStyle& style) {
         style.drawings.hiddenLayers = {"a / b"};
-        style.drawings.hiddenRobots = {4};
-        style.drawings.hidden = {{3, "path"}};
+        style.drawings.hiddenRobots = {red(1)};
+        style.drawings.hidden = {{blue(3), "path"}};
       });
       s.window.close();
     }
@@ -191,8 +192,8 @@ class TestWindowMatch : public QObject {
       const FieldStyle& style = scene(s)->style();
       QVERIFY(!style.shows(FieldLayer::Trails) && style.shows(FieldLayer::Grid));
       QCOMPARE(style.eopraGranularity, 6);
-      QVERIFY(!style.drawings.shows(1, "a / b") && !style.drawings.shows(4, "x"));
-      QVERIFY(!style.drawings.shows(3, "path") && style.drawings.shows(2, "path"));
+      QVERIFY(!style.drawings.shows(blue(1), "a / b") && !style.drawings.shows(red(1), "x"));
+      QVERIFY(!style.drawings.shows(blue(3), "path") && style.drawings.shows(blue(2), "path"));
     }
     // Whatever a file says.
     m_settings->setValue(QStringLiteral("field/hiddenDrawings"),
@@ -201,7 +202,7 @@ class TestWindowMatch : public QObject {
     m_settings->setValue(QStringLiteral("field/eopraGranularity"), QStringLiteral("many"));
     Studio s(m_settings.get());
     QCOMPARE(scene(s)->style().eopraGranularity, 4);
-    QVERIFY(scene(s)->style().drawings.shows(1, "y"));
+    QVERIFY(scene(s)->style().drawings.shows(blue(1), "y"));
   }
 
   void floatingPanelsComeBack() {

@@ -28,6 +28,7 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
+#include "../support/robot_keys.h"
 #include "alarms.h"
 #include "menu_actions.h"
 #include "plot_page.h"
@@ -109,7 +110,7 @@ class TestWindowWork : public QObject {
     find(QStringLiteral("R2"));
     const auto selected = s.window.findChild<RobotSelection*>()->ids();
     QCOMPARE(selected.size(), std::size_t(1));
-    QCOMPARE(s.controller.edits()->robot(selected[0])->identity.number, 2);
+    QCOMPARE(s.controller.frame()->robot(selected[0])->identity.number, 2);
     s.timeline()->seek(1.0);
     s.timeline()->addBookmark(QStringLiteral("odd sock"));
     s.timeline()->seek(3.0);
@@ -345,7 +346,7 @@ class TestWindowWork : public QObject {
     Studio s;
     s.play();
     auto* alarms = s.window.findChild<Alarms*>();
-    link::MatchEvent low{link::MatchEventKind::BatteryLow, 1.0, RobotId{1}, "B1"};
+    link::MatchEvent low{link::MatchEventKind::BatteryLow, 1.0, blue(1), "B1"};
     emit s.controller.eventsReceived({low});
     QVERIFY(!alarms->isRaised());
     s.menuAction(QStringLiteral("A robot has a low battery"))->trigger();

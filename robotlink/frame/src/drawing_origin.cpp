@@ -13,4 +13,11 @@ std::optional<Pose> drawingOrigin(telemetry::DrawingFrame frame, const RobotFram
   return robot->pose;
 }
 
+void keyDrawings(MatchFrame& frame) {
+  for (telemetry::RobotDrawings& drawn : frame.drawings) {
+    if (const RobotFrame* robot = frame.robot(RobotId{drawn.robot.number}))
+      drawn.robot = robot->key;
+  }
+}
+
 }  // namespace pitchboard::link

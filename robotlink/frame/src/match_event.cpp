@@ -80,10 +80,6 @@ constexpr bool inOrder() {
 }
 static_assert(inOrder());
 
-std::string nameOf(const sim::RobotIdentity& robot) {
-  return std::string(info(robot.team).letter) + std::to_string(robot.number);
-}
-
 std::string clockWords(int seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%s%02d:%02d", seconds < 0 ? "-" : "", std::abs(seconds) / 60,
@@ -209,12 +205,12 @@ std::optional<Side> sideNamed(std::string_view name) {
   return {};
 }
 
-MatchEvent eventOf(MatchEventKind kind, double time, const sim::RobotIdentity& robot) {
+MatchEvent eventOf(MatchEventKind kind, double time, const RobotKey& robot, std::string name) {
   MatchEvent event;
   event.kind = kind;
   event.time = time;
-  event.robot = robot.id;
-  event.name = nameOf(robot);
+  event.robot = robot;
+  event.name = std::move(name);
   return event;
 }
 
@@ -299,7 +295,7 @@ MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state) {
   const auto robot = std::find_if(state.robots.begin(), state.robots.end(),
                                   [&](const auto& r) { return r.id == event.robot; });
   const double time = static_cast<double>(event.tick) / state.settings.tickRate;
-  if (robot != state.robots.end()) out = eventOf(Kind::Other, time, *robot);
+  if (robot != state.robots.end()) out = eventOf(Kind::Other, time, keyOf(*robot), robot->name());
   out.time = time;
   switch (event.kind) {
     case sim::EventKind::Goal:

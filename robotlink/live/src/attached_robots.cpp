@@ -72,12 +72,12 @@ class AttachedRobots::Reader {
   void addTo(MatchFrame& frame) const {
     const std::lock_guard lock(m_mutex);
     if (m_newest.words.empty()) return;
-    const RobotId id = idOfBoard(m_board.number(),
-                                 [&frame](RobotId taken) { return frame.robot(taken) != nullptr; });
+    const RobotKey key = frame.freeKey({0, m_board.number(), attachedSender});
     RobotFrame& robot = frame.robots.emplace_back();
-    robot.identity.id = id;
+    robot.key = key;
     robot.identity.number = m_board.number();
     robot.identity.team = m_board.team;
+    robot.name = robot.identity.name();
     BoardHeard heard;
     heard.age = std::max(0.0, m_seconds() - m_newest.time);
     heard.samples = m_status.samples;

@@ -111,9 +111,9 @@ std::optional<telemetry::TeamMonitor::Verdict> LiveBooks::takeRobot(
   if (parts.drawing.empty()) return monitor.take(datagram);
   if (auto drawing = telemetry::parseDrawing(parts.drawing); !drawing) {
     // For a stranger's there is no need of a sentence.
-    if (monitor.firstOfTeam(datagram, {})) (void)drawings.take(parts.drawing, time);
-  } else if (const auto first = monitor.firstOfTeam(datagram, drawing->team)) {
-    (void)drawings.take(std::move(*drawing), time, *first);
+    if (monitor.placeOf(datagram, {})) (void)drawings.take(parts.drawing, time);
+  } else if (const auto place = monitor.placeOf(datagram, drawing->team)) {
+    (void)drawings.take(std::move(*drawing), time, *place);
   }
   if (parts.message.empty()) return std::nullopt;
   telemetry::DatagramView message = datagram;
@@ -172,8 +172,8 @@ std::string LiveBooks::text(const LiveOptions& options, double time, WallTime ze
   Json json{{"time", time}, {"options", optionsJson(options)}};
   // Its own text, not an object in here: the monitor's form is the monitor's.
   json["robots"] = monitor.robotsText(zero);
-  for (const auto& [heard, drawn] : drawings.pages(time)) {
-    json["drawings"].push_back(Json{{"at", heard}, {"text", drawn}});
+  for (const auto& [heard, place, drawn] : drawings.pages(time)) {
+    json["drawings"].push_back(Json{{"at", heard}, {"team", place}, {"text", drawn}});
   }
   Json& packets = json["referee"] = Json::array();
   const auto put = [&](const Kept& kept) {
@@ -205,7 +205,15 @@ Result<LiveBooks::Read> LiveBooks::read(std::string_view bytes, WallTime zero) {
       telemetry::DrawingLimits::robots * telemetry::DrawingLimits::layers;
   each(json, "drawings", mostPages, [&](std::size_t, const Json& page) {
     if (!page.is_object()) return;
-    (void)out.books.drawings.take(lenient::text(page, "text"), number(page, "at").value_or(0.0));
+    auto drawing = telemetry::parseDrawing(lenient::text(page, "text"));
+    if (!drawing) return;
+    int team = whole<int>(page, "team");
+    if (member(page, "team") == nullptr) {  // of 0.8
+      const RobotKey robot = keyOfOldId(drawing->robot, !known.team.teams.empty());
+      drawing->robot = robot.number;
+      team = robot.team;
+    }
+    (void)out.books.drawings.take(std::move(*drawing), number(page, "at").value_or(0.0), team);
   });
   constexpr std::size_t mostPackets = telemetry::RefereeTracker::maxReplies + 3;
   each(json, "referee", mostPackets, [&](std::size_t, const Json& packet) {

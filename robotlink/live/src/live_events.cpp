@@ -82,12 +82,12 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, std::vector
 void LiveEvents::compareRobot(const RobotFrame& heard, double time, std::vector<MatchEvent>& out) {
   const RobotHealth& health = *heard.health;
   const auto say = [&](Kind kind, std::string detail = {}, std::optional<int> value = {}) {
-    MatchEvent event = eventOf(kind, time, heard.identity);
+    MatchEvent event = eventOf(kind, time, heard.key, heard.name);
     event.detail = std::move(detail);
     event.value = value;
     out.push_back(std::move(event));
   };
-  const auto [entry, isNew] = m_robots.try_emplace(heard.id());
+  const auto [entry, isNew] = m_robots.try_emplace(heard.key);
   Known& known = entry->second;
   if (isNew) {
     say(Kind::RobotHeard, health.sender.text());

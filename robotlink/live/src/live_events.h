@@ -36,7 +36,7 @@ class LiveEvents {
   void compareRobot(const RobotFrame& heard, double time, std::vector<MatchEvent>& out);
 
   std::optional<RefereeView> m_referee;
-  std::map<RobotId, Known> m_robots;
+  std::map<RobotKey, Known> m_robots;
   std::map<std::uint16_t, std::string> m_ports;  // what was wrong with each
   telemetry::Duration m_setBy{};
 };

@@ -6,7 +6,6 @@
 
 #include <robotlink/frame/belief.h>
 #include <robotlink/frame/referee_view.h>
-#include <robotlink/frame/second_sender.h>
 #include <robotlink/live/live_teams.h>
 #include <simcore/world/published_frame.h>
 
@@ -162,9 +161,11 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
   frame.robots.reserve(team.robots.size());
   for (const RobotStatus& robot : team.robots) {
     RobotFrame& out = frame.robots.emplace_back();
-    out.identity.id = idOfSlot(robot.number, robot.slot);
-    out.identity.number = telemetry::numberInTeam(robot.number, options.team.teams.size());
+    out.key = keyOf(options, robot.number, robot.slot);
+    out.identity.id = {};
+    out.identity.number = out.key.number;
     out.identity.team = colourOf(options, robot.number, ours, frame.referee);
+    out.name = out.identity.name();
     out.ownName = ownNameOf(options, robot.number);
     RobotHealth& health = out.health.emplace(healthOf(robot));
     if (state != nullptr) {

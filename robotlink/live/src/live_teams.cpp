@@ -71,6 +71,12 @@ telemetry::MonitorOptions monitorOptions(const LiveOptions& options) {
   return made;
 }
 
+RobotKey keyOf(const LiveOptions& options, int robot, int slot) {
+  const std::size_t teams = options.team.teams.size();
+  const int place = teams == 0 ? 0 : static_cast<int>(telemetry::teamPlace(robot, teams)) + 1;
+  return {place, telemetry::numberInTeam(robot, teams), slot};
+}
+
 TeamColor colourOf(const LiveOptions& options, int robot, TeamColor ours,
                    const std::optional<RefereeView>& referee) {
   const int number = numberOf(options, robot);

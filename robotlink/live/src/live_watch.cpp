@@ -5,7 +5,6 @@
 #include <mutex>
 #include <thread>
 
-#include <robotlink/frame/second_sender.h>
 #include <robotlink/live/live_books.h>
 #include <robotlink/live/live_teams.h>
 
@@ -102,8 +101,9 @@ struct LiveWatch::Impl {
 
   void forget() {
     const std::lock_guard lock(mutex);
-    for (const RobotId id : std::exchange(forgetAsked, {})) {
-      monitor.forget(numberOf(id), slotOf(id));
+    for (const RobotKey& robot : std::exchange(forgetAsked, {})) {
+      const int first = std::max(robot.team - 1, 0) * telemetry::teamStep;
+      monitor.forget(first + robot.number, robot.sender);
       tellBooks();
     }
     if (!std::exchange(clearAsked, false)) return;
@@ -160,9 +160,9 @@ struct LiveWatch::Impl {
       if (verdict != TeamMonitor::Verdict::Used) {
         unused(datagram);
       } else {
-        const RobotId id = idOfSlot(monitor.decoded().robot, monitor.usedSlot());
+        const RobotKey robot = keyOf(options, monitor.decoded().robot, monitor.usedSlot());
         for (const auto& observer : observers) {
-          observer->heard(id, arrival(datagram.time), datagram, monitor.decoder(),
+          observer->heard(robot, arrival(datagram.time), datagram, monitor.decoder(),
                           monitor.decoded());
         }
       }
@@ -255,7 +255,7 @@ struct LiveWatch::Impl {
   mutable std::mutex mutex;  // guards everything below, and changes of `receiver`
   std::optional<LiveOptions> pending;
   bool clearAsked = false;
-  std::vector<RobotId> forgetAsked;
+  std::vector<RobotKey> forgetAsked;
   AttachedRobots boards{[clock = clock] { return clock->seconds(clock->now()); }};
   LiveBooks books;
   TeamMonitor& monitor = books.monitor;
@@ -292,9 +292,9 @@ void LiveWatch::clear() {
   m_impl->clearAsked = true;
 }
 
-void LiveWatch::forget(RobotId id) {
+void LiveWatch::forget(const RobotKey& robot) {
   const std::lock_guard lock(m_impl->mutex);
-  m_impl->forgetAsked.push_back(id);
+  m_impl->forgetAsked.push_back(robot);
 }
 
 std::shared_ptr<const MatchFrame> LiveWatch::latest() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <robotlink/frame/drawing_origin.h>
 #include <robotlink/frame/working_flags.h>
 #include <robotlink/match/match_drawings.h>
 #include <robotlink/match/referee_packet.h>
@@ -35,15 +36,18 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   const sim::WorldState& state = simulation.state();
   out.snapshot = m_snapshot;
   out.robots.resize(state.robots.size());
+  out.teams = teamsByColour();
   takeProcesses(match.processes());
   for (std::size_t i = 0; i < state.robots.size(); ++i) {
     RobotFrame& robot = out.robots[i];
     static_cast<sim::RobotSnapshot&>(robot) = m_snapshot.robots[i];
+    robot.key = keyOf(robot.identity);
+    robot.name = robot.identity.name();
     fillBoard(match, state.robots[i], now, still, robot.board.emplace());
-    const auto processes = m_processes.find(robot.id());
+    const auto processes = m_processes.find(robot.slot());
     robot.processList = processes == m_processes.end() ? nullptr : processes->second;
     robot.thoughts.reset();
-    robot.runtime = runtimeChoiceToText(match.runtime(robot.id()));
+    robot.runtime = runtimeChoiceToText(match.runtime(robot.slot()));
     robot.ofOthers = false;
   }
   for (const sim::RobotIdentity& other : match.robotsOfOthers()) {
@@ -67,6 +71,7 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   out.drawingProblem.clear();
   if (const MatchDrawings* drawings = match.drawings()) {
     out.drawings = drawings->book().at(m_snapshot.time);
+    keyDrawings(out);
     out.drawingProblem = drawings->problem();
   }
   showReferee(state, out);

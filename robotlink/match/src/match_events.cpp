@@ -42,13 +42,11 @@ MatchEvent MatchEvents::ofProcess(MatchEventKind kind, const sim::WorldState& st
                                   [id](const auto& r) { return r.id == id; });
   MatchEvent event;
   if (robot != state.robots.end()) {
-    event = eventOf(kind, time, *robot);
-    m_names[id] = event.name;
+    event = eventOf(kind, time, keyOf(*robot), robot->name());
+    m_known[id] = {event.robot, event.name};
   } else {
-    event.kind = kind;
-    event.time = time;
-    event.robot = id;
-    event.name = m_names[id];
+    const auto& [key, name] = m_known[id];
+    event = eventOf(kind, time, key, name);
   }
   event.process = process;
   return event;

@@ -45,7 +45,8 @@ class MatchEvents {
   std::vector<MatchEvent> m_events;
   Game m_game = Game::Unknown;
   std::set<std::pair<RobotId, std::string>> m_everRan;  // robot, process
-  std::map<RobotId, std::string> m_names;               // processes may outlive their robot
+  // Key and name: processes may outlive their robot.
+  std::map<RobotId, std::pair<RobotKey, std::string>> m_known;
 };
 
 }  // namespace pitchboard::link

@@ -54,7 +54,7 @@ class Walk {
         if (robot.known[i] > 0.0) s.uptime[i] = robot.worked[i] / robot.known[i];
       }
       if (robot.present > 0.0) s.link->heard = s.seconds / robot.present;
-      if (id.value > 65535) s.name += " (second)";
+      if (id.sender > 0 && !isAttached(id)) s.name += " (second)";
       TeamSummary& team = teams[s.team];
       team.team = s.team;
       team.ballSeconds += s.ballSeconds;
@@ -93,13 +93,13 @@ class Walk {
   }
 
   void add(const MatchFrame& frame, const RobotFrame& seen, double step) {
-    const auto [entry, isNew] = m_robots.try_emplace(seen.id());
+    const auto [entry, isNew] = m_robots.try_emplace(seen.key);
     Robot& robot = entry->second;
     const RobotHealth& health = *seen.health;
     RobotSummary& out = robot.out;
     if (isNew) out.link = RobotSummary::Link{};  // clang 14 refuses emplace() here
     // Colours may come late, with the referee.
-    out.name = seen.identity.name();
+    out.name = seen.name;
     out.team = seen.identity.team;
     out.link->messages = health.messages;
     out.link->loss = health.loss;
@@ -142,7 +142,7 @@ class Walk {
   }
 
   telemetry::TimeRange m_range;
-  std::map<RobotId, Robot> m_robots;
+  std::map<RobotKey, Robot> m_robots;
   std::map<TeamColor, std::vector<double>> m_possession;
   MatchFrame m_last;
 };

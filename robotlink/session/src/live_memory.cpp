@@ -28,7 +28,8 @@ void LiveRecords::keep(SessionStream stream, double time, const telemetry::Datag
   keep(std::move(record));
 }
 
-void LiveRecords::heard(RobotId /*id*/, double time, const telemetry::DatagramView& datagram,
+void LiveRecords::heard(const RobotKey& /*robot*/, double time,
+                        const telemetry::DatagramView& datagram,
                         const telemetry::TextDecoder& /*decoder*/,
                         const telemetry::DecodedText& /*decoded*/) {
   keep(SessionStream::Telemetry, time, datagram);

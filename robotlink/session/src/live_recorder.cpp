@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <robotlink/frame/second_sender.h>
 #include <robotlink/live/live_teams.h>
 #include <robotlink/session/session_events.h>
 #include <telemetry/wire/referee_json.h>
@@ -64,11 +63,12 @@ LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
 
 LiveRecorder::~LiveRecorder() = default;
 
-void LiveRecorder::heard(RobotId id, double time, const telemetry::DatagramView& datagram,
+void LiveRecorder::heard(const RobotKey& robot, double time,
+                         const telemetry::DatagramView& datagram,
                          const telemetry::TextDecoder& decoder,
                          const telemetry::DecodedText& decoded) {
-  LiveRecords::heard(id, time, datagram, decoder, decoded);
-  m_rows.take(datagram, decoded, decoder, slotOf(id));
+  LiveRecords::heard(robot, time, datagram, decoder, decoded);
+  m_rows.take(datagram, decoded, decoder, robot.sender);
 }
 
 void LiveRecorder::keep(LiveRecord record) {

@@ -8,7 +8,7 @@
 
 #include <base/angles.h>
 #include <robotlink/frame/belief.h>
-#include <robotlink/frame/second_sender.h>
+#include <robotlink/frame/drawing_origin.h>
 #include <robotlink/frame/working_flags.h>
 #include <robotlink/live/attached_robots.h>
 #include <robotlink/live/board_health.h>
@@ -150,7 +150,7 @@ MatchFrame RecordedFrames::wholeFrameAt(const telemetry::SessionReader& session,
       session.groups(), [](const auto& group) { return attribute(group.info, "attached") == "1"; });
   if (hasBoards) {
     for (RobotFrame& robot : rowFrameAt(session, time).robots) {
-      if (isAttached(robot.id())) seen->robots.push_back(std::move(robot));
+      if (isAttached(robot.key)) seen->robots.push_back(std::move(robot));
     }
   }
   return std::move(*seen);
@@ -160,7 +160,7 @@ std::vector<RobotFrame> RecordedFrames::attachedAt(const telemetry::SeriesStore&
                                                    double time) {
   std::vector<RobotFrame> out;
   for (RobotFrame& robot : frameAt(rows, time).robots) {
-    if (isAttached(robot.id())) out.push_back(std::move(robot));
+    if (isAttached(robot.key)) out.push_back(std::move(robot));
   }
   return out;
 }
@@ -182,6 +182,7 @@ MatchFrame RecordedFrames::rowFrameAt(const telemetry::SessionReader& session, d
   MatchFrame frame = build(time, lookBack);
   if (session.count(telemetry::SessionStream::Telemetry) > 0) {
     frame.drawings = m_drawings.at(SessionHistory(session), time + timeTolerance);
+    keyDrawings(frame);
   }
   return frame;
 }
@@ -191,6 +192,7 @@ MatchFrame RecordedFrames::build(double time, LookBack&& lookBack) {
   MatchFrame frame;
   frame.origin = FrameOrigin::Recorded;
   frame.serial = ++m_serial;
+  frame.teams = teamsByColour();
   frame.paused = true;
   frame.field = m_backdrop.field;
   frame.noise = m_backdrop.noise;
@@ -227,7 +229,7 @@ MatchFrame RecordedFrames::build(double time, LookBack&& lookBack) {
   for (std::size_t a = 0; a < frame.robots.size(); ++a) {
     for (std::size_t b = a + 1; b < frame.robots.size(); ++b) {
       RobotFrame &one = frame.robots[a], &other = frame.robots[b];
-      if (one.health && other.health && one.identity.number == other.identity.number) {
+      if (one.health && other.health && one.key.number == other.key.number) {
         noteConflict(*one.health, *other.health);
       }
     }
@@ -240,10 +242,18 @@ void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, Matc
   const telemetry::GroupInfo& info = *m_groups[group];
   const telemetry::RowView row = m_rows[group].view();
 
-  const auto isTaken = [&frame](RobotId wanted) { return frame.robot(wanted) != nullptr; };
-  RobotId id = idOfSender(l.robot.value, isTaken);
-  if (l.attached) id = idOfBoard(l.robot.value, isTaken);
+  const sim::RobotIdentity identity{
+      l.live || l.attached ? RobotId{} : l.robot, teamOf(info),
+      attributeNumber(info, "shirt", attributeNumber(info, "number", l.robot.value)),
+      attribute(info, "imu180") == "1"};
+  const RobotKey key =
+      frame.freeKey(l.attached ? RobotKey{0, l.robot.value, attachedSender}
+                    : l.live   ? keyOfOldId(l.robot.value, !attribute(info, "shirt").empty())
+                               : keyOf(identity));
   RobotFrame& robot = frame.robots.emplace_back();
+  robot.identity = identity;
+  robot.key = key;
+  robot.name = identity.name();
   robot.ownName = attribute(info, "name");
   RobotBoardView& board = robot.board.emplace();
   board.key = attributeNumber(info, "key");
@@ -264,9 +274,6 @@ void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, Matc
     board.*flagMembers[f] = flags.seen[f] >= time - flagMemory || (l.live && set);
   }
 
-  robot.identity = {id, teamOf(info),
-                    attributeNumber(info, "shirt", attributeNumber(info, "number", l.robot.value)),
-                    attribute(info, "imu180") == "1"};
   if (l.trueX.present() && l.trueY.present()) {
     const double yaw = l.trueYaw.readOr(row, 0.0);
     robot.pose = {{l.trueX.readOr(row, 0.0), l.trueY.readOr(row, 0.0)}, radiansFromDegrees(yaw)};

@@ -36,7 +36,9 @@ telemetry::SessionEvent sessionEvent(const MatchEvent& event) {
   telemetry::SessionEvent out{event.time, std::string(info(event.kind).name), event.name,
                               event.kind == Kind::Bookmark ? event.detail : sentenceOf(event)};
   telemetry::EventFacts& facts = out.facts.emplace();
-  facts.robot = event.robot.value;
+  facts.robot = event.robot.number;
+  facts.robotTeam = event.robot.team;
+  facts.sender = event.robot.sender;
   if (event.side) facts.side = sideName(*event.side);
   facts.team = event.team;
   facts.colour = event.colour;
@@ -51,7 +53,7 @@ MatchEvent matchEvent(const telemetry::SessionEvent& event) {
   if (!event.facts) return wordsOnly(event);
   const telemetry::EventFacts& facts = *event.facts;
   MatchEvent out = begun(event);
-  out.robot.value = facts.robot;
+  if (facts.robotTeam) out.robot = {*facts.robotTeam, facts.robot, facts.sender};
   out.side = sideNamed(facts.side);
   out.team = facts.team;
   out.colour = facts.colour;
@@ -63,19 +65,24 @@ MatchEvent matchEvent(const telemetry::SessionEvent& event) {
 }
 
 std::vector<MatchEvent> eventsOf(const telemetry::SessionReader& session) {
-  std::map<std::string, int> numbers;
+  // Until 0.8 an event had the number of a simulated robot's blackboard or of a live robot's port.
+  std::map<std::string, RobotKey> simulated;
+  bool hasTeams = false;
   for (const telemetry::SessionGroup& group : session.groups()) {
-    if (const int number = attributeNumber(group.info, "robot"); number != 0) {
-      numbers[group.info.name] = number;
-    }
+    const bool isLive = attribute(group.info, "live") == "1";
+    hasTeams = hasTeams || (isLive && !attribute(group.info, "shirt").empty());
+    if (isLive || attributeNumber(group.info, "robot") == 0) continue;
+    simulated[group.info.name] = {static_cast<int>(teamOf(group.info)) + 1,
+                                  attributeNumber(group.info, "number"), 0};
   }
   std::vector<MatchEvent> events;
   for (const telemetry::SessionEvent& event : session.events()) {
-    events.push_back(matchEvent(event));
-    MatchEvent& made = events.back();
-    if (made.robot.value != 0) continue;
-    if (const auto known = numbers.find(made.name); known != numbers.end()) {
-      made.robot.value = known->second;
+    MatchEvent& made = events.emplace_back(matchEvent(event));
+    if (made.robot.number != 0) continue;
+    if (const auto known = simulated.find(made.name); known != simulated.end()) {
+      made.robot = known->second;
+    } else if (event.facts) {
+      made.robot = keyOfOldId(event.facts->robot, hasTeams);
     }
   }
   return events;

@@ -227,7 +227,11 @@ std::string toJson(const SessionEvent& event) {
       {"time", event.time}, {"kind", event.kind}, {"group", event.group}, {"text", event.text}};
   if (!event.facts) return dump(json);
   const EventFacts& facts = *event.facts;
-  if (facts.robot != 0) json["robot"] = facts.robot;
+  if (facts.robot != 0) {
+    json["robot"] = facts.robot;
+    json["robot_team"] = facts.robotTeam.value_or(0);
+  }
+  if (facts.sender != 0) json["sender"] = facts.sender;
   if (!facts.side.empty()) json["side"] = facts.side;
   if (facts.team != 0) json["team"] = facts.team;
   if (!facts.colour.empty()) json["colour"] = facts.colour;
@@ -268,6 +272,8 @@ std::optional<SessionEvent> eventFromJson(std::string_view json) {
   if (!object->contains(typedEventKey)) return event;
   EventFacts& facts = event.facts.emplace();
   facts.robot = wholeNumber(*object, "robot").value_or(0);
+  facts.robotTeam = wholeNumber(*object, "robot_team");
+  facts.sender = wholeNumber(*object, "sender").value_or(0);
   facts.side = text(*object, "side");
   facts.team = wholeNumber(*object, "team").value_or(0);
   facts.colour = text(*object, "colour");

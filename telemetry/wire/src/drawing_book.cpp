@@ -36,24 +36,24 @@ void DrawingBook::forgetOld(double time) {
   std::erase_if(m_robots, [](const auto& robot) { return robot.second.empty(); });
 }
 
-Result<void> DrawingBook::take(std::string_view text, double time, int firstOfTeam) {
+Result<void> DrawingBook::take(std::string_view text, double time, int team) {
   auto drawing = parseDrawing(text);
   if (!drawing) {
     ++m_refused;
     m_lastProblem = drawing.error().text();
     return tl::unexpected(std::move(drawing.error()));
   }
-  return take(std::move(*drawing), time, firstOfTeam);
+  return take(std::move(*drawing), time, team);
 }
 
-Result<void> DrawingBook::take(Drawing drawing, double time, int firstOfTeam) {
+Result<void> DrawingBook::take(Drawing drawing, double time, int team) {
   forgetOld(time);
-  const int robot = drawing.robot + firstOfTeam;
+  const RobotKey robot{team, drawing.robot};
   const auto refuse = [this, robot](const std::string& sentence) {
     ++m_refused;
-    m_lastProblem = "drawing of robot " + std::to_string(robot) + ": " + sentence;
-    return failure(ErrorCode::InvalidArgument, sentence,
-                   "drawing of robot " + std::to_string(robot));
+    const std::string whose = "drawing of robot " + std::to_string(robot.number);
+    m_lastProblem = whose + ": " + sentence;
+    return failure(ErrorCode::InvalidArgument, sentence, whose);
   };
   const auto known = m_robots.find(robot);
   if (known == m_robots.end() && m_robots.size() == Limits::robots) {
@@ -105,13 +105,12 @@ std::vector<RobotDrawings> DrawingBook::at(double time) const {
 std::vector<DrawingBook::Page> DrawingBook::pages(double time) const {
   std::vector<Page> pages;
   for (const auto& [robot, layers] : m_robots) {
-    if (robot > TextDecoder::maxRobot) continue;
     for (const auto& [name, shown] : layers) {
       if (!shown.isThere(time)) continue;
       Drawing drawing;
-      drawing.robot = robot;
+      drawing.robot = robot.number;
       drawing.layers = {*shown.layer};
-      pages.push_back({shown.since, drawingText(drawing)});
+      pages.push_back({shown.since, robot.team, drawingText(drawing)});
     }
   }
   std::ranges::sort(pages, {}, &Page::time);

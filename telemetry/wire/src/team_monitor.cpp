@@ -264,10 +264,10 @@ TeamMonitor::Verdict TeamMonitor::take(const DatagramView& datagram) {
   return Verdict::Used;
 }
 
-std::optional<int> TeamMonitor::firstOfTeam(const DatagramView& datagram,
-                                            std::optional<int> team) const {
+std::optional<int> TeamMonitor::placeOf(const DatagramView& datagram,
+                                        std::optional<int> team) const {
   if (!m_options.senders.allows(datagram.sender.address)) return std::nullopt;
-  return m_router->firstOfTeam(datagram, team);
+  return m_router->placeOf(datagram, team);
 }
 
 void TeamMonitor::arrive(Robot& robot, WallTime time) {

@@ -259,14 +259,14 @@ std::shared_ptr<const TextDecoder> TeamRouter::decode(const DatagramView& datagr
   return refused->decoder;
 }
 
-std::optional<int> TeamRouter::firstOfTeam(const DatagramView& datagram,
-                                           std::optional<int> team) const {
+std::optional<int> TeamRouter::placeOf(const DatagramView& datagram,
+                                       std::optional<int> team) const {
   if (m_only) return 0;
   for (std::size_t i = 0; i < m_teams.size(); ++i) {
     const int number = m_teams[i].setup.number;
     const bool another = team && number > 0 && *team != number;
     if (another || !mayCome(m_teams[i], datagram)) continue;
-    return m_teams.size() > 1 ? static_cast<int>(i) * teamStep : 0;
+    return static_cast<int>(i) + 1;
   }
   return std::nullopt;
 }

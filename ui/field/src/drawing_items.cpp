@@ -147,16 +147,16 @@ void DrawingItem::paintShape(QPainter* painter, const ScreenPainting& screen,
   }
 }
 
-void DrawingItems::show(const link::MatchFrame* frame, const std::vector<RobotId>& selection) {
+void DrawingItems::show(const link::MatchFrame* frame, const std::vector<RobotKey>& selection) {
   decltype(m_items) before;
   before.swap(m_items);
   if (frame == nullptr || !m_style->shows(FieldLayer::Drawings)) return;
   for (const telemetry::RobotDrawings& drawn : frame->drawings) {
-    const RobotId id{drawn.robot};
-    if (m_style->drawings.onlySelected && std::ranges::find(selection, id) == selection.end()) {
+    if (m_style->drawings.onlySelected &&
+        std::ranges::find(selection, drawn.robot) == selection.end()) {
       continue;
     }
-    const link::RobotFrame* robot = frame->robot(id);
+    const link::RobotFrame* robot = frame->robot(drawn.robot);
     for (const auto& layer : drawn.layers) {
       const auto origin = link::drawingOrigin(layer->frame, robot, frame->field);
       if (!origin || !m_style->drawings.shows(drawn.robot, layer->name)) continue;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <base/ids.h>
+#include <base/robot_key.h>
 #include <telemetry/wire/drawing_book.h>
 
 #include "field_style.h"
@@ -53,14 +54,14 @@ class DrawingItems {
   DrawingItems(QGraphicsScene* scene, const FieldStyle* style, double height)
       : m_scene(scene), m_style(style), m_height(height) {}
 
-  void show(const link::MatchFrame* frame, const std::vector<RobotId>& selection);
+  void show(const link::MatchFrame* frame, const std::vector<RobotKey>& selection);
   void styleChanges();
 
  private:
   QGraphicsScene* m_scene;
   const FieldStyle* m_style;
   double m_height;
-  std::map<std::pair<int, std::string>, std::unique_ptr<DrawingItem>> m_items;
+  std::map<std::pair<RobotKey, std::string>, std::unique_ptr<DrawingItem>> m_items;
 };
 
 }  // namespace pitchboard::ui

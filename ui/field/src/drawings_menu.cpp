@@ -14,16 +14,17 @@
 namespace pitchboard::ui {
 namespace {
 
-QString nameOf(const link::MatchFrame* frame, int robot) {
-  const link::RobotFrame* known = frame ? frame->robot(RobotId{robot}) : nullptr;
-  return known ? robotName(known->identity) : QStringLiteral("Robot %1").arg(robot);
+QString nameOf(const link::MatchFrame* frame, const RobotKey& robot) {
+  const link::RobotFrame* known = frame ? frame->robot(robot) : nullptr;
+  return QString::fromStdString(
+      known ? known->name : link::robotName(robot, frame ? frame->teams : link::Teams()));
 }
 
 /// What is drawn now, and what cannot be seen because it was switched off.
-std::map<int, std::set<std::string>> drawnLayers(const FieldScene& scene) {
-  std::map<int, std::set<std::string>> all;
+std::map<RobotKey, std::set<std::string>> drawnLayers(const FieldScene& scene) {
+  std::map<RobotKey, std::set<std::string>> all;
   const DrawingChoice& choice = scene.style().drawings;
-  for (const int robot : choice.hiddenRobots) all[robot];
+  for (const RobotKey& robot : choice.hiddenRobots) all[robot];
   for (const auto& [robot, layer] : choice.hidden) all[robot].insert(layer);
   if (!scene.frame()) return all;
   for (const telemetry::RobotDrawings& robot : scene.frame()->drawings) {
@@ -104,9 +105,9 @@ void DrawingsMenu::addRobots() {
     QAction* all = menu->addAction(QStringLiteral("Drawings of this robot"));
     all->setCheckable(true);
     all->setChecked(!m_scene->style().drawings.hiddenRobots.contains(robot));
-    connect(all, &QAction::toggled, this, [this, number = robot](bool on) {
+    connect(all, &QAction::toggled, this, [this, key = robot](bool on) {
       m_scene->changeStyle(
-          [&](FieldStyle& style) { setMember(style.drawings.hiddenRobots, number, !on); });
+          [&](FieldStyle& style) { setMember(style.drawings.hiddenRobots, key, !on); });
     });
     menu->addSeparator();
     for (const std::string& name : layers) {

@@ -31,11 +31,11 @@ void addRobotsAt(QMenu* menu, const QString& words, MatchController* controller,
 
 /// What can be done with these robots; `scene` shows them.
 void addRobots(QMenu* menu, FieldScene* scene, MatchController* controller,
-               const std::vector<RobotId>& ids, const FieldMenuActions& actions) {
+               const std::vector<RobotKey>& ids, const FieldMenuActions& actions) {
   const bool editable = canEdit(scene, controller);
-  const RobotId id = ids.front();
+  const RobotKey id = ids.front();
   if (editable) {
-    addRobotMenus(menu, controller, ids);
+    addRobotMenus(menu, controller, scene->frame()->slotsOf(ids));
     menu->addSeparator();
     menu->addAction(QStringLiteral("Pose…"), menu, [actions, id] { actions.editPose(id); });
     menu->addAction(QStringLiteral("Blackboard…"), menu,
@@ -51,14 +51,16 @@ void addRobots(QMenu* menu, FieldScene* scene, MatchController* controller,
   trail->setCheckable(true);
   trail->setChecked(!scene->isTrailShown(id));
   QObject::connect(trail, &QAction::toggled, scene, [scene, ids](bool hide) {
-    for (const RobotId robot : ids) scene->setTrailShown(robot, !hide);
+    for (const RobotKey robot : ids) scene->setTrailShown(robot, !hide);
   });
   if (!editable) return;
   menu->addSeparator();
   menu->addAction(themedIcon(QStringLiteral("edit-delete")),
                   ids.size() == 1 ? QStringLiteral("Remove robot")
                                   : QStringLiteral("Remove %1 robots").arg(ids.size()),
-                  controller, [controller, ids] { controller->edits()->removeRobots(ids); });
+                  controller, [controller, robots = scene->frame()->slotsOf(ids)] {
+                    controller->edits()->removeRobots(robots);
+                  });
 }
 
 void addBall(QMenu* menu, FieldScene* scene, MatchController* controller,
@@ -75,9 +77,9 @@ void addSelecting(QMenu* menu, FieldScene* scene) {
     const auto& ids = scene->selection();
     QAction* action = select->addAction(robotName(robot.identity));
     action->setCheckable(true);
-    action->setChecked(std::find(ids.begin(), ids.end(), robot.id()) != ids.end());
+    action->setChecked(std::find(ids.begin(), ids.end(), robot.key) != ids.end());
     QObject::connect(action, &QAction::triggered, scene,
-                     [scene, id = robot.id()] { scene->toggle(id); });
+                     [scene, id = robot.key] { scene->toggle(id); });
   }
   select->addSeparator();
   select->addAction(QStringLiteral("All"), scene, &FieldScene::selectAll);
@@ -90,10 +92,10 @@ void fillRobotsMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
                     const QPointF& metres, const FieldMenuActions& actions) {
   if (!scene->frame()) return;
   if (!scene->frame()->robots.empty()) addSelecting(menu, scene);
-  const std::vector<RobotId> ids = scene->selection();
+  const std::vector<RobotKey> ids = scene->selection();
   if (!ids.empty()) {
     QStringList names;
-    for (const RobotId id : ids) {
+    for (const RobotKey id : ids) {
       if (const auto* robot = scene->frame()->robot(id)) names << robotName(robot->identity);
     }
     menu->addSection(names.join(QStringLiteral(", ")));
@@ -114,7 +116,7 @@ void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
     if (std::find(selected.begin(), selected.end(), hit.robot) == selected.end()) {
       scene->select({hit.robot});
     }
-    std::vector<RobotId> ids = scene->selection();
+    std::vector<RobotKey> ids = scene->selection();
     // What concerns one concerns the one that was clicked.
     std::iter_swap(ids.begin(), std::find(ids.begin(), ids.end(), hit.robot));
     addRobots(menu, scene, controller, ids, actions);

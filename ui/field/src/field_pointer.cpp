@@ -47,18 +47,19 @@ Qt::CursorShape FieldPointer::shape(const QPointF& at) const {
   return Qt::ArrowCursor;
 }
 
-std::vector<RobotPlacement> FieldPointer::standing(const std::vector<RobotId>& ids) const {
+std::vector<RobotPlacement> FieldPointer::standing(const std::vector<RobotKey>& ids) const {
   std::vector<RobotPlacement> placements;
-  for (const RobotId id : ids) {
-    auto pose = m_scene->pose(id);
-    if (!pose) continue;
+  for (const RobotKey& key : ids) {
+    auto pose = m_scene->pose(key);
+    const link::RobotFrame* robot = pose ? m_scene->frame()->robot(key) : nullptr;
+    if (robot == nullptr) continue;
     // Keys and wheel come faster than frames: none of their steps may be lost.
     if (m_scene->frame() && m_scene->frame()->serial == m_onTheWaySince) {
       for (const RobotPlacement& moved : m_onTheWay) {
-        if (moved.id == id) pose = moved.to;
+        if (moved.id == robot->slot()) pose = moved.to;
       }
     }
-    placements.push_back({id, *pose, *pose});
+    placements.push_back({robot->slot(), *pose, *pose});
   }
   return placements;
 }
@@ -123,7 +124,7 @@ void FieldPointer::press(const QPointF& at, Qt::KeyboardModifiers modifiers) {
   if (!canEdit() && m_drag != Drag::Band) m_drag = Drag::None;
 }
 
-void FieldPointer::beginRobots(RobotId hit) {
+void FieldPointer::beginRobots(RobotKey hit) {
   const auto& selected = m_scene->selection();
   const bool among = std::find(selected.begin(), selected.end(), hit) != selected.end();
   m_clickedOneOfSeveral = among && selected.size() > 1;
@@ -133,7 +134,7 @@ void FieldPointer::beginRobots(RobotId hit) {
   m_placements = standing(m_scene->selection());
 }
 
-void FieldPointer::beginTurn(RobotId hit) {
+void FieldPointer::beginTurn(RobotKey hit) {
   m_drag = Drag::Turn;
   m_pivot = hit;
   m_placements = standing(m_scene->selection());
@@ -157,8 +158,8 @@ void FieldPointer::move(const QPointF& at, Qt::KeyboardModifiers) {
     case Drag::Band: {
       m_scene->rubberBand()->setVisible(true);
       m_scene->rubberBand()->setBand(QRectF(m_from, at));
-      std::vector<RobotId> ids = m_selectedBefore;
-      for (const RobotId id : m_scene->robotsIn(QRectF(m_from, at).normalized())) {
+      std::vector<RobotKey> ids = m_selectedBefore;
+      for (const RobotKey id : m_scene->robotsIn(QRectF(m_from, at).normalized())) {
         if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
       }
       m_scene->select(ids);
@@ -196,7 +197,8 @@ QPointF FieldPointer::together(const std::vector<RobotPlacement>& placements,
   };
   QPointF free = way;
   for (const RobotPlacement& placement : placements) {
-    const double radius = m_scene->radius(placement.id);
+    const link::RobotFrame* robot = m_scene->frame()->robot(placement.id);
+    const double radius = robot != nullptr ? m_scene->radius(robot->key) : 0.0;
     const Point& at = placement.from.position;
     free = {held(free.x(), at.x, field.halfLength() + field.border - radius),
             held(free.y(), at.y, field.halfWidth() + field.border - radius)};
@@ -215,7 +217,9 @@ Velocity FieldPointer::kick() const {
 
 void FieldPointer::dragTurn() {
   const auto pivot = std::find_if(m_placements.begin(), m_placements.end(),
-                                  [this](const auto& p) { return p.id == m_pivot; });
+                                  [pivot = m_scene->frame()->slotsOf({m_pivot})](const auto& p) {
+                                    return !pivot.empty() && p.id == pivot.front();
+                                  });
   if (pivot == m_placements.end()) return;
   const Point& centre = pivot->from.position;
   const double yaw = std::atan2(m_at.y() - centre.y, m_at.x() - centre.x);

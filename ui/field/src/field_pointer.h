@@ -45,12 +45,12 @@ class FieldPointer : public QObject {
 
  signals:
   void toolChanged(pitchboard::ui::FieldTool tool);
-  void poseRequested(pitchboard::RobotId id);
+  void poseRequested(pitchboard::RobotKey id);
 
  private:
   enum class Drag { None, Robots, Turn, Ball, Kick, Band, Ruler };
-  void beginRobots(RobotId hit);
-  void beginTurn(RobotId hit);
+  void beginRobots(RobotKey hit);
+  void beginTurn(RobotKey hit);
   void dragRobots();
   void dragTurn();
   /// How far these robots can go towards `way` together: the first that reaches a wall holds all.
@@ -61,7 +61,7 @@ class FieldPointer : public QObject {
   void finish();
   /// Moves that the next frame will show; further ones before it start from there.
   void nudgeTo(const std::vector<RobotPlacement>& placements);
-  std::vector<RobotPlacement> standing(const std::vector<RobotId>& ids) const;
+  std::vector<RobotPlacement> standing(const std::vector<RobotKey>& ids) const;
   bool canEdit() const;
 
   FieldScene* m_scene;
@@ -72,9 +72,9 @@ class FieldPointer : public QObject {
   bool m_moved = false;  // beyond the distance of an unsteady click
   QPointF m_from, m_at;
   std::vector<RobotPlacement> m_placements;
-  RobotId m_pivot;  // the robot whose handle is held
+  RobotKey m_pivot;  // the robot whose handle is held
   Point m_ballFrom;
-  std::vector<RobotId> m_selectedBefore;
+  std::vector<RobotKey> m_selectedBefore;
   std::vector<RobotPlacement> m_onTheWay;
   std::uint64_t m_onTheWaySince = 0;  // serial of the frame they were made on
   bool m_clickedOneOfSeveral = false;

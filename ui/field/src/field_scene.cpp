@@ -44,7 +44,7 @@ constexpr double hitMargin_px = 3.0;
 }  // namespace
 
 struct FieldScene::Robot {
-  Robot(FieldScene* scene, RobotId id)
+  Robot(FieldScene* scene, RobotKey id)
       : body(&scene->m_style, id),
         belief(&scene->m_style),
         trail(&scene->m_style),
@@ -175,9 +175,9 @@ void FieldScene::showThoughts() {
 }
 
 void FieldScene::matchRobots() {
-  std::set<RobotId> present;
+  std::set<RobotKey> present;
   for (const link::RobotFrame& robot : m_frame->robots) {
-    const RobotId id = robot.id();
+    const RobotKey id = robot.key;
     present.insert(id);
     if (!m_robots.contains(id)) m_robots.emplace(id, std::make_unique<Robot>(this, id));
   }
@@ -190,8 +190,19 @@ void FieldScene::matchRobots() {
   }
 }
 
+void FieldScene::rename(const std::vector<link::Renaming>& renamings) {
+  link::rename(m_robots, renamings);
+  for (const auto& [key, robot] : m_robots) robot->body.setKey(key);
+  link::rename(m_hiddenTrails, renamings);
+  for (RobotKey& key : m_selection) key = link::renamed(key, renamings);
+  emit selectionChangedTo(m_selection);
+  if (!m_followed) return;
+  m_followed = link::renamed(*m_followed, renamings);
+  emit followedChanged(m_followed);
+}
+
 void FieldScene::showRobot(const link::RobotFrame& now) {
-  const RobotId id = now.id();
+  const RobotKey id = now.key;
   Robot& robot = *m_robots.at(id);
   RobotLook look;
   look.pose = now.pose;
@@ -234,7 +245,7 @@ void FieldScene::showCompared(const FramePtr& frame) {
 }
 
 void FieldScene::showOtherPose(Robot& robot, const link::RobotFrame& now) {
-  const auto difference = m_other ? poseDifference(*m_other, now.id(), now.pose) : std::nullopt;
+  const auto difference = m_other ? poseDifference(*m_other, now) : std::nullopt;
   robot.other.setVisible(now.poseKnown() && difference.has_value());
   if (!difference) return;
   robot.other.setOther(
@@ -251,22 +262,22 @@ void FieldScene::showSelected() {
   m_starVars->setPose(chosen->second->body.look().pose);
 }
 
-void FieldScene::select(const std::vector<RobotId>& ids) {
-  std::vector<RobotId> present;
-  for (const RobotId id : ids) {
+void FieldScene::select(const std::vector<RobotKey>& ids) {
+  std::vector<RobotKey> present;
+  for (const RobotKey id : ids) {
     if (m_robots.contains(id)) present.push_back(id);
   }
   setSelection(std::move(present));
 }
 
 void FieldScene::selectAll() {
-  std::vector<RobotId> all;
+  std::vector<RobotKey> all;
   for (const auto& [id, robot] : m_robots) all.push_back(id);
   setSelection(std::move(all));
 }
 
-void FieldScene::toggle(RobotId id) {
-  std::vector<RobotId> ids = m_selection;
+void FieldScene::toggle(RobotKey id) {
+  std::vector<RobotKey> ids = m_selection;
   if (const auto found = std::find(ids.begin(), ids.end(), id); found != ids.end()) {
     ids.erase(found);
   } else {
@@ -275,7 +286,7 @@ void FieldScene::toggle(RobotId id) {
   select(ids);
 }
 
-void FieldScene::setSelection(std::vector<RobotId> ids) {
+void FieldScene::setSelection(std::vector<RobotKey> ids) {
   if (ids == m_selection) return;
   m_selection = std::move(ids);
   for (auto& [id, robot] : m_robots) {
@@ -295,7 +306,7 @@ void FieldScene::setSelection(std::vector<RobotId> ids) {
 FieldHit FieldScene::hit(const QPointF& metres) const {
   const double margin = m_style.metres(hitMargin_px);
   if (!m_style.readOnly) {
-    for (const RobotId id : m_selection) {
+    for (const RobotKey id : m_selection) {
       const RobotLook& look = m_robots.at(id)->body.look();
       const QPointF handle = RobotItem::handlePosition(m_style, look.pose, look.radius);
       if (distance(handle, metres) <= RobotItem::handleRadius(m_style) + margin) {
@@ -323,8 +334,8 @@ FieldHit FieldScene::hit(const QPointF& metres) const {
   return nearest;
 }
 
-std::vector<RobotId> FieldScene::robotsIn(const QRectF& metres) const {
-  std::vector<RobotId> inside;
+std::vector<RobotKey> FieldScene::robotsIn(const QRectF& metres) const {
+  std::vector<RobotKey> inside;
   for (const auto& [id, robot] : m_robots) {
     const RobotItem& body = robot->body;
     if (body.isVisible() && metres.contains(toScene(body.look().pose.position))) {
@@ -334,13 +345,13 @@ std::vector<RobotId> FieldScene::robotsIn(const QRectF& metres) const {
   return inside;
 }
 
-std::optional<Pose> FieldScene::pose(RobotId id) const {
+std::optional<Pose> FieldScene::pose(RobotKey id) const {
   const auto found = m_robots.find(id);
   if (found == m_robots.end()) return {};
   return found->second->body.look().pose;
 }
 
-double FieldScene::radius(RobotId id) const {
+double FieldScene::radius(RobotKey id) const {
   const auto found = m_robots.find(id);
   const double own = found == m_robots.end() ? 0.0 : found->second->body.look().radius;
   return own > 0.0 ? own : m_style.field.robotRadius;
@@ -350,7 +361,7 @@ Point FieldScene::ball() const {
   return m_frame ? m_frame->snapshot.ball : Point{};
 }
 
-void FieldScene::setTrailShown(RobotId id, bool shown) {
+void FieldScene::setTrailShown(RobotKey id, bool shown) {
   if (shown) {
     m_hiddenTrails.erase(id);
   } else {
@@ -359,7 +370,7 @@ void FieldScene::setTrailShown(RobotId id, bool shown) {
   if (m_frame) showFrame(m_frame);
 }
 
-void FieldScene::setFollowed(std::optional<RobotId> id) {
+void FieldScene::setFollowed(std::optional<RobotKey> id) {
   const bool there = !id || m_robots.contains(*id);
   if (!there) id.reset();
   if (id == m_followed && there) return;

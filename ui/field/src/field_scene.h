@@ -35,7 +35,7 @@ class ViewWedgeItem;
 struct FieldHit {
   enum class Kind { Nothing, Robot, Handle, Ball };
   Kind kind = Kind::Nothing;
-  RobotId robot;
+  RobotKey robot;
 };
 
 class FieldScene : public QGraphicsScene {
@@ -59,30 +59,35 @@ class FieldScene : public QGraphicsScene {
   /// A moment of another session, drawn over this one; null: none.
   void showCompared(const FramePtr& frame);
 
-  const std::vector<RobotId>& selection() const { return m_selection; }
+  const std::vector<RobotKey>& selection() const { return m_selection; }
+  /// Those of the selection in a simulated match, for orders.
+  std::vector<RobotId> selectedSlots() const {
+    return m_frame ? m_frame->slotsOf(m_selection) : std::vector<RobotId>();
+  }
   /// Robots that are not there are left out.
-  void select(const std::vector<RobotId>& ids);
+  void select(const std::vector<RobotKey>& ids);
   void selectAll();
-  void toggle(RobotId id);
+  void toggle(RobotKey id);
 
   FieldHit hit(const QPointF& metres) const;
-  std::vector<RobotId> robotsIn(const QRectF& metres) const;
-  std::optional<Pose> pose(RobotId id) const;
+  std::vector<RobotKey> robotsIn(const QRectF& metres) const;
+  std::optional<Pose> pose(RobotKey id) const;
   /// Of the body, metres.
-  double radius(RobotId id) const;
+  double radius(RobotKey id) const;
   Point ball() const;
 
-  void setTrailShown(RobotId id, bool shown);
-  bool isTrailShown(RobotId id) const { return !m_hiddenTrails.contains(id); }
-  void setFollowed(std::optional<RobotId> id);
-  std::optional<RobotId> followed() const { return m_followed; }
+  void setTrailShown(RobotKey id, bool shown);
+  bool isTrailShown(RobotKey id) const { return !m_hiddenTrails.contains(id); }
+  void setFollowed(std::optional<RobotKey> id);
+  void rename(const std::vector<link::Renaming>& renamings);
+  std::optional<RobotKey> followed() const { return m_followed; }
 
   RulerItem* ruler() const { return m_ruler; }
   RubberBandItem* rubberBand() const { return m_band; }
 
  signals:
-  void selectionChangedTo(const std::vector<pitchboard::RobotId>& ids);
-  void followedChanged(std::optional<pitchboard::RobotId> id);
+  void selectionChangedTo(const std::vector<pitchboard::RobotKey>& ids);
+  void followedChanged(std::optional<pitchboard::RobotKey> id);
 
  private:
   struct Robot;
@@ -93,15 +98,15 @@ class FieldScene : public QGraphicsScene {
   void showNames();
   void showThoughts();
   void showSelected();
-  void setSelection(std::vector<RobotId> ids);
+  void setSelection(std::vector<RobotKey> ids);
 
   FieldStyle m_style;
   FramePtr m_frame;
   FramePtr m_other;
-  std::map<RobotId, std::unique_ptr<Robot>> m_robots;
-  std::vector<RobotId> m_selection;
-  std::set<RobotId> m_hiddenTrails;
-  std::optional<RobotId> m_followed;
+  std::map<RobotKey, std::unique_ptr<Robot>> m_robots;
+  std::vector<RobotKey> m_selection;
+  std::set<RobotKey> m_hiddenTrails;
+  std::optional<RobotKey> m_followed;
   BallItem* m_ball;
   TeamBallItem* m_teamBall;
   std::unique_ptr<DrawingItems> m_drawings;

@@ -21,15 +21,20 @@ QString layerKey(std::size_t layer) {
   return QStringLiteral("field/layer/") + QLatin1String(fieldLayers[layer].key);
 }
 
-// "*/ball model": that layer of all robots; "3/": all of robot 3; "3/path": that layer of it.
+// "*/ball model": that layer of all robots; "1.3/": all of robot 3 of the first team; "1.3/path":
+// that layer of it.
+QString keyText(const RobotKey& robot) {
+  return QStringLiteral("%1.%2").arg(robot.team).arg(robot.number);
+}
+
 QStringList textsOf(const DrawingChoice& choice) {
   QStringList texts;
   for (const std::string& layer : choice.hiddenLayers) {
     texts << QStringLiteral("*/") + QString::fromStdString(layer);
   }
-  for (const int robot : choice.hiddenRobots) texts << QStringLiteral("%1/").arg(robot);
+  for (const RobotKey& robot : choice.hiddenRobots) texts << keyText(robot) + QLatin1Char('/');
   for (const auto& [robot, layer] : choice.hidden) {
-    texts << QStringLiteral("%1/%2").arg(robot).arg(QString::fromStdString(layer));
+    texts << keyText(robot) + QLatin1Char('/') + QString::fromStdString(layer);
   }
   return texts;
 }
@@ -44,9 +49,13 @@ DrawingChoice choiceFrom(const QStringList& texts) {
       if (!layer.empty()) choice.hiddenLayers.insert(layer);
       continue;
     }
+    const QStringList parts = text.left(slash).split(QLatin1Char('.'));
     bool good = false;
-    const int robot = text.left(slash).toInt(&good);
+    const int last = parts.last().toInt(&good);
     if (!good) continue;
+    // Until 0.8 one number stood for team and number.
+    const RobotKey robot = parts.size() == 2 ? RobotKey{parts[0].toInt(), last, 0}
+                                             : link::keyOfOldId(last, last > 1000);
     if (layer.empty())
       choice.hiddenRobots.insert(robot);
     else

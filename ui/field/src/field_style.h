@@ -19,19 +19,20 @@
 #include <utility>
 
 #include <base/geometry.h>
+#include <base/robot_key.h>
 #include <simcore/world/field.h>
 #include <ui/field/field_layers.h>
 
 namespace pitchboard::ui {
 
-/// Which drawings of the robots' programs are not shown, by layer's name and robot's number.
+/// Which drawings of the robots' programs are not shown, by layer's name and robot.
 struct DrawingChoice {
   bool onlySelected = false;
   std::set<std::string> hiddenLayers;
-  std::set<int> hiddenRobots;
-  std::set<std::pair<int, std::string>> hidden;
+  std::set<RobotKey> hiddenRobots;
+  std::set<std::pair<RobotKey, std::string>> hidden;
 
-  bool shows(int robot, const std::string& layer) const {
+  bool shows(const RobotKey& robot, const std::string& layer) const {
     return !hiddenRobots.contains(robot) && !hiddenLayers.contains(layer) &&
            !hidden.contains({robot, layer});
   }

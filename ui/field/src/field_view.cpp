@@ -45,7 +45,7 @@ struct FieldView::Private {
         help(new HelpOverlay(canvas)),
         tools(new FieldTools(scene, pointer, canvas, help, view)) {}
 
-  void openPoseEditor(RobotId id);
+  void openPoseEditor(RobotKey id);
   void openBallEditor();
   void openEditor(PoseEdit edit);
   void openMenu(QPoint globalPosition, QPointF metres);
@@ -62,6 +62,7 @@ struct FieldView::Private {
   void moveSelectedToCursor();
   void carryOut(const FieldOrder& order);
   void escape();
+  void selectRobot(int number);
   bool hasEscape() const {
     return pointer->isDragging() || pointer->tool() != FieldTool::Select ||
            !scene->selection().empty();
@@ -106,15 +107,15 @@ void FieldView::Private::escape() {
 }
 
 void FieldView::Private::carryOut(const FieldOrder& order) {
-  const std::vector<RobotId> selected = scene->selection();
+  const std::vector<RobotId> selected = scene->selectedSlots();
   using enum FieldDeed;
   const bool forSelected = order.deed == MoveHere || order.deed == Act || order.deed == Search;
-  if (forSelected && selected.empty()) return;
+  if (forSelected && scene->selection().empty()) return;
   if (order.deed >= AddRobot && !editor()) return;
   MatchEdits* edits = controller ? controller->edits() : nullptr;
   switch (order.deed) {
     case Select:
-      return scene->select({RobotId{order.value}});
+      return selectRobot(order.value);
     case SelectAll:
       return scene->selectAll();
     case Escape:
@@ -162,17 +163,27 @@ void FieldView::Private::carryOut(const FieldOrder& order) {
   }
 }
 
-void FieldView::Private::openPoseEditor(RobotId id) {
+// The robot of a simulated match with this blackboard, else one with this number.
+void FieldView::Private::selectRobot(int number) {
+  if (!scene->frame()) return;
+  for (const link::RobotFrame& robot : scene->frame()->robots) {
+    const int its = robot.slot().value != 0 ? robot.slot().value : robot.key.number;
+    if (its == number) return scene->select({robot.key});
+  }
+  scene->select({});
+}
+
+void FieldView::Private::openPoseEditor(RobotKey id) {
   const auto pose = scene->pose(id);
   if (!pose || !editor()) return;
   const link::RobotFrame* robot = scene->frame()->robot(id);
-  const QString name = robot != nullptr ? robotName(robot->identity) : QString();
-  openEditor({QStringLiteral("Pose of %1").arg(name), *pose, false, 0.0,
-              [this, id, from = *pose](const Pose& to) {
-                controller->edits()->previewRobots({{id, from, to}});
+  if (robot == nullptr) return;
+  openEditor({QStringLiteral("Pose of %1").arg(robotName(robot->identity)), *pose, false, 0.0,
+              [this, slot = robot->slot(), from = *pose](const Pose& to) {
+                controller->edits()->previewRobots({{slot, from, to}});
               },
-              [this, id, from = *pose](const Pose& to, double) {
-                controller->edits()->moveRobots({{id, from, to}});
+              [this, slot = robot->slot(), from = *pose](const Pose& to, double) {
+                controller->edits()->moveRobots({{slot, from, to}});
               }});
 }
 
@@ -200,8 +211,8 @@ void FieldView::Private::openEditor(PoseEdit edit) {
 }
 
 FieldMenuActions FieldView::Private::menuActions() {
-  return {[this](RobotId id) { openPoseEditor(id); },
-          [this](RobotId id) { emit q->blackboardRequested(id); }, [this] { openBallEditor(); },
+  return {[this](RobotKey id) { openPoseEditor(id); },
+          [this](RobotKey id) { emit q->blackboardRequested(id); }, [this] { openBallEditor(); },
           [this] { emit q->saveScenarioRequested(); }};
 }
 
@@ -254,8 +265,9 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
   connect(d->scene, &FieldScene::selectionChangedTo, this, &FieldView::selectionChanged);
   connect(d->scene, &FieldScene::followedChanged, this, &FieldView::followedChanged);
   connect(d->pointer, &FieldPointer::poseRequested, this,
-          [this](RobotId id) { d->openPoseEditor(id); });
+          [this](RobotKey id) { d->openPoseEditor(id); });
   if (!source) return;
+  connect(source, &FrameSource::robotsRenamed, d->scene, &FieldScene::rename);
   connect(source, &FrameSource::frameReceived, this, [this, source](const FramePtr& frame) {
     // The past cannot be moved by hand.
     const bool past = frame && frame->origin == link::FrameOrigin::Recorded;
@@ -298,16 +310,16 @@ void FieldView::showCompared(const FramePtr& frame) {
   d->scene->showCompared(frame);
 }
 
-std::vector<RobotId> FieldView::selection() const {
+std::vector<RobotKey> FieldView::selection() const {
   return d->scene->selection();
 }
-void FieldView::select(const std::vector<RobotId>& ids) {
+void FieldView::select(const std::vector<RobotKey>& ids) {
   d->scene->select(ids);
 }
-void FieldView::follow(std::optional<RobotId> id) {
+void FieldView::follow(std::optional<RobotKey> id) {
   d->scene->setFollowed(id);
 }
-std::optional<RobotId> FieldView::followed() const {
+std::optional<RobotKey> FieldView::followed() const {
   return d->scene->followed();
 }
 std::vector<QAction*> FieldView::layerActions() const {
@@ -327,7 +339,7 @@ void FieldView::fillRobotsMenu(QMenu* menu) {
   ui::fillRobotsMenu(menu, d->scene, d->controller, centre, d->menuActions());
 }
 
-void FieldView::editPose(RobotId id) {
+void FieldView::editPose(RobotKey id) {
   d->openPoseEditor(id);
 }
 

@@ -40,7 +40,7 @@ QString beliefText(const link::MatchFrame& frame, const link::RobotFrame& robot)
 
 }  // namespace
 
-QString hoverText(const link::MatchFrame& frame, RobotId id) {
+QString hoverText(const link::MatchFrame& frame, RobotKey id) {
   const link::RobotFrame* robot = frame.robot(id);
   if (robot == nullptr) return {};
   QStringList lines;

@@ -5,7 +5,7 @@
 
 #include <QString>
 
-#include <base/ids.h>
+#include <base/robot_key.h>
 
 namespace pitchboard::link {
 struct MatchFrame;
@@ -15,6 +15,6 @@ namespace pitchboard::ui {
 
 /// Lines of plain text: name, behaviour, action, target, how far its belief is off, what is wrong.
 /// Empty for a robot that is not in the frame.
-QString hoverText(const link::MatchFrame& frame, RobotId id);
+QString hoverText(const link::MatchFrame& frame, RobotKey id);
 
 }  // namespace pitchboard::ui

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include <base/ids.h>
+#include <base/robot_key.h>
 
 #include "field_style.h"
 
@@ -19,7 +19,7 @@ namespace pitchboard::ui {
 
 /// A robot on the screen, in pixels.
 struct NamedRobot {
-  RobotId id;
+  RobotKey id;
   QPointF at;
   double radius = 0.0;
   QSizeF name;       ///< how large its name is when written
@@ -28,13 +28,13 @@ struct NamedRobot {
 
 /// Where a name or a word is written.
 struct PlacedName {
-  RobotId id;
+  RobotKey id;
   QPointF centre;
   bool apart = false;  ///< so far away that a line has to say whose it is
 };
 
 /// The direction that each of them had, which is kept where it can be.
-using DirectionsBefore = std::map<RobotId, int>;
+using DirectionsBefore = std::map<RobotKey, int>;
 
 /// Places for the words, below their robots where there is room, and inside `area`.
 std::vector<PlacedName> placeWords(std::span<const NamedRobot> robots, const QRectF& area,
@@ -48,7 +48,7 @@ class NameLabelsItem : public QGraphicsItem {
   explicit NameLabelsItem(const FieldStyle* style) : m_style(style) {}
 
   struct Robot {
-    RobotId id;
+    RobotKey id;
     QPointF at;           ///< in the scene, m
     double radius = 0.0;  ///< as drawn, m
     QString name;         ///< empty: not to be written
@@ -57,7 +57,7 @@ class NameLabelsItem : public QGraphicsItem {
   /// Also says where the words go, which the robots write themselves.
   void setRobots(std::vector<Robot> robots);
   /// In pixels from the robot, of those that have a word.
-  const std::map<RobotId, QPointF>& words() const { return m_words; }
+  const std::map<RobotKey, QPointF>& words() const { return m_words; }
   void styleChanges();
 
   QRectF boundingRect() const override { return m_bounds; }
@@ -76,7 +76,7 @@ class NameLabelsItem : public QGraphicsItem {
   const FieldStyle* m_style;
   std::vector<Robot> m_robots;
   std::vector<Label> m_labels;
-  std::map<RobotId, QPointF> m_words;
+  std::map<RobotKey, QPointF> m_words;
   DirectionsBefore m_before, m_wordsBefore;
   QRectF m_bounds;
 };

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include <base/ids.h>
+#include <base/robot_key.h>
 
 #include "field_style.h"
 
@@ -29,9 +30,10 @@ struct RobotLook {
 
 class RobotItem : public QGraphicsItem {
  public:
-  RobotItem(const FieldStyle* style, RobotId id);
+  RobotItem(const FieldStyle* style, RobotKey id);
 
-  RobotId id() const { return m_id; }
+  RobotKey id() const { return m_id; }
+  void setKey(const RobotKey& key) { m_id = key; }
   const RobotLook& look() const { return m_look; }
   void setLook(const RobotLook& look);
   /// Where its word is written, in pixels from its centre; below it while nobody has said.
@@ -53,7 +55,7 @@ class RobotItem : public QGraphicsItem {
   void paintBody(QPainter* painter, const ScreenPainting& screen, double radius) const;
 
   const FieldStyle* m_style;
-  RobotId m_id;
+  RobotKey m_id;
   RobotLook m_look;
   std::optional<QPointF> m_wordPlace;
 };

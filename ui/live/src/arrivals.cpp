@@ -9,7 +9,7 @@ namespace pitchboard::ui {
 
 class Arrivals::Keeper : public link::LiveObserver {
  public:
-  void heard(RobotId, double, const telemetry::DatagramView& datagram,
+  void heard(const RobotKey&, double, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder&, const telemetry::DecodedText&) override {
     take(datagram);
   }

@@ -130,12 +130,11 @@ class NoiseDock : public QScrollArea {
   /// The selected robots, or all.
   std::vector<RobotId> edited() const {
     std::vector<RobotId> ids;
-    for (const RobotId id : m_selection->ids()) {
-      if (m_controller->edits()->robot(id)) ids.push_back(id);
-    }
+    if (const FramePtr frame = m_controller->frame()) ids = frame->slotsOf(m_selection->ids());
+    std::erase_if(ids, [this](RobotId id) { return m_controller->edits()->robot(id) == nullptr; });
     if (!ids.empty()) return ids;
     for (int id = 1; id <= sim::Simulation::maxRobots; ++id) {
-      if (m_controller->edits()->robot({id})) ids.push_back({id});
+      if (m_controller->edits()->robot(RobotId{id})) ids.push_back({id});
     }
     return ids;
   }

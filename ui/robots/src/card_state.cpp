@@ -149,7 +149,7 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
   cards.reserve(frame.robots.size());
   for (const link::RobotFrame& robot : frame.robots) {
     CardState card;
-    card.id = robot.identity.id;
+    card.id = robot.key;
     card.team = robot.identity.team;
     card.number = robot.identity.number;
     card.name = robotName(robot.identity);

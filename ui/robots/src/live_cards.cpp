@@ -95,10 +95,10 @@ std::vector<CardState> liveCards(const link::MatchFrame& frame) {
     const link::RobotHealth& robot = *heard.health;
     const sim::RobotIdentity& identity = heard.identity;
     CardState card;
-    card.id = identity.id;
+    card.id = heard.key;
     card.team = identity.team;
     card.number = identity.number;
-    card.name = robotName(identity);
+    card.name = QString::fromStdString(heard.name);
     card.subtitle = subtitleOf(heard);
     card.live = true;
     card.timedOut = robot.timedOut;

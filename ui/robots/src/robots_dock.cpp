@@ -58,6 +58,7 @@ RobotsDock::RobotsDock(const RobotsContext& context, QWidget* parent)
     if (isVisible() || !m_floating.empty()) refresh();
   });
   timer->start(refreshMilliseconds);
+  connect(context.source, &FrameSource::robotsRenamed, this, &RobotsDock::rename);
   connect(context.source, &FrameSource::restarted, this, [this] {
     m_tracker.reset();
     refresh();
@@ -77,7 +78,7 @@ std::vector<CardState> RobotsDock::states() {
   if (!other) return cards;
   for (CardState& card : cards) {
     if (const link::RobotFrame* robot = frame->robot(card.id)) {
-      const auto difference = poseDifference(*other, card.id, robot->pose);
+      const auto difference = poseDifference(*other, *robot);
       if (!difference) continue;
       const QString words = differenceText(*difference);
       card.detail = words + QStringLiteral(" · ") + card.detail;
@@ -100,7 +101,7 @@ void RobotsDock::showCards(const std::vector<CardState>& states) {
   m_empty->setVisible(states.empty());
   if (states.empty()) m_empty->setText(m_context.source->emptyText());
   for (auto known = m_cards.begin(); known != m_cards.end();) {
-    const RobotId id = (known++)->first;
+    const RobotKey id = (known++)->first;
     if (std::any_of(states.begin(), states.end(), [id](const auto& s) { return s.id == id; })) {
       continue;
     }
@@ -117,7 +118,7 @@ void RobotsDock::showCards(const std::vector<CardState>& states) {
   for (const CardState& state : states) {
     RobotCard*& card = m_cards[state.id];
     if (card == nullptr) {
-      card = makeCard(state.id);
+      card = makeCard();
       isNew = true;
     }
     card->setState(state);
@@ -129,6 +130,14 @@ void RobotsDock::showCards(const std::vector<CardState>& states) {
   showSelection();
 }
 
+void RobotsDock::rename(const std::vector<link::Renaming>& renamings) {
+  m_tracker.rename(renamings);
+  link::rename(m_cards, renamings);
+  link::rename(m_floating, renamings);
+  link::rename(m_byHand, renamings);
+  for (RobotKey& key : m_order) key = link::renamed(key, renamings);
+}
+
 void RobotsDock::collapseMany(std::size_t robots) {
   const bool isMany = robots >= many;
   if (std::exchange(m_isMany, isMany) == isMany) return;
@@ -137,15 +146,17 @@ void RobotsDock::collapseMany(std::size_t robots) {
   }
 }
 
-RobotCard* RobotsDock::makeCard(RobotId id) {
+RobotCard* RobotsDock::makeCard() {
   auto* card = new RobotCard(widget());
   card->setParts(m_parts);
   card->setCollapsed(m_isMany);
-  connect(card, &RobotCard::collapsedByHand, this, [this, id] { m_byHand.insert(id); });
-  connect(card, &RobotCard::clicked, this, [this, id, card](Qt::KeyboardModifiers modifiers) {
+  connect(card, &RobotCard::collapsedByHand, this,
+          [this, card] { m_byHand.insert(card->state().id); });
+  connect(card, &RobotCard::clicked, this, [this, card](Qt::KeyboardModifiers modifiers) {
     RobotSelection* selection = m_context.selection;
-    const std::vector<RobotId> ids =
-        modifiers & Qt::ControlModifier ? selection->toggled(id) : std::vector<RobotId>{id};
+    const RobotKey id = card->state().id;
+    const std::vector<RobotKey> ids =
+        modifiers & Qt::ControlModifier ? selection->toggled(id) : std::vector<RobotKey>{id};
     // Whoever goes from card to card by keys stays there.
     if (card->hasFocus())
       selection->set(ids);
@@ -161,7 +172,7 @@ RobotCard* RobotsDock::makeCard(RobotId id) {
 
 void RobotsDock::arrange() {
   int place = 0;
-  for (const RobotId id : m_order) {
+  for (const RobotKey id : m_order) {
     const auto card = m_cards.find(id);
     if (card == m_cards.end() || m_floating.count(id) != 0) continue;
     m_column->removeWidget(card->second);
@@ -171,22 +182,22 @@ void RobotsDock::arrange() {
 
 QList<RobotCard*> RobotsDock::cards() const {
   QList<RobotCard*> listed;
-  for (const RobotId id : m_order) {
+  for (const RobotKey id : m_order) {
     const auto card = m_cards.find(id);
     if (card != m_cards.end() && m_floating.count(id) == 0) listed.append(card->second);
   }
   return listed;
 }
 
-void RobotsDock::moveCard(RobotId id, qsizetype place) {
+void RobotsDock::moveCard(RobotKey id, qsizetype place) {
   QList<RobotCard*> listed = cards();
-  std::vector<RobotId> ids;
+  std::vector<RobotKey> ids;
   for (const RobotCard* card : listed) {
     if (card->state().id != id) ids.push_back(card->state().id);
   }
   const auto at = std::clamp<qsizetype>(place, 0, static_cast<qsizetype>(ids.size()));
-  const RobotId before =
-      at < static_cast<qsizetype>(ids.size()) ? ids[static_cast<std::size_t>(at)] : RobotId{};
+  const RobotKey before =
+      at < static_cast<qsizetype>(ids.size()) ? ids[static_cast<std::size_t>(at)] : RobotKey{};
   std::erase(m_order, id);
   m_order.insert(std::find(m_order.begin(), m_order.end(), before), id);
   arrange();
@@ -234,19 +245,19 @@ void RobotsDock::showDropMark(qsizetype place) {
 void RobotsDock::drop(RobotCard* card, const QPoint& at) {
   unsetCursor();
   m_dropMark->hide();
-  const RobotId id = card->state().id;
+  const RobotKey id = card->state().id;
   if (m_floating.count(id) != 0) return;
   if (viewport()->rect().contains(viewport()->mapFromGlobal(at))) return;
   floatCard(id);
   if (QDockWidget* window = floating(id)) window->move(at);
 }
 
-QDockWidget* RobotsDock::floating(RobotId id) const {
+QDockWidget* RobotsDock::floating(RobotKey id) const {
   const auto window = m_floating.find(id);
   return window == m_floating.end() ? nullptr : window->second;
 }
 
-void RobotsDock::floatCard(RobotId id) {
+void RobotsDock::floatCard(RobotKey id) {
   const auto card = m_cards.find(id);
   // Not window(): while this panel floats, that is its dock.
   QMainWindow* main = nullptr;
@@ -255,7 +266,7 @@ void RobotsDock::floatCard(RobotId id) {
   }
   if (card == m_cards.end() || m_floating.count(id) != 0 || main == nullptr) return;
   auto* dock = new QDockWidget(card->second->state().name, main);
-  dock->setObjectName(QStringLiteral("card-%1").arg(id.value));
+  dock->setObjectName(QStringLiteral("card-%1-%2-%3").arg(id.team).arg(id.number).arg(id.sender));
   m_column->removeWidget(card->second);
   dock->setWidget(card->second);
   dock->installEventFilter(this);
@@ -278,7 +289,7 @@ bool RobotsDock::eventFilter(QObject* watched, QEvent* event) {
   return QScrollArea::eventFilter(watched, event);
 }
 
-void RobotsDock::unfloat(RobotId id) {
+void RobotsDock::unfloat(RobotKey id) {
   QDockWidget* dock = m_floating.at(id);
   m_floating.erase(id);
   RobotCard* card = m_cards.at(id);

@@ -52,10 +52,12 @@ void RobotsDock::setParts(const CardParts& parts) {
 }
 
 void RobotsDock::addMatchActions(QMenu& menu, RobotCard* card) {
-  const RobotId id = card->state().id;
+  const RobotKey id = card->state().id;
   MatchController* controller = m_context.controller;
-  if (controller->edits()->robot(id) == nullptr) return;
-  addRobotMenus(&menu, controller, {id});
+  const FramePtr frame = m_context.source->frame();
+  const auto robots = frame ? frame->slotsOf({id}) : std::vector<RobotId>();
+  if (robots.empty() || controller->edits()->robot(robots.front()) == nullptr) return;
+  addRobotMenus(&menu, controller, robots);
   menu.addSeparator();
   menu.addAction(QStringLiteral("Pose…"), this,
                  [this, id] { emit m_context.selection->poseRequested(id); });
@@ -63,7 +65,7 @@ void RobotsDock::addMatchActions(QMenu& menu, RobotCard* card) {
                  [this, id] { emit m_context.selection->blackboardRequested(id); });
   menu.addAction(themedIcon(QStringLiteral("edit-delete")),
                  QStringLiteral("Remove %1").arg(card->state().name), controller,
-                 [controller, id] { controller->edits()->removeRobots({id}); });
+                 [controller, robots] { controller->edits()->removeRobots(robots); });
   menu.addSeparator();
 }
 
@@ -72,7 +74,7 @@ void RobotsDock::addCardActions(QMenu& menu) {
   QMenu* own = menu.addMenu(QStringLiteral("Cards"));
   if (!listed.isEmpty()) addPartActions(*own, listed.front());
   addListActions(*own);
-  for (const RobotId id : m_context.selection->ids()) {
+  for (const RobotKey id : m_context.selection->ids()) {
     const auto card = m_cards.find(id);
     if (card == m_cards.end()) continue;
     if (m_context.source->kind() == SourceKind::Live && m_context.live != nullptr) {
@@ -85,7 +87,7 @@ void RobotsDock::addCardActions(QMenu& menu) {
 }
 
 void RobotsDock::addForgetting(QMenu& menu, RobotCard* card) {
-  const RobotId id = card->state().id;
+  const RobotKey id = card->state().id;
   QAction* forget = menu.addAction(themedIcon(QStringLiteral("edit-delete")),
                                    QStringLiteral("Forget %1").arg(card->state().name),
                                    m_context.live, [this, id] { m_context.live->forget(id); });
@@ -136,7 +138,7 @@ void RobotsDock::addPartActions(QMenu& menu, RobotCard* card) {
 }
 
 void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
-  const RobotId id = card->state().id;
+  const RobotKey id = card->state().id;
   QMenu menu(this);
   if (m_context.source->kind() == SourceKind::Simulate) {
     addMatchActions(menu, card);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include <robotlink/frame/second_sender.h>
 #include <robotlink/live/live_teams.h>
 #include <telemetry/series/series_store.h>
 
@@ -20,10 +19,10 @@ class RowKeeper : public link::LiveObserver {
   RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, const link::LiveOptions& options,
             telemetry::WallTime zero)
       : m_zero(zero), m_rows(store, link::rowsOptions(options, zero)), m_boards(store) {}
-  void heard(RobotId id, double, const telemetry::DatagramView& datagram,
+  void heard(const RobotKey& robot, double, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder,
              const telemetry::DecodedText& decoded) override {
-    m_rows.take(datagram, decoded, decoder, link::slotOf(id));
+    m_rows.take(datagram, decoded, decoder, robot.sender);
     const auto& refused = m_rows.refused();
     m_refusedRows.store(refused.rows, std::memory_order_relaxed);
     m_refusedValues.store(refused.values, std::memory_order_relaxed);
@@ -111,8 +110,8 @@ void LiveController::clear() {
   emit restarted();
 }
 
-void LiveController::forget(RobotId id) {
-  if (m_watch) m_watch->forget(id);
+void LiveController::forget(const RobotKey& robot) {
+  if (m_watch) m_watch->forget(robot);
 }
 
 telemetry::LiveRows::Refused LiveController::refusedRows() const {

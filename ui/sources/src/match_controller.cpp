@@ -214,7 +214,13 @@ void MatchController::take(Opening& opening) {
 void MatchController::poll() {
   if (!m_runner) return;
   if (FramePtr frame = m_runner->latest(m_frame ? m_frame->serial : 0)) {
+    std::vector<link::Renaming> renamings;
+    for (const link::RobotFrame& now : frame->robots) {
+      const link::RobotFrame* before = m_frame ? m_frame->robot(now.slot()) : nullptr;
+      if (before != nullptr && before->key != now.key) renamings.push_back({before->key, now.key});
+    }
     m_frame = std::move(frame);
+    if (!renamings.empty()) emit robotsRenamed(renamings);
     emit frameReceived(m_frame);
   }
   // A receiver may have opened another match.

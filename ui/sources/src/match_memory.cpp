@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <robotlink/frame/drawing_origin.h>
 #include <robotlink/session/match_sampler.h>
 #include <robotlink/session/moment_reader.h>
 #include <ui/base/robot_words.h>
@@ -80,6 +81,7 @@ FramePtr MatchMemory::frameAt(double time) const {
     return nullptr;
   }
   past->drawings = m_drawn.at(*m_drawings, time);
+  link::keyDrawings(*past);
   // Rows do not tell what was changed by hand while the match ran.
   const auto tick =
       static_cast<std::uint64_t>(std::llround(std::max(past->snapshot.time, 0.0) * past->tickRate));

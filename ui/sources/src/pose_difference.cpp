@@ -1,18 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/sources/pose_difference.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <base/angles.h>
 
 namespace pitchboard::ui {
 
-std::optional<PoseDifference> poseDifference(const link::MatchFrame& other, RobotId id,
-                                             const Pose& here) {
-  const link::RobotFrame* robot = other.robot(id);
-  if (robot == nullptr || !robot->poseKnown() || robot->timedOut()) return std::nullopt;
-  return PoseDifference{robot->pose, distance(robot->pose.position, here.position),
-                        std::abs(wrapToPi(robot->pose.yaw - here.yaw))};
+namespace {
+
+/// 1240 + this is its port; 0: it has none.
+int portOf(const link::RobotFrame& robot) {
+  if (robot.slot().value != 0) return robot.slot().value;
+  return robot.key.team <= 1 && robot.key.sender == 0 ? robot.key.number : 0;
+}
+
+}  // namespace
+
+std::optional<PoseDifference> poseDifference(const link::MatchFrame& other,
+                                             const link::RobotFrame& here) {
+  const int port = portOf(here);
+  const auto robot = std::ranges::find(other.robots, port, portOf);
+  if (port == 0 || robot == other.robots.end() || !robot->poseKnown() || robot->timedOut()) {
+    return std::nullopt;
+  }
+  return PoseDifference{robot->pose, distance(robot->pose.position, here.pose.position),
+                        std::abs(wrapToPi(robot->pose.yaw - here.pose.yaw))};
 }
 
 QString differenceText(const PoseDifference& difference) {

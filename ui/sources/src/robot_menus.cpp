@@ -136,7 +136,7 @@ void addRuntimeMenu(QMenu* menu, MatchController* controller, const std::vector<
     std::vector<RobotId> others;
     if (const FramePtr frame = controller->frame()) {
       for (const link::RobotFrame& robot : frame->robots) {
-        if (robot.id() != ids.front()) others.push_back(robot.id());
+        if (robot.slot() != ids.front()) others.push_back(robot.slot());
       }
     }
     choose(others, {std::string(link::referenceRuntime), {}, {}});

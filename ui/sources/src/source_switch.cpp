@@ -27,6 +27,7 @@ void SourceSwitch::choose(FrameSource* source) {
 }
 
 void SourceSwitch::follow() {
+  connect(m_current, &FrameSource::robotsRenamed, this, &FrameSource::robotsRenamed);
   connect(m_current, &FrameSource::frameReceived, this, [this](const FramePtr& frame) {
     if (m_past)
       emit newestChanged();

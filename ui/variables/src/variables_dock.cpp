@@ -75,7 +75,7 @@ class VariablesDock : public QWidget {
             [this] { allowEditing(m_lock->isChecked()); });
     if (context.selection != nullptr) {
       connect(context.selection, &RobotSelection::blackboardRequested, this,
-              [this](RobotId id) { showBlackboard(id); });
+              [this](const RobotKey& robot) { showBlackboard(robot); });
     }
     connect(m_timer, &QTimer::timeout, this, [this] { poll(); });
     constexpr int pollMilliseconds = 100;
@@ -244,9 +244,9 @@ class VariablesDock : public QWidget {
   }
 
   /// The variables of one robot, in front of everything, and where others find them.
-  void showBlackboard(RobotId id) {
+  void showBlackboard(const RobotKey& key) {
     const FramePtr frame = m_context.source->frame();
-    const link::RobotFrame* robot = frame ? frame->robot(id) : nullptr;
+    const link::RobotFrame* robot = frame ? frame->robot(key) : nullptr;
     if (robot == nullptr) return;
     m_stars->setChecked(false);
     m_changed->setChecked(false);

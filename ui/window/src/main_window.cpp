@@ -231,7 +231,7 @@ void MainWindow::showPalette() {
   if (const FramePtr frame = m_source->frame()) {
     for (const link::RobotFrame& robot : frame->robots) {
       entries.push_back({robotName(robot.identity), QStringLiteral("robot"),
-                         [this, id = robot.id()] { m_selection->set({id}); }});
+                         [this, id = robot.key] { m_selection->set({id}); }});
     }
   }
   for (const QString& name : m_plotsDock->variables()) {

@@ -141,10 +141,10 @@ void StudioMenus::makeEdit() {
   menu->addSeparator();
   withIcon(menu->addAction(QStringLiteral("Select &all robots"), selection,
                            [source, selection] {
-                             std::vector<RobotId> all;
+                             std::vector<RobotKey> all;
                              if (const FramePtr frame = source->frame()) {
                                for (const auto& robot : frame->robots) {
-                                 all.push_back(robot.identity.id);
+                                 all.push_back(robot.key);
                                }
                              }
                              selection->set(all);
@@ -156,8 +156,11 @@ void StudioMenus::makeEdit() {
            "edit-find", QKeySequence(Qt::CTRL | Qt::Key_K));
   // The Delete key itself belongs to the field, so that it also works in text boxes elsewhere.
   QAction* remove = menu->addAction(
-      QStringLiteral("&Delete selected robots"), controller,
-      [controller, selection] { controller->edits()->removeRobots(selection->ids()); });
+      QStringLiteral("&Delete selected robots"), controller, [controller, selection] {
+        if (const FramePtr frame = controller->frame()) {
+          controller->edits()->removeRobots(frame->slotsOf(selection->ids()));
+        }
+      });
   withIcon(remove, "edit-delete");
   remove->setEnabled(false);
   QObject::connect(selection, &RobotSelection::changed, remove, [remove, source](const auto& ids) {

@@ -15,4 +15,8 @@ namespace pitchboard::link {
 std::optional<Pose> drawingOrigin(telemetry::DrawingFrame frame, const RobotFrame* robot,
                                   const sim::FieldSpec& field);
 
+/// Programs of a simulated match name themselves by their slots: the frame's drawings get the keys
+/// of those robots.
+void keyDrawings(MatchFrame& frame);
+
 }  // namespace pitchboard::link

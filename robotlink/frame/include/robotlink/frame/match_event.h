@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include <base/ids.h>
 #include <base/log_line.h>
+#include <base/robot_key.h>
 #include <simcore/world/event.h>
 #include <simcore/world/world_state.h>
 
@@ -68,7 +68,7 @@ enum class Side : std::uint8_t { Left, Right };
 struct MatchEvent {
   MatchEventKind kind = MatchEventKind::Other;
   double time = 0.0;
-  RobotId robot{};             ///< 0: none, or not known any more
+  RobotKey robot{};            ///< number 0: none, or not known any more
   std::string name{};          ///< of the robot at that time, "B1"; empty: no robot
   std::optional<Side> side{};  ///< of the team that scored
   int team = 0;                ///< the referee's number of that team; 0: none
@@ -119,7 +119,7 @@ std::string_view sideName(Side side);
 std::optional<Side> sideNamed(std::string_view name);
 
 /// An event of this robot.
-MatchEvent eventOf(MatchEventKind kind, double time, const sim::RobotIdentity& robot);
+MatchEvent eventOf(MatchEventKind kind, double time, const RobotKey& robot, std::string name);
 /// The team that defends this side: that of the first robot that faces away from it; without one
 /// blue on the left and red on the right.
 TeamColor teamOn(Side side, std::span<const sim::RobotIdentity> robots);

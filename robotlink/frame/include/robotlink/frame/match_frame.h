@@ -13,6 +13,7 @@
 #include <base/log_line.h>
 #include <robotlink/frame/live_values.h>
 #include <robotlink/frame/robot_frame.h>
+#include <robotlink/frame/teams.h>
 #include <simcore/world/field.h>
 #include <simcore/world/noise.h>
 #include <simcore/world/snapshot.h>
@@ -31,6 +32,7 @@ struct MatchFrame {
   std::uint64_t serial = 0;  ///< grows with every frame
   sim::GameSnapshot snapshot;
   std::vector<RobotFrame> robots;
+  Teams teams;                                     ///< what RobotKey::team counts
   std::vector<telemetry::RobotDrawings> drawings;  ///< of the robots' programs (docs/DRAWINGS.md)
   std::string drawingProblem;                      ///< why the last one was not drawn; or empty
   std::optional<RefereeView> referee;              ///< once one was heard
@@ -56,11 +58,28 @@ struct MatchFrame {
   std::uint64_t droppedEvents = 0;  ///< nobody took them in time
   std::uint64_t droppedLogLines = 0;
 
-  /// The robot with this id; null when it is not there.
-  const RobotFrame* robot(RobotId id) const {
-    const auto found = std::find_if(robots.begin(), robots.end(),
-                                    [id](const RobotFrame& robot) { return robot.id() == id; });
+  /// This robot; null when it is not there.
+  const RobotFrame* robot(const RobotKey& key) const {
+    const auto found = std::ranges::find(robots, key, &RobotFrame::key);
     return found == robots.end() ? nullptr : &*found;
+  }
+  /// The robot of a simulated match with this blackboard; null when it is not there.
+  const RobotFrame* robot(RobotId slot) const {
+    const auto found = std::ranges::find(robots, slot, &RobotFrame::slot);
+    return found == robots.end() ? nullptr : &*found;
+  }
+  /// This key, or the next sender's that no robot has.
+  RobotKey freeKey(RobotKey key) const {
+    while (robot(key) != nullptr) ++key.sender;
+    return key;
+  }
+  /// For orders to robots of a simulated match: their slots, without those that are not there.
+  std::vector<RobotId> slotsOf(const std::vector<RobotKey>& keys) const {
+    std::vector<RobotId> found;
+    for (const RobotKey& key : keys) {
+      if (const RobotFrame* one = robot(key)) found.push_back(one->slot());
+    }
+    return found;
   }
 };
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <base/robot_key.h>
 #include <robotlink/cognition/robot_thoughts.h>
 #include <robotlink/frame/live_values.h>
 #include <robotlink/processes/process_manager.h>
@@ -37,6 +38,8 @@ struct RobotBoardView {
 /// A robot's snapshot, and what else is known of it. A snapshot that nobody knows to be true is
 /// what the robot believes (MatchFrame::truthKnown).
 struct RobotFrame : sim::RobotSnapshot {
+  RobotKey key;                           ///< who it is, whatever the source
+  std::string name;                       ///< robotName() of the key
   std::optional<RobotBoardView> board;    ///< nothing: nobody knows it
   std::optional<RobotHealth> health;      ///< of a robot that is heard by network
   std::optional<Penalty> penalty;         ///< of a simulated referee
@@ -48,7 +51,8 @@ struct RobotFrame : sim::RobotSnapshot {
   std::string runtime;    ///< who runs, as it was chosen for it; empty: nothing was
   bool ofOthers = false;  ///< its processes were started by somebody else, if by anybody
 
-  RobotId id() const { return identity.id; }
+  /// Number of its blackboard in a simulated match, for orders to it; 0 for robots of others.
+  RobotId slot() const { return identity.id; }
   /// Those that were started for it, in order.
   std::span<const ProcessStatus> processes() const {
     return processList ? std::span<const ProcessStatus>(*processList)

@@ -11,22 +11,6 @@
 
 namespace pitchboard::link {
 
-/// The id of such a robot is its number and this: no robot that is heard, and no second sender of
-/// its number, has it.
-inline constexpr int attachedStep = 65536 * 1000;
-
-constexpr bool isAttached(RobotId id) {
-  return id.value > attachedStep;
-}
-
-/// Of the board of this number, when the other ids of the frame are taken.
-template <class IsTaken>
-RobotId idOfBoard(int number, IsTaken&& isTaken) {
-  RobotId id{number + attachedStep};
-  while (isTaken(id)) id.value += 1000;
-  return id;
-}
-
 struct BoardHeard {
   double age = 0.0;   ///< s, of the newest sample
   double rate = 0.0;  ///< samples a second, while there is a segment

@@ -18,6 +18,9 @@ telemetry::Surroundings surroundingsOf(const sim::FieldSpec& field);
 /// The options of the monitor with the field of Live in them.
 telemetry::MonitorOptions monitorOptions(const LiveOptions& options);
 
+/// Of a robot's number over all teams (RobotStatus::number) and its slot.
+RobotKey keyOf(const LiveOptions& options, int robot, int slot);
+
 /// Of a robot's number over all teams (RobotStatus::number): the colour that it is drawn in.
 /// `ours`: of a team without a colour, as the referee says it.
 TeamColor colourOf(const LiveOptions& options, int robot, TeamColor ours,

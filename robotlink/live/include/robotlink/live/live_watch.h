@@ -66,8 +66,8 @@ class LiveObserver {
  public:
   virtual ~LiveObserver() = default;
   /// `time`: seconds since the watch began, of the arrival. `decoded` and the datagram are valid
-  /// during the call only. `id` as in the frames (<robotlink/frame/second_sender.h>).
-  virtual void heard(RobotId /*id*/, double /*time*/, const telemetry::DatagramView&,
+  /// during the call only. `robot` as in the frames.
+  virtual void heard(const RobotKey& /*robot*/, double /*time*/, const telemetry::DatagramView&,
                      const telemetry::TextDecoder&, const telemetry::DecodedText&) {}
   virtual void refereeHeard(double /*time*/, const telemetry::DatagramView&,
                             const telemetry::RefereeState&) {}
@@ -107,7 +107,7 @@ class LiveWatch {
   /// Forgets robots, referee and counters.
   void clear();
   /// Forgets one robot or second sender; it appears again when it is heard.
-  void forget(RobotId id);
+  void forget(const RobotKey& robot);
 
   /// The newest frame; calling it asks for the next `onFrame`. Null before the first.
   std::shared_ptr<const MatchFrame> latest();

@@ -18,7 +18,7 @@ class LiveRecords : public LiveObserver {
  public:
   explicit LiveRecords(int refereePort) : m_refereePort(refereePort) {}
 
-  void heard(RobotId id, double time, const telemetry::DatagramView& datagram,
+  void heard(const RobotKey& robot, double time, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder, const telemetry::DecodedText& decoded) override;
   void refereeHeard(double time, const telemetry::DatagramView& datagram,
                     const telemetry::RefereeState& state) override;

@@ -37,7 +37,7 @@ class LiveRecorder : public LiveRecords {
   ~LiveRecorder() override;
 
   // The watch's thread.
-  void heard(RobotId id, double time, const telemetry::DatagramView& datagram,
+  void heard(const RobotKey& robot, double time, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder, const telemetry::DecodedText& decoded) override;
   void happened(const MatchEvent& event) override;
   void adopted(const LiveOptions& options) override;

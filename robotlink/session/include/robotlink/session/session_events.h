@@ -16,8 +16,7 @@ telemetry::SessionEvent sessionEvent(const MatchEvent& event);
 /// the words are kept.
 MatchEvent matchEvent(const telemetry::SessionEvent& event);
 
-/// All of a session in order of time. Where old events have no number of their robot, it is that of
-/// the robot's rows.
+/// All of a session in order of time. Events of 0.8 get the key of their robot from its rows.
 std::vector<MatchEvent> eventsOf(const telemetry::SessionReader& session);
 
 }  // namespace pitchboard::link

@@ -45,7 +45,9 @@ inline constexpr std::size_t sessionStreamCount = 7;
 
 /// What is known of an event besides its time and kind, for programs. Empty or 0: does not apply.
 struct EventFacts {
-  int robot = 0;                             ///< number of its blackboard and port
+  int robot = 0;                             ///< number on its shirt; until 0.8: of its blackboard
+  std::optional<int> robotTeam;              ///< its RobotKey::team; nothing until 0.8
+  int sender = 0;                            ///< its RobotKey::sender
   std::string side;                          ///< "left" or "right"
   int team = 0;                              ///< the referee's number
   std::string colour;                        ///< of the team: "blue"

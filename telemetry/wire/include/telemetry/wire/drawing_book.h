@@ -13,24 +13,25 @@
 #include <string_view>
 #include <vector>
 
+#include <base/robot_key.h>
 #include <telemetry/wire/drawings.h>
 
 namespace pitchboard::telemetry {
 
 /// The layers of one robot, by name; what is pointed to never changes.
 struct RobotDrawings {
-  int robot = 0;  ///< over all teams (team_setup.h)
+  RobotKey robot;  ///< of the first sender of its number
   std::vector<std::shared_ptr<const DrawingLayer>> layers;
   bool operator==(const RobotDrawings& other) const;
 };
 
 class DrawingBook {
  public:
-  /// A drawing that was heard at this time. `firstOfTeam` is added to its robot's number. Errors as
+  /// A drawing that was heard at this time, of a robot of `team` (RobotKey::team). Errors as
   /// parseDrawing(), and what is more than the limits allow a robot; they are counted, and nothing
   /// has changed then.
-  Result<void> take(std::string_view text, double time, int firstOfTeam = 0);
-  Result<void> take(Drawing drawing, double time, int firstOfTeam = 0);
+  Result<void> take(std::string_view text, double time, int team = 0);
+  Result<void> take(Drawing drawing, double time, int team = 0);
 
   /// By robot; none without a layer.
   std::vector<RobotDrawings> at(double time) const;
@@ -47,6 +48,7 @@ class DrawingBook {
   /// What makes this book again, layer by layer: the text, and when it was heard.
   struct Page {
     double time = 0.0;
+    int team = 0;
     std::string text;
   };
   std::vector<Page> pages(double time) const;
@@ -60,7 +62,7 @@ class DrawingBook {
   using Layers = std::map<std::string, Shown>;
   void forgetOld(double time);
 
-  std::map<int, Layers> m_robots;
+  std::map<RobotKey, Layers> m_robots;
   std::uint64_t m_refused = 0;
   std::string m_lastProblem;
 };

@@ -107,8 +107,8 @@ class TeamMonitor {
   /// Takes one datagram. `decoded()` then holds its values until the next call.
   Verdict take(const DatagramView& datagram);
   const DecodedText& decoded() const { return m_decoded; }
-  /// TeamRouter::firstOfTeam(); nothing for senders that are not on the list.
-  std::optional<int> firstOfTeam(const DatagramView& datagram, std::optional<int> team) const;
+  /// TeamRouter::placeOf(); nothing for senders that are not on the list.
+  std::optional<int> placeOf(const DatagramView& datagram, std::optional<int> team) const;
 
   /// From now on messages are read in this order; health and counters stay.
   void setProfile(Profile profile);

@@ -75,9 +75,9 @@ class TeamRouter {
   /// Reads a datagram as its team writes: the first one whose ports and senders fit and whose
   /// format it has. The robot's number is that over all teams. Null: it comes from no team.
   std::shared_ptr<const TextDecoder> decode(const DatagramView& datagram, DecodedText& out) const;
-  /// What is added to the numbers of robots whose datagrams come like this one, from the team with
-  /// the referee's number `team` where it says one. Nothing: it comes from no team.
-  std::optional<int> firstOfTeam(const DatagramView& datagram, std::optional<int> team) const;
+  /// RobotKey::team of robots whose datagrams come like this one, from the team with the referee's
+  /// number `team` where it says one. Nothing: it comes from no team.
+  std::optional<int> placeOf(const DatagramView& datagram, std::optional<int> team) const;
 
  private:
   struct Team {

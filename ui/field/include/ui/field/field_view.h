@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include <base/ids.h>
+#include <base/robot_key.h>
 #include <ui/field/field_layers.h>
 #include <ui/sources/field_pictures.h>
 #include <ui/sources/match_controller.h>
@@ -35,11 +35,11 @@ class FieldView : public QWidget, public FieldPictures {
   /// A moment of another session, drawn over this one; null: none.
   void showCompared(const FramePtr& frame);
 
-  std::vector<RobotId> selection() const;
-  void select(const std::vector<RobotId>& ids);
+  std::vector<RobotKey> selection() const;
+  void select(const std::vector<RobotKey>& ids);
   /// Keeps this robot in the middle of the view; nothing ends it.
-  void follow(std::optional<RobotId> id);
-  std::optional<RobotId> followed() const;
+  void follow(std::optional<RobotKey> id);
+  std::optional<RobotKey> followed() const;
   /// One checkable action per FieldLayer, in that order, for menus; also on the tool strip.
   std::vector<QAction*> layerActions() const;
   /// How layers look: field of view of all robots, granularity of EOPRA; also on the tool strip.
@@ -49,7 +49,7 @@ class FieldView : public QWidget, public FieldPictures {
   /// What can be done with the selected robots, with all of them and the ball, for the menu bar.
   void fillRobotsMenu(QMenu* menu);
   /// Opens the editor for the pose of this robot.
-  void editPose(RobotId id);
+  void editPose(RobotKey id);
   void setFlipped(bool flipped);
   bool isFlipped() const;
   QSize pictureSize(QSize within) const override;
@@ -58,11 +58,11 @@ class FieldView : public QWidget, public FieldPictures {
   std::unique_ptr<FramePainter> framePainter() const override;
 
  signals:
-  void selectionChanged(const std::vector<pitchboard::RobotId>& ids);
-  void followedChanged(std::optional<pitchboard::RobotId> id);
+  void selectionChanged(const std::vector<pitchboard::RobotKey>& ids);
+  void followedChanged(std::optional<pitchboard::RobotKey> id);
   /// Cursor in metres on the field; not valid when the cursor left it.
   void cursorMoved(QPointF metres, bool valid);
-  void blackboardRequested(pitchboard::RobotId id);
+  void blackboardRequested(pitchboard::RobotKey id);
   void saveScenarioRequested();
   void loadMatchRequested();  ///< F2
   void resetRequested();      ///< F3

@@ -35,7 +35,7 @@ struct CardState {
   static constexpr std::array<const char*, lampCount> processes{"communication", "vision",
                                                                 "localization", "decision", "IMU"};
 
-  RobotId id;
+  RobotKey id;
   TeamColor team = TeamColor::Blue;
   int number = 0;
   QString name;
@@ -73,6 +73,7 @@ class CardTracker {
  public:
   /// `milliseconds`: any monotonic real time. One entry per robot of the frame, in its order.
   std::vector<CardState> update(const link::MatchFrame& frame, qint64 milliseconds);
+  void rename(const std::vector<link::Renaming>& renamings) { link::rename(m_robots, renamings); }
   /// Forgets everything: another match.
   void reset() {
     m_robots.clear();
@@ -87,7 +88,7 @@ class CardTracker {
     std::array<Lamp, CardState::lampCount> lamps{};
   };
   void updateLamps(History& history, const link::RobotFrame& robot, bool still);
-  std::map<RobotId, History> m_robots;
+  std::map<RobotKey, History> m_robots;
   qint64 m_playing = 0;  // ms in which the match went on
   qint64 m_last = -1;
   qint64 m_changed = 0;  // when the frame's serial last changed, real ms

@@ -46,10 +46,10 @@ class RobotsDock : public QScrollArea {
   QList<RobotCard*> cards() const;
   void setAllCollapsed(bool collapsed);
   /// Gives the card a window of its own; closing that puts it back.
-  void floatCard(RobotId id);
-  QDockWidget* floating(RobotId id) const;
+  void floatCard(RobotKey id);
+  QDockWidget* floating(RobotKey id) const;
   /// Puts the card before the one at this place of the list.
-  void moveCard(RobotId id, qsizetype place);
+  void moveCard(RobotKey id, qsizetype place);
   void setParts(const CardParts& parts);
   const CardParts& parts() const { return m_parts; }
   /// What concerns the cards, for the menu bar.
@@ -66,9 +66,10 @@ class RobotsDock : public QScrollArea {
   std::vector<CardState> states();
   void showSelection();
   void showCards(const std::vector<CardState>& states);
-  RobotCard* makeCard(RobotId id);
+  RobotCard* makeCard();
+  void rename(const std::vector<link::Renaming>& renamings);
   void arrange();
-  void unfloat(RobotId id);
+  void unfloat(RobotKey id);
   void follow(RobotCard* card, const QPoint& globalPosition);
   void drop(RobotCard* card, const QPoint& globalPosition);
   void loadParts();
@@ -85,10 +86,10 @@ class RobotsDock : public QScrollArea {
   CardTracker m_tracker;
   QElapsedTimer m_clock;
   CardParts m_parts;
-  std::map<RobotId, RobotCard*> m_cards;
-  std::map<RobotId, QDockWidget*> m_floating;
-  std::vector<RobotId> m_order;  // of all robots ever seen here
-  std::set<RobotId> m_byHand;    // collapsed or opened by the user
+  std::map<RobotKey, RobotCard*> m_cards;
+  std::map<RobotKey, QDockWidget*> m_floating;
+  std::vector<RobotKey> m_order;  // of all robots ever seen here
+  std::set<RobotKey> m_byHand;    // collapsed or opened by the user
   bool m_isMany = false;
   QFrame* m_dropMark;
   QVBoxLayout* m_column;

@@ -46,7 +46,7 @@ class LiveController : public FrameSource {
   /// Forgets robots, referee and counters, and goes on listening.
   void clear();
   /// Forgets one robot, or one of two programs that send its number; its curves stay.
-  void forget(RobotId id);
+  void forget(const RobotKey& robot);
 
   SourceKind kind() const override { return SourceKind::Live; }
   FramePtr frame() const override { return m_frame; }

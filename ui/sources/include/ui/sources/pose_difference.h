@@ -16,10 +16,11 @@ struct PoseDifference {
   double radians = 0.0;  ///< of the heading, 0 to π
 };
 
-/// Robots are the same when their ids are: telemetry port 1240 + id. Nothing when the other source
-/// does not know this robot's pose, or has not heard it for long.
-std::optional<PoseDifference> poseDifference(const link::MatchFrame& other, RobotId id,
-                                             const Pose& here);
+/// Robots are the same when they have the same telemetry port: a live robot's number is a simulated
+/// one's slot. Nothing when the other source does not know this robot's pose, or has not heard it
+/// for long.
+std::optional<PoseDifference> poseDifference(const link::MatchFrame& other,
+                                             const link::RobotFrame& here);
 /// "12 cm 4°".
 QString differenceText(const PoseDifference& difference);
 

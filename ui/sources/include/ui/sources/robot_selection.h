@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include <base/ids.h>
+#include <base/robot_key.h>
 
 namespace pitchboard::ui {
 
@@ -18,18 +18,18 @@ class RobotSelection : public QObject {
  public:
   using QObject::QObject;
 
-  const std::vector<RobotId>& ids() const { return m_ids; }
-  bool contains(RobotId id) const {
+  const std::vector<RobotKey>& ids() const { return m_ids; }
+  bool contains(RobotKey id) const {
     return std::find(m_ids.begin(), m_ids.end(), id) != m_ids.end();
   }
-  void set(const std::vector<RobotId>& ids) {
+  void set(const std::vector<RobotKey>& ids) {
     if (ids == m_ids) return;
     m_ids = ids;
     emit changed(m_ids);
   }
   /// With this robot in it, or without, if it was there.
-  std::vector<RobotId> toggled(RobotId id) const {
-    std::vector<RobotId> ids = m_ids;
+  std::vector<RobotKey> toggled(RobotKey id) const {
+    std::vector<RobotKey> ids = m_ids;
     const auto found = std::find(ids.begin(), ids.end(), id);
     if (found != ids.end())
       ids.erase(found);
@@ -37,32 +37,32 @@ class RobotSelection : public QObject {
       ids.push_back(id);
     return ids;
   }
-  void toggle(RobotId id) { set(toggled(id)); }
+  void toggle(RobotKey id) { set(toggled(id)); }
 
   /// The same by a mouse outside of the field, to which the keys then belong: `chosen`.
-  void choose(const std::vector<RobotId>& ids) {
+  void choose(const std::vector<RobotKey>& ids) {
     set(ids);
     emit chosen();
   }
 
-  std::optional<RobotId> followed() const { return m_followed; }
-  void follow(std::optional<RobotId> id) {
+  std::optional<RobotKey> followed() const { return m_followed; }
+  void follow(std::optional<RobotKey> id) {
     if (id == m_followed) return;
     m_followed = id;
     emit followedChanged(id);
   }
 
  signals:
-  void changed(const std::vector<pitchboard::RobotId>& ids);
-  void followedChanged(std::optional<pitchboard::RobotId> id);
+  void changed(const std::vector<pitchboard::RobotKey>& ids);
+  void followedChanged(std::optional<pitchboard::RobotKey> id);
   void chosen();
   // Asked for in one part of the window, opened by another.
-  void poseRequested(pitchboard::RobotId id);
-  void blackboardRequested(pitchboard::RobotId id);
+  void poseRequested(pitchboard::RobotKey id);
+  void blackboardRequested(pitchboard::RobotKey id);
 
  private:
-  std::vector<RobotId> m_ids;
-  std::optional<RobotId> m_followed;
+  std::vector<RobotKey> m_ids;
+  std::optional<RobotKey> m_followed;
 };
 
 }  // namespace pitchboard::ui
