@@ -8,15 +8,8 @@
 namespace pitchboard::telemetry {
 namespace {
 
-struct FormatName {
-  ExportFormat format;
-  std::string_view name, extension;
-};
-constexpr std::array<FormatName, 5> formats{{{ExportFormat::CsvWide, "csv-wide", ".csv"},
-                                             {ExportFormat::CsvLong, "csv-long", ".csv"},
-                                             {ExportFormat::JsonLines, "jsonl", ".jsonl"},
-                                             {ExportFormat::Mcap, "mcap", ".mcap"},
-                                             {ExportFormat::CsvEven, "csv-even", ".csv"}}};
+constexpr std::array<std::string_view, 5> formats{"csv-wide", "csv-long", "jsonl", "mcap",
+                                                  "csv-even"};
 
 /// `*` stands for any letters, also none. Linear in the text for every star.
 bool matches(std::string_view pattern, std::string_view text) {
@@ -42,16 +35,11 @@ bool matches(std::string_view pattern, std::string_view text) {
 }  // namespace
 
 Result<ExportFormat> exportFormat(std::string_view name) {
-  for (const FormatName& format : formats) {
-    if (format.name == name) return format.format;
-  }
+  const auto found = std::ranges::find(formats, name);
+  if (found != formats.end()) return static_cast<ExportFormat>(found - formats.begin());
   return failure(ErrorCode::InvalidArgument,
                  "The format must be csv-wide, csv-even, csv-long, jsonl or mcap, not \"" +
                      std::string(name.substr(0, 40)) + "\".");
-}
-
-std::string_view fileExtension(ExportFormat format) {
-  return formats[static_cast<std::size_t>(format)].extension;
 }
 
 Result<void> checkRange(TimeRange range) {

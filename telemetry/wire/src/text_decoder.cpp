@@ -69,10 +69,6 @@ const Profile& TextDecoder::profile() const {
   return m_plan->published.shown();
 }
 
-const Profile& TextDecoder::sentProfile() const {
-  return m_plan->sent;
-}
-
 void TextDecoder::decode(std::string_view datagram, DecodedText& out) const {
   out.robot = 0;
   out.team.reset();

@@ -26,8 +26,6 @@ enum class ExportFormat : std::uint8_t {
 };
 /// "csv-wide", "csv-long", "jsonl", "mcap", "csv-even". Error InvalidArgument names them.
 Result<ExportFormat> exportFormat(std::string_view name);
-/// ".csv", ".jsonl", ".mcap".
-std::string_view fileExtension(ExportFormat format);
 
 /// What CsvEven writes between rows. A row counts for at most 10 s: behind that is a hole.
 struct Resampling {

@@ -67,8 +67,6 @@ class TextDecoder {
   /// Of the values that come out: variables under their published names, and behind the message's
   /// own fields those that were made of them.
   const Profile& profile() const;
-  /// As it was given.
-  const Profile& sentProfile() const;
 
   /// Never reads outside the datagram. Words, key=value and binary messages allocate nothing; the
   /// others memory in proportion to the datagram. Numbers are read the same in every locale. White

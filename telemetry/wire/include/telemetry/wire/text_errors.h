@@ -35,9 +35,6 @@ inline constexpr std::size_t textErrorCount = 15;
 std::string_view errorName(TextError error);
 /// "no OUT at the end": for the screen.
 std::string_view errorWords(TextError error);
-constexpr bool refuses(TextError error) {
-  return error <= TextError::BadFormat;
-}
 
 /// A set of errors in one word.
 class TextErrors {
