@@ -83,7 +83,9 @@ class Simulation {
   /// A call of the referee, between two steps. Refused (Conflict) when the state of the game does
   /// not allow it, and when there is no referee. What it does is in events() of the next step.
   Result<void> call(const RefereeCall& call);
-  /// Puts a referee's rules in, or takes the referee away; the game begins anew.
+  /// Puts a referee's rules in, or takes the referee away; the game begins anew, and all robots of
+  /// a team are told to attack the same goal. Error InvalidArgument for rules out of their range,
+  /// and when more than two teams are on the field; nothing has changed then.
   Result<void> setReferee(const std::optional<RefereeRules>& rules);
 
   /// For conformance runs and scripts that speak the published frame: the state may be edited
