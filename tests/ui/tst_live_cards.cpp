@@ -72,6 +72,23 @@ class TestLiveCards : public QObject {
     QCOMPARE(s.cards()[0]->state().tag, QStringLiteral("number sent twice"));
   }
 
+  void cardsOfOurTeamComeFirst() {
+    Studio s;
+    link::LiveOptions options = s.options;
+    options.team.teams.resize(2);
+    for (int i = 0; i < 2; ++i) {
+      telemetry::TeamSetup& team = options.team.teams[static_cast<std::size_t>(i)];
+      team.firstPort = team.lastPort = options.portBase + 1 + i;
+    }
+    s.live()->setOptions(options);
+    s.goLive();
+    QVERIFY(Robot(s.options, 2).say());  // a guest
+    QTRY_COMPARE(s.cards().size(), qsizetype(1));
+    QVERIFY(Robot(s.options, 1).say());
+    QTRY_COMPARE(s.cards().size(), qsizetype(2));
+    QVERIFY(s.cards()[0]->state().id == blue(1) && s.cards()[1]->state().id == red(2));
+  }
+
   void lowBatteryAndSilentProcess() {
     Studio s;
     s.goLive();

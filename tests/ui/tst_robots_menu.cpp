@@ -105,6 +105,8 @@ class TestRobotsMenu : public QObject {
     QTRY_COMPARE(s.controller.frame()->robot(RobotId{2})->board->actionA, 5);
     QVERIFY(s.trigger({"Number", "9"}));
     QTRY_COMPARE(s.controller.frame()->robot(RobotId{2})->identity.number, 9);
+    QTRY_COMPARE(s.window.field()->selection(), std::vector{blue(9)});
+    QTRY_COMPARE(s.cards()[1]->state().name, QStringLiteral("B9"));
     QVERIFY(s.trigger({"Pose…"}));
     auto* x = s.window.field()->findChild<QDoubleSpinBox*>(QStringLiteral("x"));
     QVERIFY(x);

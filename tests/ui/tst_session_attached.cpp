@@ -266,7 +266,7 @@ class TestSessionAttached : public QObject {
 
     QAction* forget = nullptr;
     const auto isOffered = [&] {
-      s.window.field()->select({blue(2)});  // not before the field has it, too
+      s.window.field()->select({heardAs(2)});  // not before the field has it, too
       for (QAction* action : s.window.menuBar()->actions()) {
         if (action->text() != QStringLiteral("&Robots")) continue;
         emit action->menu()->aboutToShow();

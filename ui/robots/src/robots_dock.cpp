@@ -122,8 +122,10 @@ void RobotsDock::showCards(const std::vector<CardState>& states) {
       isNew = true;
     }
     card->setState(state);
-    if (std::find(m_order.begin(), m_order.end(), state.id) == m_order.end()) {
-      m_order.push_back(state.id);
+    // The first team is ours, whoever is heard first.
+    if (std::ranges::find(m_order, state.id) == m_order.end()) {
+      const auto isBehind = [&state](const RobotKey& known) { return known > state.id; };
+      m_order.insert(std::ranges::find_if(m_order, isBehind), state.id);
     }
   }
   if (isNew) arrange();
