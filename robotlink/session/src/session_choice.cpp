@@ -9,8 +9,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include <robotlink/frame/second_sender.h>
-#include <robotlink/live/board_health.h>
 #include <robotlink/live/live_books.h>
 #include <robotlink/live/live_teams.h>
 #include <robotlink/session/live_moments.h>
@@ -109,8 +107,8 @@ class Choice {
       number = monitor.decoded().robot;
       if (*verdict == telemetry::TeamMonitor::Verdict::Used) slot = monitor.usedSlot();
     } else if (drawing) {
-      const auto first = monitor.firstOfTeam(datagram, drawing->team);
-      if (first) number = drawing->robot + *first;
+      const auto place = monitor.placeOf(datagram, drawing->team);
+      if (place) number = drawing->robot + std::max(0, *place - 1) * telemetry::teamStep;
     }
     return number > 0 && isChosen(nameOf(number, slot), m_robots);
   }
@@ -156,7 +154,10 @@ class Choice {
       if (isChosen(nameOf(robot.number, robot.slot), m_robots)) continue;
       part->books.monitor.forget(robot.number, robot.slot);
     }
-    part->books.drawings.forget([&](int robot) { return !isChosen(nameOf(robot, 0), m_robots); });
+    part->books.drawings.forget([&](const RobotKey& robot) {
+      return !isChosen(nameOf(robot.number + std::max(0, robot.team - 1) * telemetry::teamStep, 0),
+                       m_robots);
+    });
     text = part->books.text(part->options, time, WallTime{});
     return true;
   }
@@ -183,12 +184,10 @@ bool isChosen(std::string_view name, std::span<const std::string> robots) {
 
 void keepRobots(MatchFrame& frame, std::span<const std::string> robots) {
   if (robots.empty()) return;
-  std::erase_if(frame.robots, [&](const RobotFrame& robot) {
-    const int slot = robot.health && !isAttached(robot.id()) ? slotOf(robot.id()) : 0;
-    return !isChosen(withSender(robot.identity.name(), slot), robots);
-  });
+  std::erase_if(frame.robots,
+                [&](const RobotFrame& robot) { return !isChosen(robot.name, robots); });
   std::erase_if(frame.drawings, [&frame](const telemetry::RobotDrawings& drawings) {
-    return frame.robot(RobotId{drawings.robot}) == nullptr;
+    return frame.robot(drawings.robot) == nullptr;
   });
   if (frame.robots.size() < 2) frame.teamBall.reset();
 }

@@ -41,7 +41,7 @@ class DrawingBook {
   const std::string& lastProblem() const { return m_lastProblem; }
   void clear() { *this = {}; }
   /// Drops the layers of the robots for which it says true.
-  void forget(const std::function<bool(int robot)>& which) {
+  void forget(const std::function<bool(const RobotKey& robot)>& which) {
     std::erase_if(m_robots, [&](const auto& robot) { return which(robot.first); });
   }
 
