@@ -384,7 +384,7 @@ class TestLiveFrame : public QObject {
         const auto penalty =
             penaltyOf(std::get<RefereeState>(packet), number, robot.identity.number);
         QVERIFY(robot.penalty == penalty);
-        QVERIFY(recorded.robot(robot.id())->penalty == penalty);
+        QVERIFY(recorded.robot(robot.key)->penalty == penalty);
       }
     };
     using enum sim::PlayState;
