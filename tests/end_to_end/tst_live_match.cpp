@@ -53,7 +53,7 @@ class TestLiveMatch : public QObject {
       agree = 0;
       const auto frame = live.latest();
       for (const link::RobotFrame& robot : frame->robots) {
-        const int key = m_keyBase + 100 * robot.slot().value;
+        const int key = m_keyBase + 100 * robot.key.number;
         const auto board = link::SystemVSegments::open(key, link::AttachMode::ReadOnly);
         if (!board) continue;
         const link::RobotVariables variables;
