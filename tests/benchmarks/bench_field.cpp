@@ -55,8 +55,9 @@ std::unique_ptr<FieldView> viewOf(const benchmark::State& state) {
   view->show();
   for (int i = 0; i < firstSerial; ++i) view->showFrame(movingFrame(i));
   std::vector<RobotKey> selected;
-  for (int i = 1; i <= static_cast<int>(state.range(3)); ++i)
-    selected.push_back(frame->robots[static_cast<std::size_t>(i - 1)].key);
+  for (const link::RobotFrame& robot : movingFrame(firstSerial)->robots) {
+    if (selected.size() < static_cast<std::size_t>(state.range(3))) selected.push_back(robot.key);
+  }
   view->select(selected);
   QCoreApplication::processEvents();
   return view;
