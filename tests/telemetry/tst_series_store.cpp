@@ -250,6 +250,31 @@ class TestSeriesStore : public QObject {
     QCOMPARE(store.groups(), std::size_t{2});
     QCOMPARE(*store.findGroup("B1"), other);
   }
+
+  void aRenamedGroupKeepsItsRows() {
+    SeriesStore store;
+    GroupInfo info = group();
+    const GroupId id = store.addGroup(info);
+    Source source(1);
+    store.append(id, viewOf(source.at(1.0)));
+    info.name = "R1";
+    const auto revision = store.groupsRevision();
+    QCOMPARE(store.renameGroup("B1", info), id);
+    QVERIFY(store.groupsRevision() > revision);
+    store.append(id, viewOf(source.at(2.0)));
+    QCOMPARE(store.view(id)->rows(), std::size_t{2});
+    QCOMPARE(store.findGroup("R1"), std::optional(id));
+    QVERIFY(!store.findGroup("B1"));
+    // A curve of its former name goes on, until another group has the name.
+    QCOMPARE(store.find("B1", "D_NOISE"), std::optional(SeriesId{id, 7}));
+    info.name = "B1";
+    const GroupId other = store.addGroup(info);
+    QVERIFY(other != id);
+    QCOMPARE(store.find("B1", "D_NOISE"), std::optional(SeriesId{other, 7}));
+    // Where there is a group of the name, that one goes on.
+    QCOMPARE(store.renameGroup("R1", info), other);
+    QCOMPARE(store.view(id)->rows(), std::size_t{2});
+  }
 };
 
 PITCHBOARD_TEST(TestSeriesStore)

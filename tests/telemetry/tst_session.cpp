@@ -20,6 +20,30 @@ class TestSession : public QObject, private NewSessions {
   Q_OBJECT
 
  private slots:
+  void aGroupThatIsRenamedIsOneGroup() {
+    const std::string path = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo(), smallChunks());
+    QVERIFY(writer);
+    record(**writer, 120);
+    const GroupId renamed = (*writer)->renameGroup("B1", robotGroup("R1", 1));
+    for (int tick = 120; tick < 240; ++tick) {
+      Row row = rowOf(0, tick);
+      row.group = renamed;
+      append(**writer, row);
+    }
+    QVERIFY((*writer)->finish());
+    const auto reader = SessionReader::open(path);
+    QVERIFY(reader);
+    QCOMPARE(reader->groups().size(), 3U);
+    QCOMPARE(reader->groups()[0].info.name, std::string("R1"));
+    QCOMPARE(reader->groups()[0].rows, 240U);
+    int tick = 0;
+    for (const Row& row : rowsOf(*reader, everything)) {
+      if (row.group == 0) QVERIFY(row == rowOf(0, tick++));
+    }
+    QCOMPARE(tick, 240);
+  }
+
   void everythingComesBack() {
     const std::string path = newPath();
     auto writer = SessionWriter::create(path, sessionInfo(), smallChunks());

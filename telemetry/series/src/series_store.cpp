@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <shared_mutex>
 
 #include <telemetry/series/series_pages.h>
@@ -22,7 +23,10 @@ struct SeriesStore::Impl {
   std::vector<bool> replaced;  // by a group of the same name with other columns
   std::atomic<std::uint64_t> revision{0}, refused{0};
   std::atomic<std::size_t> bytes{0}, budget{0};
-  std::shared_ptr<SeriesPages> pages;  // of the list's mutex
+  std::shared_ptr<SeriesPages> pages;                     // of the list's mutex
+  std::map<std::string, GroupId, std::less<>> wasCalled;  // of the list's mutex
+
+  static constexpr std::size_t mostNames = 10'000;
 
   void account() {
     std::size_t sum = 0;
@@ -87,10 +91,15 @@ SeriesStore::SeriesStore(SeriesOptions options) : m_impl(std::make_unique<Impl>(
 SeriesStore::~SeriesStore() = default;
 
 GroupId SeriesStore::addGroup(const GroupInfo& info) {
+  return renameGroup(info.name, info);
+}
+
+GroupId SeriesStore::renameGroup(std::string_view from, const GroupInfo& info) {
   Impl& d = *m_impl;
   auto layout = std::make_shared<const series::Layout>(info);
   const std::lock_guard structure(d.structure);
-  const auto known = d.find(info.name);
+  auto known = d.find(info.name);
+  if (!known) known = d.find(from);
   if (known) {
     series::Group& group = *d.groups[*known];
     const auto view = group.view();
@@ -101,6 +110,10 @@ GroupId SeriesStore::addGroup(const GroupInfo& info) {
       } else {
         group.widen(std::move(layout));
         d.account();
+      }
+      if (view->info().name != info.name) {
+        const std::lock_guard list(d.listMutex);
+        if (d.wasCalled.size() < Impl::mostNames) d.wasCalled[view->info().name] = *known;
       }
       d.revision.fetch_add(1);
       return *known;
@@ -170,8 +183,13 @@ std::optional<GroupId> SeriesStore::findGroup(std::string_view name) const {
 }
 
 std::optional<SeriesId> SeriesStore::find(std::string_view group, std::string_view column) const {
-  const auto id = findGroup(group);
-  if (!id) return std::nullopt;
+  auto id = findGroup(group);
+  if (!id) {
+    const std::shared_lock lock(m_impl->listMutex);
+    const auto before = m_impl->wasCalled.find(group);
+    if (before == m_impl->wasCalled.end()) return std::nullopt;
+    id = before->second;
+  }
   const auto found = view(*id);
   if (!found) return std::nullopt;
   const auto& columns = found->info().columns;

@@ -20,6 +20,7 @@ namespace pitchboard::telemetry::session {
 inline constexpr std::string_view metadataName = "pitchboard";
 inline constexpr std::string_view checkKey = "check";             ///< CRC-32 of the other metadata
 inline constexpr std::string_view groupKey = "pitchboard.group";  ///< of a row channel's metadata
+inline constexpr const char* wasAttribute = "was";  ///< of a renamed group: its name before
 
 struct StreamInfo {
   std::string_view topic, schemaName, jsonSchema;

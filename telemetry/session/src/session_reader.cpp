@@ -119,13 +119,19 @@ void SessionReader::Impl::addGroup(GroupInfo group, std::uint64_t rows, std::uin
   };
   for (std::size_t g = 0; g < groups.size(); ++g) {
     SessionGroup& known = groups[g];
-    if (known.info.name != group.name) continue;
+    const auto was = group.attributes.find(session::wasAttribute);
+    const bool isRenamed = was != group.attributes.end() && was->second == known.info.name;
+    if (known.info.name != group.name && !isRenamed) continue;
     const bool wider = begins(known.info.columns, group.columns);
     if (!wider && !begins(group.columns, known.info.columns)) continue;
     use.group = static_cast<int>(g);
     known.rows += rows;
     known.channels.push_back(channel);
-    if (!wider) return;
+    if (!wider) {
+      known.info.name = group.name;
+      known.info.attributes = std::move(group.attributes);
+      return;
+    }
     known.info = std::move(group);
     known.channel = channel;
     widest[g] = use.layout;

@@ -90,6 +90,12 @@ GroupId SessionWriter::addGroup(const GroupInfo& info) {
   return static_cast<GroupId>(impl.groups.size() - 1);
 }
 
+GroupId SessionWriter::renameGroup(std::string_view from, const GroupInfo& to) {
+  GroupInfo info = to;
+  info.attributes[session::wasAttribute] = from;
+  return addGroup(info);
+}
+
 std::uint16_t SessionWriter::addSchema(const McapSchema& schema) {
   const std::lock_guard lock(m_impl->mutex);
   return m_impl->addSchema(m_impl->current, schema);

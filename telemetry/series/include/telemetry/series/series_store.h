@@ -97,6 +97,7 @@ class SeriesStore : public RowSink {
   /// further Float64 columns behind them, which are holes in the rows so far. With other columns it
   /// starts empty under a new id.
   GroupId addGroup(const GroupInfo& info) override;
+  GroupId renameGroup(std::string_view from, const GroupInfo& to) override;
   /// Rows of one group in order of time; equal times are kept in order. A time before the last one
   /// means that the source was put back: the rows at and after the new time are dropped first.
   /// A row of an unknown group, of another width, or whose time is not finite is refused and
@@ -115,6 +116,7 @@ class SeriesStore : public RowSink {
   /// stays, empty; findGroup() gives the other one.
   std::shared_ptr<const GroupView> view(GroupId group) const;
   std::optional<GroupId> findGroup(std::string_view name) const;
+  /// A group that was renamed is found by its former names, too, while no other one has them.
   std::optional<SeriesId> find(std::string_view group, std::string_view column) const;
   /// From the oldest row of any group to the newest.
   std::optional<TimeRange> range() const;

@@ -69,6 +69,8 @@ class SessionWriter : public RowSink {
   /// The same name with the same columns gives the same id again; the attributes stay those of the
   /// first time.
   GroupId addGroup(const GroupInfo& info) override;
+  /// Its next rows are in a channel of their own, which says what the group was called before.
+  GroupId renameGroup(std::string_view from, const GroupInfo& to) override;
   void append(GroupId group, const RowView& row) override;
   void append(const SessionEvent& event);
   void append(const LogLine& line);
