@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 
+#include <robotlink/live/live_teams.h>
 #include <telemetry/wire/monitor_request.h>
 #include <telemetry/wire/team_monitor.h>
 #include <telemetry/wire/udp_receiver.h>
@@ -47,6 +48,9 @@ class Printer {
     return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   }
 
+  std::string nameOf(const RobotKey& robot) const {
+    return link::robotName(robot, link::teamsOf(m_monitor.options().teams));
+  }
   TeamStatus status(WallTime now) const { return m_monitor.status(now); }
   std::uint64_t unknownReferee() const { return m_unknownReferee; }
   std::uint64_t refusedReferees() const { return m_refusedReferees; }
@@ -55,7 +59,7 @@ class Printer {
   void printHealth(WallTime now) const {
     if (!m_json) return;
     for (const RobotStatus& robot : m_monitor.status(now).robots) {
-      std::printf("%s\n", dump(healthJson(robot, now)).c_str());
+      std::printf("%s\n", dump(healthJson(robot, nameOf(robot.key), now)).c_str());
     }
     std::fflush(stdout);
   }
@@ -82,12 +86,16 @@ class Printer {
     if (verdict == TeamMonitor::Verdict::SenderRefused) return;
     const TextDecoder& decoder = m_monitor.decoder();
     const DecodedText& decoded = m_monitor.decoded();
-    const auto& teams = m_monitor.options().teams;
-    const int number = numberInTeam(decoded.robot, teams.size());
-    const TeamSetup* team = decoded.robot > 0 ? teamOf(decoded.robot, teams) : nullptr;
+    const int number = decoded.robot;
+    const TeamSetup* team =
+        number > 0 ? setupAt(decoded.place, m_monitor.options().teams) : nullptr;
     const std::string title = team != nullptr ? team->title() : std::string();
-    put("telemetry", datagram,
-        m_json ? telemetryJson(decoder, decoded, datagram.payload, number, title) : Json(),
+    Json json;
+    if (m_json) {
+      json = telemetryJson(decoder, decoded, datagram.payload, number, title);
+      if (number > 0) json["name"] = nameOf({decoded.place, number, 0});
+    }
+    put("telemetry", datagram, json,
         m_json ? std::string() : telemetryLine(decoder, decoded, datagram.payload, number, title));
   }
 
@@ -118,17 +126,18 @@ class Printer {
   std::uint64_t m_unknownReferee = 0, m_refusedReferees = 0;
 };
 
-void reportEnd(const ReceiverStatus& network, const TeamStatus& team, std::uint64_t unknown,
-               std::uint64_t refusedReferees) {
+void reportEnd(const ReceiverStatus& network, const Printer& printer, WallTime now) {
+  const TeamStatus team = printer.status(now);
+  const std::uint64_t unknown = printer.unknownReferee();
   std::fprintf(stderr,
                "%llu datagrams from %zu robots; lost: %llu in the kernel, %llu here; bad: %llu%s",
                static_cast<unsigned long long>(network.datagrams()), team.robots.size(),
                static_cast<unsigned long long>(network.kernelDrops()),
                static_cast<unsigned long long>(network.queueDrops),
                static_cast<unsigned long long>(team.errors.messages() + unknown),
-               refusedText(team, refusedReferees).c_str());
+               refusedText(team, printer.refusedReferees()).c_str());
   for (const RobotStatus& robot : team.robots) {
-    std::fprintf(stderr, "\n  %s", healthLine(robot).c_str());
+    std::fprintf(stderr, "\n  %s", healthLine(robot, printer.nameOf(robot.key)).c_str());
   }
   for (std::size_t i = 0; i < textErrorCount; ++i) {
     const auto error = static_cast<TextError>(i);
@@ -192,8 +201,7 @@ int run(const Options& options) {
   (*network)->stop();
   if ((*network)->take(batch)) printer.print(batch);
   printer.printHealth(clock->now());
-  reportEnd((*network)->status(), printer.status(clock->now()), printer.unknownReferee(),
-            printer.refusedReferees());
+  reportEnd((*network)->status(), printer, clock->now());
   return 0;
 }
 

@@ -112,12 +112,13 @@ std::string telemetryLine(const TextDecoder& decoder, const DecodedText& message
   return out + "] " + printable(datagram, 120);
 }
 
-Json healthJson(const RobotStatus& robot, WallTime now) {
+Json healthJson(const RobotStatus& robot, const std::string& name, WallTime now) {
   const auto counted = [&robot](std::uint64_t count) {
     return robot.loss ? Json(count) : Json(nullptr);
   };
   return {{"type", "health"},
-          {"robot", robot.number},
+          {"robot", robot.key.number},
+          {"name", name},
           {"received", robot.messages},
           {"lost", counted(robot.lost)},
           {"duplicates", robot.duplicates},
@@ -131,14 +132,14 @@ Json healthJson(const RobotStatus& robot, WallTime now) {
           {"errors", robot.errorCount},
           {"bytes", robot.bytes},
           {"sender", robot.sender.text()},
-          {"slot", robot.slot},
+          {"slot", robot.key.sender},
           {"conflict", robot.conflict},
           {"time", unixSeconds(now)}};
 }
 
-std::string healthLine(const RobotStatus& robot) {
-  std::string out = "robot " + std::to_string(robot.number);
-  if (robot.slot > 0) out += " at " + robot.sender.text();
+std::string healthLine(const RobotStatus& robot, const std::string& name) {
+  std::string out = name;
+  if (robot.key.sender > 0) out += " at " + robot.sender.text();
   out += ": " + std::to_string(robot.messages) + " received";
   if (robot.loss) {
     char part[32];

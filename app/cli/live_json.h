@@ -24,10 +24,11 @@ std::string telemetryLine(const telemetry::TextDecoder& decoder,
                           const telemetry::DecodedText& message, std::string_view datagram,
                           int number, const std::string& team = {});
 
-/// {"type": "health", "robot": 1, "received": 900, "lost": 300, ...}: docs/LIVE.md.
-Json healthJson(const telemetry::RobotStatus& robot, telemetry::WallTime now);
-/// "robot 1: 900 received, 300 lost (25.0 %), 0 twice, 0 late"
-std::string healthLine(const telemetry::RobotStatus& robot);
+/// {"type": "health", "robot": 1, "name": "B1", "received": 900, "lost": 300, ...}: docs/LIVE.md.
+Json healthJson(const telemetry::RobotStatus& robot, const std::string& name,
+                telemetry::WallTime now);
+/// "B1: 900 received, 300 lost (25.0 %), 0 twice, 0 late"
+std::string healthLine(const telemetry::RobotStatus& robot, const std::string& name);
 
 std::string refereeLine(const telemetry::RefereePacket& packet);
 

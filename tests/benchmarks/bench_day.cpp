@@ -132,8 +132,8 @@ int make(const std::string& file, const Day& day) {
                                              false,
                                              text};
       if (books.monitor.take(datagram) != telemetry::TeamMonitor::Verdict::Used) return 2;
-      (*recorder)->heard({0, books.monitor.decoded().robot, books.monitor.usedSlot()}, time,
-                         datagram, books.monitor.decoder(), books.monitor.decoded());
+      (*recorder)->heard(books.monitor.used(), time, datagram, books.monitor.decoder(),
+                         books.monitor.decoded());
     }
     const double time = static_cast<double>(step + 1) * period;
     if (time >= referee) {

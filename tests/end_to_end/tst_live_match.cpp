@@ -45,13 +45,14 @@ class TestLiveMatch : public QObject {
     options.portBase = m_number.telemetryPortBase();
     options.refereePort = m_number.refereePort();
     link::LiveWatch live(options);
-    QTRY_VERIFY_WITH_TIMEOUT(live.latest() && live.latest()->robots.size() == 6, 30000);
+    QTRY_VERIFY(live.take().frame);
+    QTRY_VERIFY_WITH_TIMEOUT(live.take().frame->robots.size() == 6, 30000);
     // Where the telemetry says that a robot believes to be is what stands on its blackboard: robots
     // move on between the message and the look, so a step of a second is allowed.
     int agree = 0;
     const auto compare = [&] {
       agree = 0;
-      const auto frame = live.latest();
+      const auto frame = live.take().frame;
       for (const link::RobotFrame& robot : frame->robots) {
         const int key = m_keyBase + 100 * robot.key.number;
         const auto board = link::SystemVSegments::open(key, link::AttachMode::ReadOnly);
@@ -68,8 +69,8 @@ class TestLiveMatch : public QObject {
     QTRY_VERIFY2_WITH_TIMEOUT(compare(), qPrintable(QString::number(agree)), 20000);
     const auto details = live.details();
     QCOMPARE(details.team.errors.messages(), std::uint64_t(0));
-    QTRY_VERIFY_WITH_TIMEOUT(live.latest()->robots[0].health->messages >= 3, 20000);
-    QVERIFY(live.latest()->robots[0].health->rate > 0.3);
+    QTRY_VERIFY_WITH_TIMEOUT(live.take().frame->robots[0].health->messages >= 3, 20000);
+    QVERIFY(live.take().frame->robots[0].health->rate > 0.3);
     match.terminate();
     QVERIFY(match.waitForFinished(60'000));
   }

@@ -107,7 +107,7 @@ class TestSameEvents : public QObject {
     watch.observe(recorder);
     std::vector<MatchEvent> events;
     const auto heard = [&](Kind kind) {
-      for (MatchEvent& event : watch.takeEvents()) events.push_back(std::move(event));
+      for (MatchEvent& event : watch.take().events) events.push_back(std::move(event));
       return has(events, kind);
     };
     const live_rig::Robot robot(options, 3);

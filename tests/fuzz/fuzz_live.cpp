@@ -54,9 +54,8 @@ struct Match {
     }
     if (books.monitor.take(datagram) != TeamMonitor::Verdict::Used) return;
     const DecodedText& decoded = books.monitor.decoded();
-    const std::size_t all = options.team.teams.size();
-    if (teamPlace(decoded.robot, all) != static_cast<std::size_t>(place)) std::abort();
-    rows.take(datagram, decoded, books.monitor.decoder(), books.monitor.usedSlot());
+    if (decoded.place != place + 1) std::abort();
+    rows.take(datagram, decoded, books.monitor.decoder(), books.monitor.used());
   }
 
   void check() {

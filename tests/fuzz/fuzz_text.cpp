@@ -38,7 +38,7 @@ struct Path {
     if (decoded.count > DecodedText::maxValues) std::abort();
     if (verdict != TeamMonitor::Verdict::Used) return;
     if (decoded.robot < 1 || decoded.count < 16) std::abort();
-    rows.take(datagram, decoded, monitor.decoder(), monitor.usedSlot());
+    rows.take(datagram, decoded, monitor.decoder(), monitor.used());
   }
 
   void check() {

@@ -38,7 +38,7 @@ RobotStatus robotSaying(const std::string& message) {
   const std::string text = message + " OUT";
   telemetry::DecodedText decoded;
   decoder->decode(text, decoded);
-  robot.number = decoded.robot;
+  robot.key = {0, decoded.robot, 0};
   robot.sender = {{0x0a000000U + static_cast<std::uint32_t>(decoded.robot)}, 4000};
   robot.decoder = decoder;
   robot.values.assign(decoded.values.begin(),
@@ -225,13 +225,13 @@ class TestLiveFrame : public QObject {
   void twoSendersOfOneNumberAreTwoRobots() {
     RobotStatus first = robotSaying("3 " + atTheCentre);
     RobotStatus second = first;
-    second.slot = 1;
+    second.key.sender = 1;
     Heard heard({first, second});
     const MatchFrame frame = heard.frame();
     QCOMPARE(frame.robots[0].key, heardAs(3));
     QCOMPARE(frame.robots[1].key, heardAs(3, 1));
     QCOMPARE(frame.robots[1].identity.number, 3);
-    // The slot makes the id, whoever else is there.
+    // It keeps its key, whoever else is there.
     heard.team.robots = {second};
     QCOMPARE(heard.frame().robots.at(0).key, heardAs(3, 1));
   }

@@ -20,7 +20,7 @@ const WallTime zero{std::chrono::seconds(1'700'000'000)};
 struct Rig {
   std::shared_ptr<SeriesStore> store = std::make_shared<SeriesStore>();
   TeamMonitor monitor{publishedProfile()};
-  LiveRows rows{store, {.zero = zero, .teams = 0, .name = {}, .attributes = {}}};
+  LiveRows rows{store, {.zero = zero, .name = {}, .attributes = {}}};
 
   TeamMonitor::Verdict send(const std::string& text, double time, const char* from = "10.0.0.1") {
     DatagramView datagram;
@@ -30,7 +30,7 @@ struct Rig {
     datagram.payload = text;
     const auto verdict = monitor.take(datagram);
     if (verdict == TeamMonitor::Verdict::Used)
-      rows.take(datagram, monitor.decoded(), monitor.decoder(), monitor.usedSlot());
+      rows.take(datagram, monitor.decoded(), monitor.decoder(), monitor.used());
     return verdict;
   }
   void report(double time) {
@@ -270,7 +270,7 @@ class TestLiveRows : public QObject {
     Rig rig;
     for (int i = 0; i < 5; ++i) {
       rig.send(message, i * 1.0, "10.0.0.1");
-      rig.send(message, i * 1.0 + 0.1, "10.0.0.2");
+      rig.send("3 1 2 3 4 5 6 1 1 1 1 1 8 0.5 121 OUT", i * 1.0 + 0.1, "10.0.0.2");
     }
     QCOMPARE(rig.view("Robot 3")->rows(), std::size_t{5});
     QCOMPARE(rig.view("Robot 3 (2)")->rows(), std::size_t{5});

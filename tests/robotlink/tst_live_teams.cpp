@@ -52,16 +52,13 @@ class TestLiveTeams : public QObject {
     const TeamStatus team = monitor.status(start);
     QCOMPARE(team.robots.size(), std::size_t(2));
     QVERIFY(!team.robots[0].conflict);
-    const std::size_t teams = options.team.teams.size();
-    for (const std::size_t i : {0U, 1U}) {
-      QCOMPARE(numberInTeam(team.robots[i].number, teams), 3);
-      QCOMPARE(teamPlace(team.robots[i].number, teams), i);
-    }
+    QCOMPARE(team.robots[0].key, (RobotKey{1, 3, 0}));
+    QCOMPARE(team.robots[1].key, (RobotKey{2, 3, 0}));
     QCOMPARE(team.robots[1].value(FieldMeaning::X), std::optional(600.0));
-    QCOMPARE(colourOf(options, team.robots[0].number, TeamColor::Blue, {}), TeamColor::Blue);
-    QCOMPARE(colourOf(options, team.robots[1].number, TeamColor::Blue, {}), TeamColor::Red);
-    QCOMPARE(refereeNumberOf(options, team.robots[1].number), 7);
-    QCOMPARE(ownNameOf(options, team.robots[0].number), std::string("Ana"));
+    QCOMPARE(colourOf(options, team.robots[0].key, TeamColor::Blue, {}), TeamColor::Blue);
+    QCOMPARE(colourOf(options, team.robots[1].key, TeamColor::Blue, {}), TeamColor::Red);
+    QCOMPARE(refereeNumberOf(options, team.robots[1].key), 7);
+    QCOMPARE(ownNameOf(options, team.robots[0].key), std::string("Ana"));
     QCOMPARE(options.team.teams[1].title(), std::string("Team 7"));
   }
 
@@ -73,8 +70,7 @@ class TestLiveTeams : public QObject {
     LiveRows rows(store, rowsOptions(options, start));
     const std::string ball = R"({["id"]=3,["ball"]={["x"]=0.6,["y"]=0}})";
     QCOMPARE(monitor.take(from("10.0.1.3", 12003, ball)), TeamMonitor::Verdict::Used);
-    rows.take(from("10.0.1.3", 12003, ball), monitor.decoded(), monitor.decoder(),
-              monitor.usedSlot());
+    rows.take(from("10.0.1.3", 12003, ball), monitor.decoded(), monitor.decoder(), monitor.used());
     bool found = false;
     for (std::size_t i = 0; i < store->groups(); ++i) {
       const auto view = store->view(static_cast<GroupId>(i));
@@ -99,17 +95,18 @@ class TestLiveTeams : public QObject {
     other.key = 7000;
     other.robot = 3;
     QCOMPARE(boardNames({board, other}), (std::vector<std::string>{"B3", "B3 key 7000"}));
-    QCOMPARE(rowsOptions(options, start).name(3), std::string("B3"));
+    QCOMPARE(rowsOptions(options, start).name({1, 3, 0}), std::string("B3"));
     options.boards = {board};
-    QCOMPARE(rowsOptions(options, start).name(3), std::string("B3 heard"));
-    QCOMPARE(rowsOptions(options, start).name(1003), std::string("R3"));
+    QCOMPARE(rowsOptions(options, start).name({1, 3, 0}), std::string("B3 heard"));
+    QCOMPARE(rowsOptions(options, start).name({2, 3, 0}), std::string("R3"));
     for (const AttachedBoard& one : {board, other}) {
       const auto again = parseAttachedBoard(attachedBoardText(one));
       QVERIFY(again && *again == one);
     }
   }
 
-  void otherNamesAreUsedFromTheNextMessageOn() {
+  /// Groups go on with their rows.
+  void otherNamesRenameInPlace() {
     LiveOptions options = twoTeams();
     TeamMonitor monitor(options.profile, monitorOptions(options));
     auto store = std::make_shared<SeriesStore>();
@@ -118,21 +115,69 @@ class TestLiveTeams : public QObject {
       DatagramView datagram = from("10.0.0.3", 1243, words);
       datagram.time += std::chrono::duration_cast<Duration>(std::chrono::duration<double>(time));
       QCOMPARE(monitor.take(datagram), TeamMonitor::Verdict::Used);
-      rows.take(datagram, monitor.decoded(), monitor.decoder(), monitor.usedSlot());
+      rows.take(datagram, monitor.decoded(), monitor.decoder(), monitor.used());
     };
     say(1.0);
     options.team.teams[0].colour = TeamColor::Yellow;
-    rows.setOptions(rowsOptions(options, start));
+    rows.setOptions(rowsOptions(options, start), {});
     say(2.0);
     options.team.teams[0].colour = TeamColor::Blue;
-    rows.setOptions(rowsOptions(options, start));
+    rows.setOptions(rowsOptions(options, start), {});
     say(3.0);
     const auto count = [&store](const char* name) {
       const auto group = store->findGroup(name);
       return group ? store->view(*group)->rows() : std::size_t(0);
     };
-    QCOMPARE(count("B3"), std::size_t(2));
-    QCOMPARE(count("Y3"), std::size_t(1));
+    QCOMPARE(count("B3"), std::size_t(3));
+    QCOMPARE(count("Y3"), std::size_t(0));
+  }
+
+  void aSetupAppliedInMidMatchRenamesInPlace() {
+    LiveOptions options;
+    LiveBooks books(options);
+    TeamMonitor& monitor = books.monitor;
+    auto store = std::make_shared<SeriesStore>();
+    LiveRows rows(store, rowsOptions(options, start));
+    const auto say = [&](int second, const char* address) {
+      DatagramView datagram = from(address, 1243, words);
+      datagram.time += std::chrono::seconds(second);
+      QCOMPARE(books.takeRobot(datagram, second), TeamMonitor::Verdict::Used);
+      rows.rename(monitor.renamings());
+      rows.take(datagram, monitor.decoded(), monitor.decoder(), monitor.used());
+    };
+    const auto apply = [&](std::vector<TeamSetup> teams) {
+      options.team.teams = std::move(teams);
+      books.setTeams(monitorOptions(options));
+      rows.setOptions(rowsOptions(options, start), monitor.renamings());
+    };
+    const auto theOnlyOne = [&](int second) {
+      const auto robots = monitor.status(start + std::chrono::seconds(second)).robots;
+      return robots.size() == 1 ? robots[0].key : RobotKey{};
+    };
+    say(1, "10.0.0.3");
+    QVERIFY(books.drawings.take("PBD1 3\nlayer plan 5\npoint 0 0", 1.0));
+    const auto group = store->findGroup("Robot 3");
+    QVERIFY(group);
+    const TeamSetup ours = setupOf(R"({"colour": "blue", "senders": ["10.0.0.0/24"]})");
+    const TeamSetup guests = setupOf(R"({"colour": "red", "senders": ["10.0.1.0/24"]})");
+    apply({ours, guests});
+    say(2, "10.0.0.3");
+    QCOMPARE(theOnlyOne(2), (RobotKey{1, 3, 0}));
+    QCOMPARE(books.drawings.at(2.0).at(0).robot, (RobotKey{1, 3, 0}));
+    QCOMPARE(store->findGroup("B3"), group);
+    QVERIFY(!store->findGroup("Robot 3"));
+    QCOMPARE(store->view(*group)->rows(), std::size_t(2));
+    QVERIFY(store->findGroup("B3 link") && !store->findGroup("Robot 3 link"));
+    // A setup that moves takes its robots along, and one that is taken away leaves them.
+    apply({guests, ours});
+    QCOMPARE(theOnlyOne(2), (RobotKey{2, 3, 0}));
+    say(3, "10.0.0.3");
+    QCOMPARE(theOnlyOne(3), (RobotKey{2, 3, 0}));
+    apply({});
+    say(4, "10.0.0.3");
+    QCOMPARE(theOnlyOne(4), (RobotKey{0, 3, 0}));
+    QCOMPARE(store->findGroup("Robot 3"), group);
+    QCOMPARE(store->view(*group)->rows(), std::size_t(4));
   }
 
   void booksKeepTheSetups() {
@@ -169,7 +214,7 @@ class TestLiveTeams : public QObject {
     TeamMonitor monitor(options.profile, monitorOptions(options));
     QCOMPARE(monitor.take(from("10.0.0.3", 1243, words)), TeamMonitor::Verdict::Used);
     QCOMPARE(monitor.take(from("10.9.0.3", 1243, words)), TeamMonitor::Verdict::SenderRefused);
-    QCOMPARE(monitor.status(start).robots.at(0).number, 3);
+    QCOMPARE(monitor.status(start).robots.at(0).key, (RobotKey{1, 3, 0}));
     QCOMPARE(monitor.status(start).refusedByFilter, std::uint64_t(1));
   }
 
@@ -185,7 +230,7 @@ class TestLiveTeams : public QObject {
                   {message.constData(), static_cast<std::size_t>(message.size())});
     };
     QCOMPARE(monitor.take(view()), TeamMonitor::Verdict::Used);
-    QCOMPARE(teamPlace(monitor.decoded().robot, 2), std::size_t(1));
+    QCOMPARE(monitor.decoded().place, 2);
     message[6] = 99;
     QCOMPARE(monitor.take(view()), TeamMonitor::Verdict::SenderRefused);
   }

@@ -99,14 +99,15 @@ class TestLiveWatch : public QObject {
     QVERIFY(three.send(portOf(options, 3), "nonsense"));
     QTRY_COMPARE(witness->unused.load(), 1);
 
-    QTRY_VERIFY(watch.latest() && watch.latest()->robots.size() == 2);
-    const auto frame = watch.latest();
+    QTRY_VERIFY(watch.take().frame);
+    QTRY_VERIFY(watch.take().frame->robots.size() == 2);
+    const auto frame = watch.take().frame;
     QCOMPARE(frame->origin, FrameOrigin::Live);
     QVERIFY(!frame->truthKnown);
     const telemetry::TeamStatus team = watch.details().team;
     QCOMPARE(team.robots.size(), std::size_t{2});
-    QCOMPARE(team.robots[0].number, 1);
-    QCOMPARE(team.robots[1].number, 3);
+    QCOMPARE(team.robots[0].key.number, 1);
+    QCOMPARE(team.robots[1].key.number, 3);
     QCOMPARE(team.robots[1].sender.port, three.port());
     // No robot can be blamed for what names none.
     QVERIFY(team.errors.messages() > 0);
@@ -126,10 +127,10 @@ class TestLiveWatch : public QObject {
     // Frames go on without messages, so that ages and timeouts do.
     QTRY_VERIFY(witness->frames.load() >= 4);
     QCOMPARE(calls.load(), 1);
-    const auto first = watch.latest();
+    const auto first = watch.take().frame;
     QVERIFY(first);
     QTRY_COMPARE(calls.load(), 2);
-    QVERIFY(watch.latest()->serial > first->serial);
+    QVERIFY(watch.take().frame->serial > first->serial);
   }
 
   void whoDoesNotObserveAnyMoreHearsNothing() {
@@ -163,16 +164,19 @@ class TestLiveWatch : public QObject {
     const auto port = static_cast<std::uint16_t>(options.refereePort);
     QVERIFY(referee.send(port, recordedPacket("v12hl688_PLAYING_1-0")));
     QTRY_COMPARE(witness->referee.load(), 1);
-    QTRY_VERIFY(watch.latest() && watch.latest()->referee);
-    QCOMPARE(watch.latest()->referee->version, 12);
+    LiveNews news;
+    std::size_t events = 0;
+    QTRY_VERIFY((news = watch.take(), events += news.events.size(), news.frame) &&
+                news.frame->referee);
+    QCOMPARE(news.frame->referee->version, 12);
     QVERIFY(referee.send(port, "no packet"));
     QTRY_COMPARE(watch.details().unknownReferee, std::uint64_t{1});
     QCOMPARE(watch.details().unknownRefereeSample, std::string("no packet"));
     QVERIFY(!watch.details().unknownRefereeReason.empty());
     QCOMPARE(witness->unused.load(), 1);
     // What happened is given once.
-    QVERIFY(!watch.takeEvents().empty());
-    QVERIFY(watch.takeEvents().empty());
+    QVERIFY(events > 0);
+    QVERIFY(watch.take().events.empty());
   }
 
   void otherPortsAreListenedTo() {
@@ -219,7 +223,8 @@ class TestLiveWatch : public QObject {
     watch.clear();
     QTRY_VERIFY(watch.details().team.robots.empty());
     QCOMPARE(watch.details().unknownReferee, std::uint64_t{0});
-    QTRY_VERIFY(watch.latest()->robots.empty());
+    QTRY_VERIFY(watch.take().frame);
+    QTRY_VERIFY(watch.take().frame->robots.empty());
     QVERIFY(robot.send(portOf(options, 1), message(1)));
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
   }
@@ -234,7 +239,7 @@ class TestLiveWatch : public QObject {
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{2});
     watch.forget(RobotKey{0, 1, 0});
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
-    QCOMPARE(watch.details().team.robots[0].number, 2);
+    QCOMPARE(watch.details().team.robots[0].key.number, 2);
     QVERIFY(one.send(portOf(options, 1), message(1)));
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{2});
   }
@@ -272,8 +277,9 @@ class TestLiveWatch : public QObject {
     QVERIFY(referee.send(port, recordedPacket("v8hl158_PLAYING")));
     QTRY_COMPARE(watch.details().referee.otherVersions, std::uint64_t{1});
     QVERIFY(referee.send(port, recordedPacket("v7compat116_from_v8GC_PLAYING_1-0")));
-    QTRY_VERIFY(watch.latest() && watch.latest()->referee);
-    QCOMPARE(watch.latest()->referee->version, 7);
+    QTRY_VERIFY(watch.take().frame);
+    QTRY_VERIFY(watch.take().frame->referee);
+    QCOMPARE(watch.take().frame->referee->version, 7);
   }
 
   void clocksThatAreSetMoveNothing() {
@@ -298,7 +304,7 @@ class TestLiveWatch : public QObject {
     const TestSocket robot;
     std::vector<MatchEvent> events;
     const auto gather = [&](MatchEventKind kind) {
-      for (const MatchEvent& event : watch.takeEvents()) events.push_back(event);
+      for (const MatchEvent& event : watch.take().events) events.push_back(event);
       return std::any_of(events.begin(), events.end(),
                          [&](const MatchEvent& event) { return event.kind == kind; });
     };
@@ -333,7 +339,7 @@ class TestLiveWatch : public QObject {
       QVERIFY(witness->times.back() >= 3600.0 && witness->times.back() < 4200.0);
     }
     for (const MatchEvent& event : events) QVERIFY(event.time >= 3600.0 && event.time < 4200.0);
-    QVERIFY(watch.latest()->snapshot.time >= 3600.0);
+    QVERIFY(watch.take().frame->snapshot.time >= 3600.0);
     QVERIFY(watch.began() == began);
   }
 

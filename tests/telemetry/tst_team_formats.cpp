@@ -256,7 +256,7 @@ class TestTeamFormats : public QObject {
                              {bytes.data(), static_cast<std::size_t>(bytes.size())}}),
                TeamMonitor::Verdict::Used);
       const RobotStatus robot = monitor.status(now).robots.at(0);
-      QCOMPARE(robot.number, 1);
+      QCOMPARE(robot.key.number, 1);
       QCOMPARE(robot.value(FieldMeaning::X), std::optional(600.0));
       QCOMPARE(robot.value(FieldMeaning::Theta), std::optional(90.0));
     }

@@ -24,7 +24,7 @@ class TestTeamMonitor : public QObject {
     QCOMPARE(give(monitor, text(3), start), Verdict::Used);
     TeamStatus team = monitor.status(start + 1s);
     QCOMPARE(team.robots.size(), std::size_t(1));
-    QCOMPARE(team.robots[0].number, 3);
+    QCOMPARE(team.robots[0].key.number, 3);
     QCOMPARE(team.robots[0].age, Duration(1s));
     QCOMPARE(team.robots[0].value(FieldMeaning::X), std::optional(450.0));
     QVERIFY(!monitor.status(start + 9999ms).robots[0].timedOut);

@@ -53,11 +53,6 @@ const Teams& teamsByColour() {
   return all;
 }
 
-RobotKey renamed(const RobotKey& robot, const std::vector<Renaming>& renamings) {
-  const auto found = std::ranges::find(renamings, robot, &Renaming::from);
-  return found == renamings.end() ? robot : found->to;
-}
-
 RobotKey keyOfOldId(int id, bool hasTeams) {
   constexpr int senderStep = 65536, attachedStep = senderStep * 1000, teamStep = 1000;
   if (id <= 0) return {};

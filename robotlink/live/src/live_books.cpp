@@ -105,10 +105,20 @@ telemetry::RefereeTracker::Options LiveBooks::refereeOptions(const LiveOptions& 
   return made;
 }
 
+void LiveBooks::setTeams(const telemetry::MonitorOptions& options) {
+  monitor.setOptions(options);
+  drawings.rename(monitor.renamings());
+}
+
 std::optional<telemetry::TeamMonitor::Verdict> LiveBooks::takeRobot(
     const telemetry::DatagramView& datagram, double time) {
+  const auto take = [this](const telemetry::DatagramView& message) {
+    const auto verdict = monitor.take(message);
+    if (!monitor.renamings().empty()) drawings.rename(monitor.renamings());
+    return verdict;
+  };
   const telemetry::DatagramParts parts = telemetry::partsOf(datagram.payload);
-  if (parts.drawing.empty()) return monitor.take(datagram);
+  if (parts.drawing.empty()) return take(datagram);
   if (auto drawing = telemetry::parseDrawing(parts.drawing); !drawing) {
     // For a stranger's there is no need of a sentence.
     if (monitor.placeOf(datagram, {})) (void)drawings.take(parts.drawing, time);
@@ -118,7 +128,7 @@ std::optional<telemetry::TeamMonitor::Verdict> LiveBooks::takeRobot(
   if (parts.message.empty()) return std::nullopt;
   telemetry::DatagramView message = datagram;
   message.payload = parts.message;
-  return monitor.take(message);
+  return take(message);
 }
 
 void LiveBooks::clear(const LiveOptions& options) {

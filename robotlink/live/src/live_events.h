@@ -21,6 +21,7 @@ class LiveEvents {
   std::vector<MatchEvent> comparePorts(const telemetry::ReceiverStatus& network, double time);
   /// The computer's clock is off by this much since the beginning; a second or more is told.
   std::vector<MatchEvent> compareClock(telemetry::Duration setBy, double time);
+  void rename(const std::vector<Renaming>& renamings) { pitchboard::rename(m_robots, renamings); }
   void clear() { *this = {}; }
 
  private:

@@ -161,16 +161,15 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
   frame.robots.reserve(team.robots.size());
   for (const RobotStatus& robot : team.robots) {
     RobotFrame& out = frame.robots.emplace_back();
-    out.key = keyOf(options, robot.number, robot.slot);
+    out.key = robot.key;
     out.identity.id = {};
     out.identity.number = out.key.number;
-    out.identity.team = colourOf(options, robot.number, ours, frame.referee);
+    out.identity.team = colourOf(options, robot.key, ours, frame.referee);
     out.name = out.identity.name();
-    out.ownName = ownNameOf(options, robot.number);
+    out.ownName = ownNameOf(options, robot.key);
     RobotHealth& health = out.health.emplace(healthOf(robot));
     if (state != nullptr) {
-      health.penalty =
-          penaltyOf(*state, refereeNumberOf(options, robot.number), out.identity.number);
+      health.penalty = penaltyOf(*state, refereeNumberOf(options, robot.key), out.identity.number);
     }
     out.action = health.action.value_or(0);
     if (const auto pose = poseOf(robot, options.field)) {

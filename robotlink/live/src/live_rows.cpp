@@ -98,7 +98,7 @@ struct LiveRows::Robot {
     std::size_t column = noColumn;
     std::optional<double> absent;
   };
-  int number = 0, slot = 0;
+  RobotKey key;
   Sender sender;
   std::string name;
   GroupId group = 0, link = 0;
@@ -115,34 +115,55 @@ LiveRows::LiveRows(std::shared_ptr<RowSink> sink, LiveRowsOptions options)
 
 LiveRows::~LiveRows() = default;
 
-void LiveRows::setOptions(LiveRowsOptions options) {
+void LiveRows::setOptions(LiveRowsOptions options, const std::vector<Renaming>& renamings) {
   options.zero = m_options.zero;
   m_options = std::move(options);
-  m_robots.clear();
-  // A group that is taken up again does not go back.
-  m_least = m_newest;
+  rename(renamings);
 }
 
-LiveRows::Robot* LiveRows::robotOf(int number, int slot, const Sender& sender) {
-  const auto found = std::ranges::find_if(
-      m_robots, [&](const Robot& robot) { return robot.number == number && robot.slot == slot; });
+void LiveRows::rename(const std::vector<Renaming>& renamings) {
+  for (Robot& robot : m_robots) robot.key = renamed(robot.key, renamings);
+  // Where two exchange their names, one has to give way.
+  for (Robot& robot : m_robots) {
+    const bool isWanted = std::ranges::any_of(m_robots, [&](const Robot& other) {
+      return other.key != robot.key && nameOf(other.key) == robot.name;
+    });
+    if (isWanted) renew(robot, robot.name + " (before)");
+  }
+  for (Robot& robot : m_robots) renew(robot, nameOf(robot.key));
+}
+
+std::string LiveRows::nameOf(const RobotKey& key) const {
+  const std::string name =
+      m_options.name ? m_options.name(key) : "Robot " + std::to_string(key.number);
+  return key.sender > 0 ? name + " (" + std::to_string(key.sender + 1) + ")" : name;
+}
+
+/// Its groups get this name, and the attributes that it has now.
+void LiveRows::renew(Robot& robot, std::string name) {
+  const std::string before = std::exchange(robot.name, std::move(name));
+  robot.link = m_sink->renameGroup(linkGroup(before).name, linkGroup(robot.name));
+  if (!robot.columns.empty()) robot.group = m_sink->renameGroup(before, groupOf(robot));
+  // A group that was there already does not go back.
+  robot.lastTime = std::max(robot.lastTime, m_newest);
+  robot.lastHealth = std::max(robot.lastHealth, m_newest);
+}
+
+LiveRows::Robot* LiveRows::robotOf(const RobotKey& key, const Sender& sender) {
+  const auto found = std::ranges::find(m_robots, key, &Robot::key);
   if (found != m_robots.end()) {
     const bool moved = found->sender.address != sender.address;
     found->sender = sender;
     if (moved) addGroups(*found);
     return &*found;
   }
-  const auto isOther = [this](int n, int s) { return !hasOwnPlace(n, s, m_options.teams); };
-  const auto others = static_cast<std::size_t>(std::ranges::count_if(
-      m_robots, [&](const Robot& robot) { return isOther(robot.number, robot.slot); }));
-  if (isOther(number, slot) && others >= MonitorOptions::otherRobots) return nullptr;
+  const auto others = static_cast<std::size_t>(
+      std::ranges::count_if(m_robots, [](const Robot& robot) { return !hasOwnPlace(robot.key); }));
+  if (!hasOwnPlace(key) && others >= MonitorOptions::otherRobots) return nullptr;
   Robot robot;
-  robot.lastTime = robot.lastHealth = m_least;
-  robot.number = number;
-  robot.slot = slot;
+  robot.key = key;
   robot.sender = sender;
-  robot.name = m_options.name ? m_options.name(number) : "Robot " + std::to_string(number);
-  if (slot > 0) robot.name += " (" + std::to_string(slot + 1) + ")";
+  robot.name = nameOf(key);
   robot.link = m_sink->addGroup(linkGroup(robot.name));
   m_robots.push_back(std::move(robot));
   return &m_robots.back();
@@ -177,19 +198,23 @@ bool LiveRows::describe(Robot& robot, const Profile& profile) {
   return true;
 }
 
-void LiveRows::addGroups(Robot& robot) {
+GroupInfo LiveRows::groupOf(const Robot& robot) const {
   GroupInfo group{robot.name,
                   robot.columns,
-                  {{"number", std::to_string(robot.number)},
+                  {{"number", std::to_string(robot.key.number)},
                    {"sender", robot.sender.address.text()},
                    {"live", "1"}}};
-  if (m_options.attributes) group.attributes.merge(m_options.attributes(robot.number));
-  robot.group = m_sink->addGroup(group);
+  if (m_options.attributes) group.attributes.merge(m_options.attributes(robot.key));
+  return group;
+}
+
+void LiveRows::addGroups(Robot& robot) {
+  robot.group = m_sink->addGroup(groupOf(robot));
 }
 
 void LiveRows::take(const DatagramView& datagram, const DecodedText& decoded,
-                    const TextDecoder& decoder, int slot) {
-  Robot* robot = robotOf(decoded.robot, slot, datagram.sender);
+                    const TextDecoder& decoder, const RobotKey& key) {
+  Robot* robot = robotOf(key, datagram.sender);
   if (robot == nullptr) {
     ++m_refused.rows;
     return;
@@ -240,9 +265,7 @@ void LiveRows::take(const DatagramView& datagram, const DecodedText& decoded,
 void LiveRows::report(const TeamStatus& status) {
   const double now = timeOf(status.time);
   for (const RobotStatus& heard : status.robots) {
-    const auto robot = std::ranges::find_if(m_robots, [&](const Robot& known) {
-      return known.number == heard.number && known.slot == heard.slot;
-    });
+    const auto robot = std::ranges::find(m_robots, heard.key, &Robot::key);
     if (robot == m_robots.end()) continue;  // nothing of it could be used yet
     const bool wasTimedOut = std::exchange(robot->timedOut, heard.timedOut);
     if (heard.timedOut && wasTimedOut) continue;

@@ -12,12 +12,8 @@ namespace {
 
 using telemetry::TeamSetup;
 
-const TeamSetup* setupOf(const LiveOptions& options, int robot) {
-  return telemetry::teamOf(robot, options.team.teams);
-}
-
-int numberOf(const LiveOptions& options, int robot) {
-  return telemetry::numberInTeam(robot, options.team.teams.size());
+const TeamSetup* setupOf(const LiveOptions& options, const RobotKey& robot) {
+  return telemetry::setupAt(robot.team, options.team.teams);
 }
 
 bool namesVariables(const telemetry::Profile& profile) {
@@ -25,9 +21,10 @@ bool namesVariables(const telemetry::Profile& profile) {
                      [](const auto& field) { return !field.variable.empty(); });
 }
 
-std::string nameOf(const LiveOptions& options, int robot) {
-  const int number = numberOf(options, robot);
-  if (options.team.teams.empty() && !namesVariables(options.profile)) {
+std::string nameOf(const LiveOptions& options, const RobotKey& robot) {
+  const auto& teams = options.team.teams;
+  const int number = robot.number;
+  if (robot.team == 0 && (!teams.empty() || !namesVariables(options.profile))) {
     return "Robot " + std::to_string(number);
   }
   sim::RobotIdentity identity;
@@ -39,12 +36,9 @@ std::string nameOf(const LiveOptions& options, int robot) {
     return identity.name() + " heard";
   }
   // Two teams of one colour would have one name.
-  const auto& teams = options.team.teams;
-  const std::size_t place = telemetry::teamPlace(robot, teams.size());
-  for (std::size_t i = 0; i < place && i < teams.size(); ++i) {
-    const int other = number + static_cast<int>(i) * telemetry::teamStep;
-    if (colourOf(options, other, options.colour, {}) == identity.team) {
-      return teams[place].title() + " " + std::to_string(number);
+  for (int other = 1; other < robot.team; ++other) {
+    if (colourOf(options, {other, number, 0}, options.colour, {}) == identity.team) {
+      return setupOf(options, robot)->title() + " " + std::to_string(number);
     }
   }
   return identity.name();
@@ -71,17 +65,18 @@ telemetry::MonitorOptions monitorOptions(const LiveOptions& options) {
   return made;
 }
 
-RobotKey keyOf(const LiveOptions& options, int robot, int slot) {
-  const std::size_t teams = options.team.teams.size();
-  const int place = teams == 0 ? 0 : static_cast<int>(telemetry::teamPlace(robot, teams)) + 1;
-  return {place, telemetry::numberInTeam(robot, teams), slot};
+Teams teamsOf(const std::vector<TeamSetup>& setups) {
+  Teams teams;
+  for (const TeamSetup& setup : setups) {
+    teams.push_back({setup.number, setup.title(), setup.colour, teams.empty()});
+  }
+  return teams;
 }
 
-TeamColor colourOf(const LiveOptions& options, int robot, TeamColor ours,
+TeamColor colourOf(const LiveOptions& options, const RobotKey& robot, TeamColor ours,
                    const std::optional<RefereeView>& referee) {
-  const int number = numberOf(options, robot);
   if (options.colourByNumber) {
-    return teamColors[static_cast<std::size_t>(number - 1) % teamColors.size()].color;
+    return teamColors[static_cast<std::size_t>(robot.number - 1) % teamColors.size()].color;
   }
   const TeamSetup* setup = setupOf(options, robot);
   if (setup == nullptr) return ours;
@@ -93,19 +88,19 @@ TeamColor colourOf(const LiveOptions& options, int robot, TeamColor ours,
     }
   }
   // Two teams are two colours.
-  const std::size_t place = telemetry::teamPlace(robot, options.team.teams.size());
-  return teamColors[(static_cast<std::size_t>(ours) + place) % teamColors.size()].color;
+  const auto further = static_cast<std::size_t>(robot.team - 1);
+  return teamColors[(static_cast<std::size_t>(ours) + further) % teamColors.size()].color;
 }
 
-int refereeNumberOf(const LiveOptions& options, int robot) {
+int refereeNumberOf(const LiveOptions& options, const RobotKey& robot) {
   const TeamSetup* setup = setupOf(options, robot);
   return setup != nullptr && setup->number > 0 ? setup->number : options.ourTeam;
 }
 
-std::string ownNameOf(const LiveOptions& options, int robot) {
+std::string ownNameOf(const LiveOptions& options, const RobotKey& robot) {
   const TeamSetup* setup = setupOf(options, robot);
   if (setup == nullptr) return {};
-  const auto found = setup->robots.find(numberOf(options, robot));
+  const auto found = setup->robots.find(robot.number);
   return found == setup->robots.end() ? std::string() : found->second;
 }
 
@@ -116,12 +111,11 @@ std::string meaningAttribute(telemetry::FieldMeaning meaning) {
 telemetry::LiveRowsOptions rowsOptions(const LiveOptions& options, telemetry::WallTime zero) {
   telemetry::LiveRowsOptions made;
   made.zero = zero;
-  made.teams = options.team.teams.size();
-  made.name = [options](int robot) { return nameOf(options, robot); };
+  made.name = [options](const RobotKey& robot) { return nameOf(options, robot); };
   if (options.team.teams.empty()) return made;
-  made.attributes = [options](int robot) {
+  made.attributes = [options](const RobotKey& robot) {
     std::map<std::string, std::string> more{
-        {"shirt", std::to_string(numberOf(options, robot))},
+        {"shirt", std::to_string(robot.number)},
         {"team", std::string(info(colourOf(options, robot, options.colour, {})).name)}};
     if (const TeamSetup* setup = setupOf(options, robot)) {
       more["team_name"] = setup->title();

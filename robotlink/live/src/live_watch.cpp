@@ -87,10 +87,11 @@ struct LiveWatch::Impl {
     const LiveOptions old = std::exchange(options, std::move(*pending));
     pending.reset();
     if (!(old.profile == options.profile)) monitor.setProfile(options.profile);
-    monitor.setOptions(monitorOptions(options));
+    books.setTeams(monitorOptions(options));
+    noteRenamings();
     boards.set(options.boards);
     referee.setOptions(LiveBooks::refereeOptions(options));
-    for (const auto& observer : observers) observer->adopted(options);
+    for (const auto& observer : observers) observer->adopted(options, monitor.renamings());
     tellBooks();
     monitorProblem.clear();
     const auto before = receiverOptions(old, clock), after = receiverOptions(options, clock);
@@ -102,8 +103,7 @@ struct LiveWatch::Impl {
   void forget() {
     const std::lock_guard lock(mutex);
     for (const RobotKey& robot : std::exchange(forgetAsked, {})) {
-      const int first = std::max(robot.team - 1, 0) * telemetry::teamStep;
-      monitor.forget(first + robot.number, robot.sender);
+      monitor.forget(robot);
       tellBooks();
     }
     if (!std::exchange(clearAsked, false)) return;
@@ -152,6 +152,10 @@ struct LiveWatch::Impl {
         continue;
       }
       const auto verdict = books.takeRobot(datagram, arrival(datagram.time));
+      if (verdict && !monitor.renamings().empty()) {
+        noteRenamings();
+        for (const auto& observer : observers) observer->renamed(monitor.renamings());
+      }
       if (verdict == TeamMonitor::Verdict::SenderRefused) {
         for (const auto& observer : observers) observer->strangerHeard(datagram);
         continue;
@@ -160,9 +164,8 @@ struct LiveWatch::Impl {
       if (verdict != TeamMonitor::Verdict::Used) {
         unused(datagram);
       } else {
-        const RobotKey robot = keyOf(options, monitor.decoded().robot, monitor.usedSlot());
         for (const auto& observer : observers) {
-          observer->heard(robot, arrival(datagram.time), datagram, monitor.decoder(),
+          observer->heard(monitor.used(), arrival(datagram.time), datagram, monitor.decoder(),
                           monitor.decoded());
         }
       }
@@ -190,7 +193,7 @@ struct LiveWatch::Impl {
     }
     if (now >= nextReport) nextReport = now + reportPeriod;
     if (now >= nextBooks) tellBooks();
-    frame = std::move(made);
+    news.frame = std::move(made);
     if (!std::exchange(announced, true) && onFrame) onFrame();
   }
 
@@ -203,8 +206,14 @@ struct LiveWatch::Impl {
     for (const auto& observer : observers) observer->remembered(time, text);
   }
 
+  void noteRenamings() {
+    if (monitor.renamings().empty()) return;
+    happened.rename(monitor.renamings());
+    news.renamings.push_back(monitor.renamings());
+  }
+
   void tell(const std::vector<MatchEvent>& what) {
-    queueUp(events, what);
+    queueUp(news.events, what);
     for (const auto& observer : observers) {
       for (const MatchEvent& event : what) observer->happened(event);
     }
@@ -263,9 +272,8 @@ struct LiveWatch::Impl {
   LiveEvents happened;
   std::uint64_t serial = 0, unknownReferee = 0, refusedReferees = 0;
   std::string networkProblem, unknownReason, unknownSample, monitorProblem;
-  std::shared_ptr<const MatchFrame> frame;
+  LiveNews news;
   bool announced = false;
-  std::vector<MatchEvent> events;
   std::vector<std::shared_ptr<LiveObserver>> observers;
   std::jthread thread;  // last: it uses all of the above
 };
@@ -297,10 +305,10 @@ void LiveWatch::forget(const RobotKey& robot) {
   m_impl->forgetAsked.push_back(robot);
 }
 
-std::shared_ptr<const MatchFrame> LiveWatch::latest() {
+LiveNews LiveWatch::take() {
   const std::lock_guard lock(m_impl->mutex);
   m_impl->announced = false;
-  return m_impl->frame;
+  return std::exchange(m_impl->news, {{}, {}, m_impl->news.frame});
 }
 
 LiveDetails LiveWatch::details() const {
@@ -317,11 +325,6 @@ LiveDetails LiveWatch::details() const {
   details.refusedReferees = m_impl->refusedReferees;
   details.monitorProblem = m_impl->monitorProblem;
   return details;
-}
-
-std::vector<MatchEvent> LiveWatch::takeEvents() {
-  const std::lock_guard lock(m_impl->mutex);
-  return std::exchange(m_impl->events, {});
 }
 
 telemetry::WallTime LiveWatch::began() const {

@@ -68,7 +68,7 @@ void LiveRecorder::heard(const RobotKey& robot, double time,
                          const telemetry::TextDecoder& decoder,
                          const telemetry::DecodedText& decoded) {
   LiveRecords::heard(robot, time, datagram, decoder, decoded);
-  m_rows.take(datagram, decoded, decoder, robot.sender);
+  m_rows.take(datagram, decoded, decoder, robot);
 }
 
 void LiveRecorder::keep(LiveRecord record) {
@@ -79,8 +79,12 @@ void LiveRecorder::happened(const MatchEvent& event) {
   m_writer->append(sessionEvent(event));
 }
 
-void LiveRecorder::adopted(const LiveOptions& options) {
-  m_rows.setOptions(rowsOptions(options, m_zero));
+void LiveRecorder::adopted(const LiveOptions& options, const std::vector<Renaming>& renamings) {
+  m_rows.setOptions(rowsOptions(options, m_zero), renamings);
+}
+
+void LiveRecorder::renamed(const std::vector<Renaming>& renamings) {
+  m_rows.rename(renamings);
 }
 
 void LiveRecorder::reported(const telemetry::TeamStatus& team) {

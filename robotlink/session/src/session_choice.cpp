@@ -102,19 +102,21 @@ class Choice {
         WallTime(telemetry::Duration(std::llround(kept->time * 1e9))), kept->sender,
         kept->localPort, false, kept->payload};
     telemetry::TeamMonitor& monitor = m_known->books.monitor;
-    int number = 0, slot = 0;
+    RobotKey robot;
     if (const auto verdict = m_known->books.takeRobot(datagram, kept->time)) {
-      number = monitor.decoded().robot;
-      if (*verdict == telemetry::TeamMonitor::Verdict::Used) slot = monitor.usedSlot();
+      robot = {monitor.decoded().place, monitor.decoded().robot, 0};
+      if (*verdict == telemetry::TeamMonitor::Verdict::Used) robot = monitor.used();
     } else if (drawing) {
       const auto place = monitor.placeOf(datagram, drawing->team);
-      if (place) number = drawing->robot + std::max(0, *place - 1) * telemetry::teamStep;
+      if (place) robot = {*place, drawing->robot, 0};
     }
-    return number > 0 && isChosen(nameOf(number, slot), m_robots);
+    return robot.number > 0 && isChosen(nameOf(robot), m_robots);
   }
 
   /// As its rows call it.
-  std::string nameOf(int number, int slot) const { return withSender(m_name(number), slot); }
+  std::string nameOf(const RobotKey& robot) const {
+    return withSender(m_name(robot), robot.sender);
+  }
 
   bool keepPlayers(std::string& text) const {
     Json json = lenient::parsed<Json>(text);
@@ -151,13 +153,11 @@ class Choice {
     auto robots = m_known->books.monitor.status(now).robots;
     std::ranges::reverse(robots);
     for (const telemetry::RobotStatus& robot : robots) {
-      if (isChosen(nameOf(robot.number, robot.slot), m_robots)) continue;
-      part->books.monitor.forget(robot.number, robot.slot);
+      if (isChosen(nameOf(robot.key), m_robots)) continue;
+      part->books.monitor.forget(robot.key);
     }
-    part->books.drawings.forget([&](const RobotKey& robot) {
-      return !isChosen(nameOf(robot.number + std::max(0, robot.team - 1) * telemetry::teamStep, 0),
-                       m_robots);
-    });
+    part->books.drawings.forget(
+        [&](const RobotKey& robot) { return !isChosen(nameOf(robot), m_robots); });
     text = part->books.text(part->options, time, WallTime{});
     return true;
   }
@@ -165,8 +165,8 @@ class Choice {
   std::vector<std::string> m_robots, m_groups;
   std::map<std::string, std::string> m_nameOfBoard;
   bool m_isLive = false;
-  std::optional<LiveBooks::Read> m_known;  // of all robots
-  std::function<std::string(int)> m_name;  // by its options
+  std::optional<LiveBooks::Read> m_known;              // of all robots
+  std::function<std::string(const RobotKey&)> m_name;  // by its options
 };
 
 }  // namespace

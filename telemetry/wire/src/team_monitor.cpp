@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <tuple>
 
 #include "team_monitor_books.h"
 
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr std::size_t maxSenders = 64;
+constexpr std::size_t maxSenders = 64, maxOthers = 8;
 
 constexpr FieldMeaning processFlags[processCount] = {FieldMeaning::Control, FieldMeaning::Vision,
                                                      FieldMeaning::Localization,
@@ -42,7 +41,7 @@ int counterBits(const Profile& profile) {
 TeamMonitor::TeamMonitor(Profile profile, MonitorOptions options)
     : m_options(std::move(options)), m_profile(std::move(profile)) {
   makeRouter();
-  m_robots.reserve(m_options.mostRobots());
+  m_robots.reserve(mostPlaces(m_options));
 }
 TeamMonitor::~TeamMonitor() = default;
 TeamMonitor::TeamMonitor(TeamMonitor&&) noexcept = default;
@@ -63,18 +62,32 @@ void TeamMonitor::setProfile(Profile profile) {
 }
 
 void TeamMonitor::setOptions(MonitorOptions options) {
-  const std::size_t before = m_options.teams.size();
-  m_options = std::move(options);
-  const std::size_t now = m_options.teams.size();
-  if (now != before) {
-    // A number says less, or other things, with another count of teams.
-    const bool same = (now > 1) == (before > 1);
-    std::erase_if(m_robots, [&](const Robot& robot) {
-      return same ? teamPlace(robot.number, before) >= std::max(now, std::size_t{1})
-                  : robot.number >= teamStep;
-    });
-    m_robots.reserve(m_options.mostRobots());
+  const std::vector<TeamSetup> before = std::exchange(m_options, std::move(options)).teams;
+  const std::vector<TeamSetup>& now = m_options.teams;
+  m_renamings.clear();
+  if (now == before) return makeRouter();
+  // A setup that moved takes its robots along; one that was edited keeps them.
+  const auto placeOf = [&](int was) {
+    const TeamSetup* setup = setupAt(was, before);
+    if (setup == nullptr) return 0;
+    const auto moved = std::ranges::find(now, *setup);
+    if (moved != now.end()) return static_cast<int>(moved - now.begin()) + 1;
+    const TeamSetup* edited = setupAt(was, now);
+    const bool isFree = edited != nullptr && std::ranges::find(before, *edited) == before.end();
+    return isFree ? was : 0;
+  };
+  // All at the same time: a key that one robot leaves may be another one's next.
+  std::vector<RobotKey> keys;
+  for (const Robot& robot : m_robots) {
+    RobotKey key{placeOf(robot.key.team), robot.key.number, robot.key.sender};
+    while (std::ranges::find(keys, key) != keys.end()) ++key.sender;
+    keys.push_back(key);
   }
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const RobotKey old = std::exchange(m_robots[i].key, keys[i]);
+    if (old != keys[i]) m_renamings.push_back({old, keys[i]});
+  }
+  m_robots.reserve(m_robots.size() + mostPlaces(m_options));
   makeRouter();
 }
 
@@ -103,18 +116,19 @@ bool TeamMonitor::isOverdue(const Robot& robot, WallTime time) const {
   return since(time, robot.last) >= interval * 3 / 4;
 }
 
-TeamMonitor::Robot* TeamMonitor::newRobot(int number, WallTime time) {
-  int slot = 0;
-  const auto taken = [&](const Robot& robot) {
-    return robot.number == number && robot.slot == slot;
-  };
-  while (std::any_of(m_robots.begin(), m_robots.end(), taken)) ++slot;
-  const std::size_t teams = m_options.teams.size();
+RobotKey TeamMonitor::freeKey(int team, int number) const {
+  RobotKey key{team, number, 0};
+  while (std::ranges::find(m_robots, key, &Robot::key) != m_robots.end()) ++key.sender;
+  return key;
+}
+
+TeamMonitor::Robot* TeamMonitor::newRobot(int team, int number, WallTime time) {
+  const RobotKey key = freeKey(team, number);
   Robot* place = nullptr;
-  if (!hasOwnPlace(number, slot, teams)) {
+  if (!hasOwnPlace(key)) {
     std::size_t others = 0;
     for (Robot& robot : m_robots) {
-      if (hasOwnPlace(robot.number, robot.slot, teams)) continue;
+      if (hasOwnPlace(robot.key)) continue;
       ++others;
       if (place == nullptr || robot.last < place->last) place = &robot;
     }
@@ -126,8 +140,7 @@ TeamMonitor::Robot* TeamMonitor::newRobot(int number, WallTime time) {
   }
   if (place == nullptr) place = &m_robots.emplace_back();
   *place = Robot();
-  place->number = number;
-  place->slot = slot;
+  place->key = key;
   place->sequence = SequenceStats(counterBits(m_decoder->profile()));
   return place;
 }
@@ -139,8 +152,8 @@ void TeamMonitor::giveBack(Robot& robot, const Sender& sender, WallTime time) {
   robot.sequence = robot.previousSequence;
   robot.moved = false;
   robot.previous.reset();
-  Robot* other =
-      newRobot(robot.number, time);  // within what is reserved: `robot` stays where it is
+  // Within what is reserved: `robot` stays where it is.
+  Robot* other = newRobot(robot.key.team, robot.key.number, time);
   if (other == nullptr) return;
   other->sender = moved.sender;
   other->last = moved.last;
@@ -156,10 +169,24 @@ void TeamMonitor::giveBack(Robot& robot, const Sender& sender, WallTime time) {
   other->extras = moved.extras;
 }
 
-TeamMonitor::Robot* TeamMonitor::findRobot(int number, const Sender& sender, WallTime time) {
-  Robot *restarted = nullptr, *moved = nullptr;
+/// What was decoded last says what this robot said, its counter apart.
+bool TeamMonitor::saysTheSame(const Robot& robot) const {
+  if (!robot.decoder || robot.words.size() != m_decoded.count) return false;
+  if (!(robot.decoder->profile() == m_decoder->profile())) return false;
+  const auto counter = m_decoder->profile().indexOf(FieldMeaning::Sequence);
+  for (std::size_t i = 0; i < m_decoded.count; ++i) {
+    if (i == counter) continue;
+    if (robot.words[i] != m_decoded.words[i].substr(0, ErrorTally::sampleBytes)) return false;
+  }
+  return true;
+}
+
+TeamMonitor::Robot* TeamMonitor::findRobot(int team, int number, const Sender& sender,
+                                           WallTime time) {
+  Robot *restarted = nullptr, *moved = nullptr, *first = nullptr;
   for (Robot& robot : m_robots) {
-    if (robot.number != number) continue;
+    if (robot.key.team != team || robot.key.number != number) continue;
+    if (robot.key.sender == 0) first = &robot;
     if (robot.sender == sender) {
       robot.moved = false;
       return &robot;
@@ -171,11 +198,26 @@ TeamMonitor::Robot* TeamMonitor::findRobot(int number, const Sender& sender, Wal
     // A program that was started again, or opens a socket for each message, is the same robot.
     if (robot.sender.address == sender.address) {
       restarted = &robot;
-    } else if (isOverdue(robot, time) && (moved == nullptr || robot.slot < moved->slot)) {
+    } else if (isOverdue(robot, time) &&
+               (moved == nullptr || robot.key.sender < moved->key.sender)) {
       moved = &robot;
     }
   }
   Robot* same = restarted != nullptr ? restarted : moved;
+  // It was heard before its team was known.
+  if (team != 0 && restarted == nullptr) {
+    const auto teamless = std::ranges::find_if(m_robots, [&](const Robot& robot) {
+      return robot.key.team == 0 && robot.key.number == number &&
+             robot.sender.address == sender.address;
+    });
+    if (teamless != m_robots.end()) {
+      const RobotKey key = freeKey(team, number);
+      m_renamings.push_back({teamless->key, key});
+      teamless->key = key;
+      same = &*teamless;
+      if (same->sender == sender) return same;
+    }
+  }
   if (same != nullptr) {
     same->previous = same->sender;
     same->previousSequence = same->sequence;
@@ -183,24 +225,57 @@ TeamMonitor::Robot* TeamMonitor::findRobot(int number, const Sender& sender, Wal
     same->moved = true;
     return same;
   }
-  Robot* made = newRobot(number, time);
+  if (first != nullptr && saysTheSame(*first)) {
+    std::erase_if(first->others, [&](const Robot::Other& other) {
+      return other.sender == sender || since(time, other.last) >= m_options.timeout;
+    });
+    if (first->others.size() < maxOthers) first->others.push_back({sender, time});
+    return first;
+  }
+  if (first != nullptr) {
+    std::erase_if(first->others, [&](const Robot::Other& other) { return other.sender == sender; });
+  }
+  Robot* made = newRobot(team, number, time);
   if (made != nullptr) made->sender = sender;
   return made;
 }
 
-void TeamMonitor::forget(int number, int slot) {
-  std::erase_if(m_robots,
-                [&](const Robot& robot) { return robot.number == number && robot.slot == slot; });
-  if (slot != 0) return;
+/// It is not shown any more: a second program, or a robot without a team, that fell silent.
+bool TeamMonitor::isGone(const Robot& robot, WallTime time) const {
+  const bool hasNoTeam = robot.key.team == 0 && !m_options.teams.empty();
+  return (robot.key.sender > 0 || hasNoTeam) && since(time, robot.last) >= m_options.timeout;
+}
+
+/// A second program is the robot of its number once the first one is silent; a little before that
+/// one times out, so that nobody misses a robot that is heard.
+void TeamMonitor::foldAway(WallTime time) {
+  std::erase_if(m_robots, [&](const Robot& robot) { return isGone(robot, time); });
+  for (std::size_t i = 0; i < m_robots.size(); ++i) {
+    const RobotKey second = m_robots[i].key;
+    if (second.sender == 0) continue;
+    const RobotKey key{second.team, second.number, 0};
+    const auto first = std::ranges::find(m_robots, key, &Robot::key);
+    if (first != m_robots.end() && since(time, first->last) < m_options.timeout * 3 / 4) continue;
+    m_robots[i].key = key;
+    if (first != m_robots.end()) m_robots.erase(first);
+    i = static_cast<std::size_t>(-1);  // places have changed
+  }
+}
+
+void TeamMonitor::forget(const RobotKey& key) {
+  std::erase_if(m_robots, [&](const Robot& robot) { return robot.key == key; });
+  if (key.sender != 0) return;
   Robot* next = nullptr;
   for (Robot& robot : m_robots) {
-    if (robot.number == number && (next == nullptr || robot.slot < next->slot)) next = &robot;
+    if (robot.key.team != key.team || robot.key.number != key.number) continue;
+    if (next == nullptr || robot.key.sender < next->key.sender) next = &robot;
   }
-  if (next != nullptr) next->slot = 0;
+  if (next != nullptr) next->key.sender = 0;
 }
 
 TeamMonitor::Verdict TeamMonitor::take(const DatagramView& datagram) {
   ++m_datagrams;
+  m_renamings.clear();
   const bool isAllowed = m_options.senders.allows(datagram.sender.address);
   const auto decoder = isAllowed ? m_router->decode(datagram, m_decoded) : nullptr;
   if (!decoder) {
@@ -226,20 +301,28 @@ TeamMonitor::Verdict TeamMonitor::take(const DatagramView& datagram) {
   if (!m_decoded.accepted()) {
     // A bad message is counted for a robot that is known, but does not make one.
     const auto known = std::find_if(m_robots.begin(), m_robots.end(), [&](const Robot& robot) {
-      return robot.number == m_decoded.robot && robot.sender == datagram.sender;
+      return robot.key.number == m_decoded.robot && robot.key.team == m_decoded.place &&
+             robot.sender == datagram.sender;
     });
     Robot* robot = known == m_robots.end() ? nullptr : &*known;
     if (robot != nullptr) robot->bytes += datagram.payload.size();
     tally(robot);
     return Verdict::Refused;
   }
-  Robot* robot = findRobot(m_decoded.robot, datagram.sender, datagram.time);
+  foldAway(datagram.time);
+  Robot* robot = findRobot(m_decoded.place, m_decoded.robot, datagram.sender, datagram.time);
   if (robot == nullptr) {
     ++m_refusedRobots;
     tally(nullptr);
     return Verdict::TooManyRobots;
   }
   robot->bytes += datagram.payload.size();
+  if (robot->sender != datagram.sender) {  // another program that says the same
+    m_decoded.errors.add(TextError::Duplicate);
+    ++robot->duplicates;
+    tally(robot);
+    return Verdict::Duplicate;
+  }
 
   const std::size_t hash = std::hash<std::string_view>{}(datagram.payload);
   bool duplicate = robot->messages > 0 && hash == robot->lastHash &&
@@ -282,7 +365,7 @@ void TeamMonitor::arrive(Robot& robot, WallTime time) {
 }
 
 void TeamMonitor::use(Robot& robot, const DatagramView& datagram) {
-  m_usedSlot = robot.slot;
+  m_used = robot.key;
   for (std::size_t i = 0; i < processCount; ++i) {
     const auto flag = m_decoder->value(m_decoded, processFlags[i]);
     if (!flag) continue;
@@ -313,12 +396,15 @@ void TeamMonitor::use(Robot& robot, const DatagramView& datagram) {
 
 RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
   RobotStatus status;
-  status.number = robot.number;
-  status.slot = robot.slot;
+  status.key = robot.key;
   status.sender = robot.sender;
   status.age = since(now, robot.last);
   status.timedOut = status.age >= m_options.timeout;
   status.lastMessage = robot.last;
+  for (const Robot::Other& other : robot.others) {
+    if (since(now, other.last) < m_options.timeout) status.others.push_back(other.sender);
+  }
+  status.conflict = !status.others.empty() && !status.timedOut;
   status.messages = robot.messages;
   status.bytes = robot.bytes;
   status.recoveries = robot.recoveries;
@@ -356,15 +442,15 @@ TeamStatus TeamMonitor::status(WallTime now) const {
   TeamStatus team;
   team.time = now;
   team.robots.reserve(m_robots.size());
-  for (const Robot& robot : m_robots) team.robots.push_back(statusOf(robot, now));
-  std::sort(team.robots.begin(), team.robots.end(), [](const RobotStatus& a, const RobotStatus& b) {
-    return std::tie(a.number, a.slot) < std::tie(b.number, b.slot);
-  });
+  for (const Robot& robot : m_robots) {
+    if (!isGone(robot, now)) team.robots.push_back(statusOf(robot, now));
+  }
+  std::ranges::sort(team.robots, {}, &RobotStatus::key);
   for (std::size_t i = 0; i < team.robots.size(); ++i) {
     for (std::size_t j = i + 1; j < team.robots.size(); ++j) {
       RobotStatus& a = team.robots[i];
       RobotStatus& b = team.robots[j];
-      if (a.number == b.number) noteConflict(a, b);
+      if (a.key.team == b.key.team && a.key.number == b.key.number) noteConflict(a, b);
     }
   }
   for (const SenderRecord& sender : m_senders) team.senders.push_back(sender.status);

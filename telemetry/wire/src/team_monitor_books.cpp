@@ -76,24 +76,25 @@ class UsualProfiles {
   UsualProfiles(const Profile& profile, const MonitorOptions& options)
       : m_profile(profile), m_options(options), m_decoders(std::max<std::size_t>(1, teams())) {}
 
-  const Profile& of(int robot) const {
-    return teams() == 0 ? m_profile : m_options.teams[placeOf(robot)].profile;
+  const Profile& of(int team) const {
+    return teams() == 0 ? m_profile : m_options.teams[placeOf(team)].profile;
   }
-  std::shared_ptr<const TextDecoder> decoderOf(int robot) {
-    std::shared_ptr<const TextDecoder>& decoder = m_decoders[placeOf(robot)];
-    if (!decoder) decoder = std::make_shared<const TextDecoder>(of(robot), whereOf(robot));
+  std::shared_ptr<const TextDecoder> decoderOf(int team) {
+    std::shared_ptr<const TextDecoder>& decoder = m_decoders[placeOf(team)];
+    if (!decoder) decoder = std::make_shared<const TextDecoder>(of(team), whereOf(team));
     return decoder;
   }
-  Surroundings whereOf(int robot) const {
+  std::size_t teams() const { return m_options.teams.size(); }
+  Surroundings whereOf(int team) const {
     Surroundings where = m_options.field;
-    if (teams() > 0) where.attacksLeft = m_options.teams[placeOf(robot)].attacksLeft;
+    if (teams() > 0) where.attacksLeft = m_options.teams[placeOf(team)].attacksLeft;
     return where;
   }
 
  private:
-  std::size_t teams() const { return m_options.teams.size(); }
-  std::size_t placeOf(int robot) const {
-    return teams() == 0 ? 0 : std::min(teamPlace(robot, teams()), teams() - 1);
+  std::size_t placeOf(int team) const {
+    const auto index = static_cast<std::size_t>(std::max(team, 1)) - 1;
+    return teams() == 0 ? 0 : std::min(index, teams() - 1);
   }
 
   const Profile& m_profile;
@@ -105,8 +106,9 @@ struct MonitorBooks {
   using Robot = TeamMonitor::Robot;
 
   static Json written(const Robot& robot, const UsualProfiles& usual, WallTime zero) {
-    Json json{{"number", robot.number},
-              {"slot", robot.slot},
+    Json json{{"team", robot.key.team},
+              {"number", robot.key.number},
+              {"sender", robot.key.sender},
               {"address", robot.sender.address.value},
               {"port", robot.sender.port},
               {"last", fromZero(robot.last, zero)},
@@ -120,6 +122,11 @@ struct MonitorBooks {
     if (robot.previous) {
       json["previous"] =
           Json{{"address", robot.previous->address.value}, {"port", robot.previous->port}};
+    }
+    for (const Robot::Other& other : robot.others) {
+      json["others"].push_back(Json{{"address", other.sender.address.value},
+                                    {"port", other.sender.port},
+                                    {"last", fromZero(other.last, zero)}});
     }
     if (robot.volts) json["volts"] = *robot.volts;
     if (robot.charge) json["charge"] = *robot.charge;
@@ -143,7 +150,7 @@ struct MonitorBooks {
     json["words"] = robot.words;
     if (!robot.extras.empty()) json["extras"] = robot.extras;
     // It may have said nothing since the profile was changed.
-    if (robot.decoder && !(robot.decoder->profile() == usual.of(robot.number))) {
+    if (robot.decoder && !(robot.decoder->profile() == usual.of(robot.key.team))) {
       json["profile"] = profileText(robot.decoder->profile());
     }
     return json;
@@ -151,8 +158,7 @@ struct MonitorBooks {
 
   static Robot read(const Json& json, UsualProfiles& usual, WallTime zero) {
     Robot robot;
-    robot.number = whole<int>(json, "number");
-    robot.slot = whole<int>(json, "slot");
+    robot.key = keyFrom(json, usual.teams());
     robot.sender = senderFrom(json);
     if (const Json* previous = member(json, "previous")) robot.previous = senderFrom(*previous);
     robot.last = timeAt(json, "last", zero);
@@ -160,6 +166,10 @@ struct MonitorBooks {
     robot.bytes = whole<std::uint64_t>(json, "bytes");
     robot.recoveries = whole<std::uint64_t>(json, "recoveries");
     robot.duplicates = whole<std::uint64_t>(json, "duplicates");
+    each(json, "others", mostWords, [&](std::size_t, const Json& other) {
+      if (!other.is_object()) return;
+      robot.others.push_back({senderFrom(other), timeAt(other, "last", zero)});
+    });
     robot.volts = number(json, "volts");
     robot.highestVolts = number(json, "highestVolts").value_or(0.0);
     robot.charge = number(json, "charge");
@@ -197,14 +207,25 @@ struct MonitorBooks {
                                  ? key.get<std::string>().substr(0, profile_words::maxNameBytes)
                                  : std::string());
     });
-    robot.decoder = usual.decoderOf(robot.number);
+    robot.decoder = usual.decoderOf(robot.key.team);
     if (const std::string text = lenient::text(json, "profile"); !text.empty()) {
       if (auto profile = parseProfile(text, "profile")) {
         robot.decoder =
-            std::make_shared<const TextDecoder>(std::move(*profile), usual.whereOf(robot.number));
+            std::make_shared<const TextDecoder>(std::move(*profile), usual.whereOf(robot.key.team));
       }
     }
     return robot;
+  }
+
+  static RobotKey keyFrom(const Json& json, std::size_t teams) {
+    const int heard = whole<int>(json, "number");
+    if (member(json, "team") != nullptr) {
+      return {whole<int>(json, "team"), heard, whole<int>(json, "sender")};
+    }
+    // 0.8 had one number for place and robot where there were several teams.
+    constexpr int step = 1000;
+    const int place = teams > 1 ? heard / step + 1 : static_cast<int>(teams);
+    return {place, teams > 1 ? heard % step : heard, whole<int>(json, "slot")};
   }
 
   static Sender senderFrom(const Json& json) {
@@ -228,15 +249,16 @@ Result<void> TeamMonitor::restoreRobots(std::string_view text, WallTime zero) {
     return failure(ErrorCode::ParseError, "This is no state of robots that were heard.");
   }
   std::vector<Robot> read;
-  const std::size_t most = m_options.mostRobots();
-  read.reserve(most);
+  const std::size_t most = mostPlaces(m_options);
+  read.reserve(2 * most);  // to come and there
   UsualProfiles usual(m_profile, m_options);
   for (const Json& robot : *robots) {
     if (!robot.is_object() || read.size() == most) continue;
     Robot one = MonitorBooks::read(robot, usual, zero);
-    // Numbers and slots that no monitor gives would not fit into an id.
-    const bool possible = one.number >= 1 && one.number <= TextDecoder::maxRobot && one.slot >= 0 &&
-                          one.slot < static_cast<int>(most);
+    const RobotKey& key = one.key;
+    const bool possible = key.number >= 1 && key.number <= TextDecoder::maxRobot &&
+                          key.sender >= 0 && key.sender < static_cast<int>(most) && key.team >= 0 &&
+                          static_cast<std::size_t>(key.team) <= m_options.teams.size();
     if (possible) read.push_back(std::move(one));
   }
   m_robots = std::move(read);

@@ -9,10 +9,19 @@
 
 namespace pitchboard::telemetry {
 
+/// Robots that may come to those of a monitor: the teams', and those without a team.
+inline std::size_t mostPlaces(const MonitorOptions& options) {
+  return options.mostRobots() + MonitorOptions::ordinaryRobots;
+}
+
 struct TeamMonitor::Robot {
-  int number = 0;
-  int slot = 0;
+  RobotKey key;
   Sender sender;
+  struct Other {
+    Sender sender;
+    WallTime last{};
+  };
+  std::vector<Other> others;       ///< that said the same
   std::optional<Sender> previous;  ///< the one before, when it sends from another one
   bool moved = false;              ///< its last message was the first one of this sender
   WallTime last{};

@@ -63,6 +63,8 @@ void readSenders(const JsonObject& top, TeamSetup& setup) {
   }
 }
 
+constexpr int mostNumber = 999;
+
 void readRobots(JsonReport& report, const JsonObject& top, TeamSetup& setup) {
   const JsonNode* node = top.find("robots");
   if (node == nullptr) return;
@@ -74,7 +76,7 @@ void readRobots(JsonReport& report, const JsonObject& top, TeamSetup& setup) {
     int number = 0;
     const auto [stop, error] = std::from_chars(key.data(), key.data() + key.size(), number);
     if (error != std::errc{} || stop != key.data() + key.size() || number < 1 ||
-        number >= teamStep) {
+        number > mostNumber) {
       return robots.fail(key, "the number of a robot is from 1 to 999");
     }
     setup.robots[number] = robots.text(key, {}, longestText);
@@ -204,11 +206,6 @@ Result<std::vector<std::uint16_t>> teamPorts(const std::vector<TeamSetup>& teams
   return ports;
 }
 
-const TeamSetup* teamOf(int robot, const std::vector<TeamSetup>& teams) {
-  const std::size_t index = teamPlace(robot, teams.size());
-  return index < teams.size() ? &teams[index] : nullptr;
-}
-
 TeamRouter::TeamRouter(const Profile& profile, std::vector<TeamSetup> teams,
                        const Surroundings& where) {
   if (teams.empty()) m_only = std::make_shared<const TextDecoder>(profile, where);
@@ -232,6 +229,7 @@ bool TeamRouter::mayCome(const Team& team, const DatagramView& datagram) const {
 
 std::shared_ptr<const TextDecoder> TeamRouter::decode(const DatagramView& datagram,
                                                       DecodedText& out) const {
+  out.place = 0;
   if (m_only) {
     m_only->decode(datagram, out);
     return m_only;
@@ -244,18 +242,14 @@ std::shared_ptr<const TextDecoder> TeamRouter::decode(const DatagramView& datagr
     if (refused == nullptr) refused = &team;
     const bool another = out.team && team.setup.number > 0 && *out.team != team.setup.number;
     if (!out.accepted() || another) continue;
-    if (m_teams.size() == 1) return team.decoder;
-    if (out.robot >= teamStep) {
-      out.errors.add(TextError::BadRobot);
-    } else {
-      out.robot += static_cast<int>(i) * teamStep;
-    }
+    out.place = static_cast<int>(i) + 1;
     return team.decoder;
   }
   if (refused == nullptr) return nullptr;
   // What is wrong with it, as the first team would write it.
   refused->decoder->decode(datagram, out);
   if (out.accepted()) return nullptr;  // it names another team
+  out.place = static_cast<int>(refused - m_teams.data()) + 1;
   return refused->decoder;
 }
 

@@ -190,14 +190,14 @@ void FieldScene::matchRobots() {
   }
 }
 
-void FieldScene::rename(const std::vector<link::Renaming>& renamings) {
-  link::rename(m_robots, renamings);
+void FieldScene::rename(const std::vector<Renaming>& renamings) {
+  pitchboard::rename(m_robots, renamings);
   for (const auto& [key, robot] : m_robots) robot->body.setKey(key);
-  link::rename(m_hiddenTrails, renamings);
-  for (RobotKey& key : m_selection) key = link::renamed(key, renamings);
+  pitchboard::rename(m_hiddenTrails, renamings);
+  for (RobotKey& key : m_selection) key = pitchboard::renamed(key, renamings);
   emit selectionChangedTo(m_selection);
   if (!m_followed) return;
-  m_followed = link::renamed(*m_followed, renamings);
+  m_followed = pitchboard::renamed(*m_followed, renamings);
   emit followedChanged(m_followed);
 }
 

@@ -79,7 +79,7 @@ class FieldScene : public QGraphicsScene {
   void setTrailShown(RobotKey id, bool shown);
   bool isTrailShown(RobotKey id) const { return !m_hiddenTrails.contains(id); }
   void setFollowed(std::optional<RobotKey> id);
-  void rename(const std::vector<link::Renaming>& renamings);
+  void rename(const std::vector<Renaming>& renamings);
   std::optional<RobotKey> followed() const { return m_followed; }
 
   RulerItem* ruler() const { return m_ruler; }

@@ -23,7 +23,7 @@ void BadMessagesModel::update(const link::LiveDetails& details,
   for (const telemetry::RobotStatus& robot : details.team.robots) {
     add(rows,
         QStringLiteral("robot %1 at %2")
-            .arg(robot.number)
+            .arg(robot.key.number)
             .arg(QString::fromStdString(robot.sender.text())),
         robot.errors);
   }

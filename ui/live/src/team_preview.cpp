@@ -47,14 +47,14 @@ QString knownFormats(const Arrival& arrival, std::span<const KnownFormat> known)
                          : QStringLiteral("; could be %1").arg(names.join(QStringLiteral(" or ")));
 }
 
-QString robotText(const link::LiveOptions& options, int robot) {
+QString robotText(const link::LiveOptions& options, const RobotKey& robot) {
   sim::RobotIdentity identity;
-  identity.number = telemetry::numberInTeam(robot, options.team.teams.size());
+  identity.number = robot.number;
   identity.team = link::colourOf(options, robot, options.colour, {});
   QString words = QString::fromStdString(identity.name());
   const std::string own = link::ownNameOf(options, robot);
   if (!own.empty()) words += QLatin1Char(' ') + QString::fromStdString(own);
-  if (const auto* team = telemetry::teamOf(robot, options.team.teams)) {
+  if (const auto* team = telemetry::setupAt(robot.team, options.team.teams)) {
     words += QStringLiteral(" (%1)").arg(QString::fromStdString(team->title()));
   }
   return words;
@@ -78,7 +78,7 @@ std::vector<PreviewRow> previewOf(const std::vector<Arrival>& arrivals,
     const auto decoder = listed ? router.decode(arrival.view(), decoded) : nullptr;
     if (decoder && decoded.accepted()) {
       row.used = true;
-      row.robot = robotText(options, decoded.robot);
+      row.robot = robotText(options, {decoded.place, decoded.robot, 0});
       row.says = valuesOf(*decoder, decoded);
       continue;
     }

@@ -132,12 +132,12 @@ void RobotsDock::showCards(const std::vector<CardState>& states) {
   showSelection();
 }
 
-void RobotsDock::rename(const std::vector<link::Renaming>& renamings) {
+void RobotsDock::rename(const std::vector<Renaming>& renamings) {
   m_tracker.rename(renamings);
-  link::rename(m_cards, renamings);
-  link::rename(m_floating, renamings);
-  link::rename(m_byHand, renamings);
-  for (RobotKey& key : m_order) key = link::renamed(key, renamings);
+  pitchboard::rename(m_cards, renamings);
+  pitchboard::rename(m_floating, renamings);
+  pitchboard::rename(m_byHand, renamings);
+  for (RobotKey& key : m_order) key = pitchboard::renamed(key, renamings);
 }
 
 void RobotsDock::collapseMany(std::size_t robots) {

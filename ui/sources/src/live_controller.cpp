@@ -22,7 +22,7 @@ class RowKeeper : public link::LiveObserver {
   void heard(const RobotKey& robot, double, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder,
              const telemetry::DecodedText& decoded) override {
-    m_rows.take(datagram, decoded, decoder, robot.sender);
+    m_rows.take(datagram, decoded, decoder, robot);
     const auto& refused = m_rows.refused();
     m_refusedRows.store(refused.rows, std::memory_order_relaxed);
     m_refusedValues.store(refused.values, std::memory_order_relaxed);
@@ -30,9 +30,10 @@ class RowKeeper : public link::LiveObserver {
   void sampled(const telemetry::GroupInfo& group, std::span<const link::BoardRow> rows) override {
     m_boards.take(group, rows);
   }
+  void renamed(const std::vector<Renaming>& renamings) override { m_rows.rename(renamings); }
   void reported(const telemetry::TeamStatus& status) override { m_rows.report(status); }
-  void adopted(const link::LiveOptions& options) override {
-    m_rows.setOptions(link::rowsOptions(options, m_zero));
+  void adopted(const link::LiveOptions& options, const std::vector<Renaming>& renamings) override {
+    m_rows.setOptions(link::rowsOptions(options, m_zero), renamings);
   }
   /// Any thread.
   telemetry::LiveRows::Refused refused() const {
@@ -227,14 +228,15 @@ void LiveController::deliver() {
 void LiveController::deliverNow() {
   if (!m_watch) return;  // stopped while this was on its way
   m_sinceFrame.start();
-  m_frame = m_watch->latest();
+  const link::LiveNews news = m_watch->take();
+  for (const auto& renamings : news.renamings) emit robotsRenamed(renamings);
+  m_frame = news.frame;
   if (m_frame) {
     emit frameReceived(m_frame);
   }
+  const std::vector<link::MatchEvent>& events = news.events;
   // A receiver may have stopped it.
-  if (!m_watch) return;
-  const auto events = m_watch->takeEvents();
-  if (events.empty()) return;
+  if (!m_watch || events.empty()) return;
   emit eventsReceived(events);
   std::vector<const link::MatchEvent*> ports;
   for (const link::MatchEvent& event : events) {

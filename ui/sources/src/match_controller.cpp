@@ -214,7 +214,7 @@ void MatchController::take(Opening& opening) {
 void MatchController::poll() {
   if (!m_runner) return;
   if (FramePtr frame = m_runner->latest(m_frame ? m_frame->serial : 0)) {
-    std::vector<link::Renaming> renamings;
+    std::vector<Renaming> renamings;
     for (const link::RobotFrame& now : frame->robots) {
       const link::RobotFrame* before = m_frame ? m_frame->robot(now.slot()) : nullptr;
       if (before != nullptr && before->key != now.key) renamings.push_back({before->key, now.key});

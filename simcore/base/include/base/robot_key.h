@@ -3,7 +3,10 @@
 
 // Who a robot is, for everything that shows or stores robots, whatever their source.
 
+#include <algorithm>
 #include <compare>
+#include <utility>
+#include <vector>
 
 namespace pitchboard {
 
@@ -14,5 +17,30 @@ struct RobotKey {
   int sender = 0;  ///< 0: the first program that uses the number; 1, 2, ...: others
   auto operator<=>(const RobotKey&) const = default;
 };
+
+/// A robot that goes on under another key.
+struct Renaming {
+  RobotKey from, to;
+};
+/// What this key is after these renamings, which happen at the same time.
+inline RobotKey renamed(const RobotKey& robot, const std::vector<Renaming>& renamings) {
+  const auto found = std::ranges::find(renamings, robot, &Renaming::from);
+  return found == renamings.end() ? robot : found->to;
+}
+/// The entries of a set or map get the keys that they then have.
+template <class Entries>
+void rename(Entries& entries, const std::vector<Renaming>& renamings) {
+  Entries now;
+  while (!entries.empty()) {
+    auto node = entries.extract(entries.begin());
+    if constexpr (requires { node.mapped(); }) {
+      node.key() = renamed(node.key(), renamings);
+    } else {
+      node.value() = renamed(node.value(), renamings);
+    }
+    now.insert(std::move(node));
+  }
+  entries = std::move(now);
+}
 
 }  // namespace pitchboard

@@ -38,28 +38,6 @@ inline RobotKey keyOf(const sim::RobotIdentity& robot) {
   return {static_cast<int>(robot.team) + 1, robot.number, 0};
 }
 
-/// A robot that goes on under another key.
-struct Renaming {
-  RobotKey from, to;
-};
-/// What this key is after these renamings, which happen at the same time.
-RobotKey renamed(const RobotKey& robot, const std::vector<Renaming>& renamings);
-/// The entries of a set or map get the keys that they then have.
-template <class Entries>
-void rename(Entries& entries, const std::vector<Renaming>& renamings) {
-  Entries now;
-  while (!entries.empty()) {
-    auto node = entries.extract(entries.begin());
-    if constexpr (requires { node.mapped(); }) {
-      node.key() = renamed(node.key(), renamings);
-    } else {
-      node.value() = renamed(node.value(), renamings);
-    }
-    now.insert(std::move(node));
-  }
-  entries = std::move(now);
-}
-
 /// Of a live robot as version 0.8 wrote it: one number for team, number, sender and "attached".
 /// `hasTeams`: team setups were in use.
 RobotKey keyOfOldId(int id, bool hasTeams);

@@ -25,6 +25,8 @@ struct LiveBooks {
   telemetry::RefereeTracker referee;
   telemetry::DrawingBook drawings;
 
+  /// As MonitorOptions, and what is drawn goes on with its robot: monitor.renamings().
+  void setTeams(const telemetry::MonitorOptions& options);
   /// A datagram of a robot's port, that came so many seconds after the watch began: its drawing and
   /// its message. Nothing: it had no message.
   std::optional<telemetry::TeamMonitor::Verdict> takeRobot(const telemetry::DatagramView& datagram,

@@ -27,12 +27,11 @@ namespace pitchboard::telemetry {
 inline constexpr const char* linkCategory = "Link";
 
 struct LiveRowsOptions {
-  WallTime zero{};        ///< the moment that counts as 0 s
-  std::size_t teams = 0;  ///< setups: how robots are numbered
-  /// Name of the group of a robot with this number; empty function: "Robot 3".
-  std::function<std::string(int number)> name;
+  WallTime zero{};  ///< the moment that counts as 0 s
+  /// Name of the group of a robot; empty function: "Robot 3".
+  std::function<std::string(const RobotKey&)> name;
   /// Further attributes of its group; empty function: none.
-  std::function<std::map<std::string, std::string>(int number)> attributes;
+  std::function<std::map<std::string, std::string>(const RobotKey&)> attributes;
 };
 
 /// Not thread-safe: lives beside the TeamMonitor. Attributes of a robot's group: "number", "sender"
@@ -54,18 +53,24 @@ class LiveRows {
   explicit LiveRows(std::shared_ptr<RowSink> sink, LiveRowsOptions options = {});
   ~LiveRows();
 
-  /// Names, teams and attributes from now on; `zero` stays. Rows so far stay under their names.
-  void setOptions(LiveRowsOptions options);
-  /// After TeamMonitor::take() said Used: one row. `slot`: TeamMonitor::usedSlot().
+  /// Names and attributes from now on, of robots that have other keys then; `zero` stays. Groups go
+  /// on under their new names.
+  void setOptions(LiveRowsOptions options, const std::vector<Renaming>& renamings);
+  /// TeamMonitor::renamings() of a datagram.
+  void rename(const std::vector<Renaming>& renamings);
+  /// After TeamMonitor::take() said Used: one row. `robot`: TeamMonitor::used().
   void take(const DatagramView& datagram, const DecodedText& decoded, const TextDecoder& decoder,
-            int slot);
+            const RobotKey& robot);
   /// From time to time (a few times a second): rows of the link groups, where they are due.
   void report(const TeamStatus& status);
   const Refused& refused() const { return m_refused; }
 
  private:
   struct Robot;
-  Robot* robotOf(int number, int slot, const Sender& sender);
+  Robot* robotOf(const RobotKey& key, const Sender& sender);
+  GroupInfo groupOf(const Robot& robot) const;
+  std::string nameOf(const RobotKey& key) const;
+  void renew(Robot& robot, std::string name);
   static std::size_t placeOf(Robot& robot, ColumnInfo column, bool& changed);
   static bool describe(Robot& robot, const Profile& profile);
   void addGroups(Robot& robot);
@@ -75,7 +80,6 @@ class LiveRows {
   LiveRowsOptions m_options;
   std::vector<Robot> m_robots;
   double m_newest = -std::numeric_limits<double>::infinity();  // time of a row
-  double m_least = m_newest;                                   // of rows to come
   Refused m_refused;
 };
 

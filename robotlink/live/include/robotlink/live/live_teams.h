@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include <robotlink/frame/teams.h>
 #include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_watch.h>
 
@@ -18,17 +19,16 @@ telemetry::Surroundings surroundingsOf(const sim::FieldSpec& field);
 /// The options of the monitor with the field of Live in them.
 telemetry::MonitorOptions monitorOptions(const LiveOptions& options);
 
-/// Of a robot's number over all teams (RobotStatus::number) and its slot.
-RobotKey keyOf(const LiveOptions& options, int robot, int slot);
+/// For the names of robots.
+Teams teamsOf(const std::vector<telemetry::TeamSetup>& setups);
 
-/// Of a robot's number over all teams (RobotStatus::number): the colour that it is drawn in.
-/// `ours`: of a team without a colour, as the referee says it.
-TeamColor colourOf(const LiveOptions& options, int robot, TeamColor ours,
+/// The colour that a robot is drawn in. `ours`: of a team without a colour, as the referee says it.
+TeamColor colourOf(const LiveOptions& options, const RobotKey& robot, TeamColor ours,
                    const std::optional<RefereeView>& referee);
 /// The referee's number of its team; 0: not known.
-int refereeNumberOf(const LiveOptions& options, int robot);
+int refereeNumberOf(const LiveOptions& options, const RobotKey& robot);
 /// What its team calls it; empty: nothing.
-std::string ownNameOf(const LiveOptions& options, int robot);
+std::string ownNameOf(const LiveOptions& options, const RobotKey& robot);
 
 /// Attribute of a group that names its column of this meaning, for robots of team setups.
 std::string meaningAttribute(telemetry::FieldMeaning meaning);

@@ -60,6 +60,13 @@ struct LiveDetails {
   std::string monitorProblem;         ///< why the last monitor request was not sent
 };
 
+/// What is new since it was asked for the last time, in the order in which it is to be shown.
+struct LiveNews {
+  std::vector<std::vector<Renaming>> renamings;  ///< one after the other
+  std::vector<MatchEvent> events;                ///< at most the newest 10 000
+  std::shared_ptr<const MatchFrame> frame;       ///< the newest one; null before the first
+};
+
 /// Sees every datagram that is used, for rows and recording. Called on the watch's thread: must not
 /// wait.
 class LiveObserver {
@@ -77,14 +84,17 @@ class LiveObserver {
   /// A datagram on a robot's port whose sender is on no list, or that is of no team.
   virtual void strangerHeard(const telemetry::DatagramView&) {}
   virtual void happened(const MatchEvent&) {}
+  /// The next datagram says whose these robots are: they have other keys from now on.
+  virtual void renamed(const std::vector<Renaming>&) {}
   /// How everybody is heard, a few times a second.
   virtual void reported(const telemetry::TeamStatus&) {}
   /// What was read of an attached blackboard since the last frame.
   virtual void sampled(const telemetry::GroupInfo& /*group*/, std::span<const BoardRow>) {}
   /// Whenever a frame was made.
   virtual void frameMade(const MatchFrame&) {}
-  /// Other options are used from the next datagram on: teams, names, profile.
-  virtual void adopted(const LiveOptions& /*options*/) {}
+  /// Other options are used from the next datagram on: teams, names, profile; and robots have other
+  /// keys then, all at the same time.
+  virtual void adopted(const LiveOptions& /*options*/, const std::vector<Renaming>&) {}
   /// Everything that is known at this moment (LiveBooks::text): at once, on the observing thread,
   /// then every 15 s and whenever options have changed or everything was forgotten. Nothing else is
   /// told at the same time.
@@ -109,11 +119,9 @@ class LiveWatch {
   /// Forgets one robot or second sender; it appears again when it is heard.
   void forget(const RobotKey& robot);
 
-  /// The newest frame; calling it asks for the next `onFrame`. Null before the first.
-  std::shared_ptr<const MatchFrame> latest();
+  /// Calling it asks for the next `onFrame`.
+  LiveNews take();
   LiveDetails details() const;
-  /// What came since the last call, at most the newest 10 000.
-  std::vector<MatchEvent> takeEvents();
 
   /// The time of day at 0 s, by the computer's clock as it was then.
   telemetry::WallTime began() const;

@@ -40,6 +40,7 @@ class DrawingBook {
   /// Why the last one was refused; empty: none was.
   const std::string& lastProblem() const { return m_lastProblem; }
   void clear() { *this = {}; }
+  void rename(const std::vector<Renaming>& renamings) { pitchboard::rename(m_robots, renamings); }
   /// Drops the layers of the robots for which it says true.
   void forget(const std::function<bool(const RobotKey& robot)>& which) {
     std::erase_if(m_robots, [&](const auto& robot) { return which(robot.first); });

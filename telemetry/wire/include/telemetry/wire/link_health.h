@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include <telemetry/wire/battery.h>
 #include <telemetry/wire/datagram.h>
@@ -29,7 +30,8 @@ struct ProcessStatus {
 
 struct LinkHealth {
   Sender sender;
-  bool conflict = false;  ///< another sender uses the same number at the moment
+  bool conflict = false;       ///< another sender uses the same number at the moment
+  std::vector<Sender> others;  ///< that send the same at the moment
   bool timedOut = false;
   Duration age{};                ///< since the last usable message
   std::uint64_t messages = 0;    ///< usable ones; 0 in a recording, which does not count them

@@ -2,9 +2,11 @@
 #pragma once
 
 // One team as its datagrams show it: who is there, what each one last said, and how well. A robot
-// is its number in its team and keeps its slot, whatever address it sends from. Time is handed in,
-// so that ten seconds of silence are tested in no time. Memory is bounded by the limits below; what
-// they refuse is counted.
+// is its number in its team and keeps its key, whatever address it sends from; when other teams are
+// set up, it goes on under the key that it then has. Another program that uses its number is a
+// robot of its own when it says something else, until it falls silent. Time is handed in, so that
+// ten seconds of silence are tested in no time. Memory is bounded by the limits below; what they
+// refuse is counted.
 
 #include <algorithm>
 #include <cstdint>
@@ -13,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include <base/robot_key.h>
 #include <telemetry/wire/arrival_stats.h>
 #include <telemetry/wire/datagram.h>
 #include <telemetry/wire/link_health.h>
@@ -43,16 +46,14 @@ struct MonitorOptions {
   Surroundings field;
 };
 
-/// This robot (its number over all teams, and its slot) need not share its place.
-constexpr bool hasOwnPlace(int robot, int slot, std::size_t teams) {
-  return slot == 0 && numberInTeam(robot, teams) <= MonitorOptions::ordinaryRobots;
+/// This robot need not share its place.
+constexpr bool hasOwnPlace(const RobotKey& robot) {
+  return robot.sender == 0 && robot.number <= MonitorOptions::ordinaryRobots;
 }
 
 /// One robot at one moment: a value that may cross threads.
 struct RobotStatus : LinkHealth {
-  int number = 0;  ///< over all teams: numberInTeam(), teamPlace()
-  /// 0: the robot of this number; 1, 2, ...: other programs that use the number at the same time.
-  int slot = 0;
+  RobotKey key;
   WallTime lastMessage{};
   ErrorTally errors;
   std::shared_ptr<const TextDecoder> decoder;  ///< names and types of the values
@@ -76,7 +77,7 @@ struct SenderStatus {
 
 struct TeamStatus {
   WallTime time{};
-  std::vector<RobotStatus> robots;    ///< by number, then slot
+  std::vector<RobotStatus> robots;    ///< by key
   std::vector<SenderStatus> senders;  ///< the first 64 addresses
   std::uint64_t datagrams = 0;
   std::uint64_t refusedByFilter = 0;  ///< from senders that are not on the list
@@ -101,8 +102,8 @@ class TeamMonitor {
     TooManyRobots
   };
 
-  /// Slot of the robot whose message was used last.
-  int usedSlot() const { return m_usedSlot; }
+  /// The robot whose message was used last.
+  const RobotKey& used() const { return m_used; }
 
   /// Takes one datagram. `decoded()` then holds its values until the next call.
   Verdict take(const DatagramView& datagram);
@@ -112,15 +113,18 @@ class TeamMonitor {
 
   /// From now on messages are read in this order; health and counters stay.
   void setProfile(Profile profile);
-  /// Robots of teams that are no more are forgotten.
+  /// Robots of setups that are still there stay theirs. The others have no team until they are
+  /// heard as somebody's; those that fall silent before are forgotten.
   void setOptions(MonitorOptions options);
+  /// Robots whose keys the last take() or setOptions() has changed.
+  const std::vector<Renaming>& renamings() const { return m_renamings; }
   const TextDecoder& decoder() const { return *m_decoder; }
   const MonitorOptions& options() const { return m_options; }
 
   /// Everything known at `now`.
   TeamStatus status(WallTime now) const;
-  /// Forgets one robot, so that its slot is free; another program that uses the number moves up.
-  void forget(int number, int slot);
+  /// Forgets one robot, so that its key is free; another program that uses the number moves up.
+  void forget(const RobotKey& key);
   /// Forgets robots, senders and counters.
   void clear();
 
@@ -135,8 +139,12 @@ class TeamMonitor {
   struct Robot;
   struct SenderRecord;
   friend struct MonitorBooks;  // writes and reads all of it
-  Robot* findRobot(int number, const Sender& sender, WallTime time);
-  Robot* newRobot(int number, WallTime time);
+  Robot* findRobot(int team, int number, const Sender& sender, WallTime time);
+  Robot* newRobot(int team, int number, WallTime time);
+  RobotKey freeKey(int team, int number) const;
+  void foldAway(WallTime time);
+  bool isGone(const Robot& robot, WallTime time) const;
+  bool saysTheSame(const Robot& robot) const;
   bool isOverdue(const Robot& robot, WallTime time) const;
   void giveBack(Robot& robot, const Sender& sender, WallTime time);
   SenderRecord* findSender(Address address);
@@ -153,7 +161,8 @@ class TeamMonitor {
   DecodedText m_decoded;
   std::vector<Robot> m_robots;
   std::vector<SenderRecord> m_senders;
-  int m_usedSlot = 0;
+  std::vector<Renaming> m_renamings;
+  RobotKey m_used;
   std::uint64_t m_datagrams = 0, m_refusedByFilter = 0, m_refusedRobots = 0;
   ErrorTally m_errors;
 };

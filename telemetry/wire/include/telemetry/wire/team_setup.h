@@ -55,17 +55,12 @@ std::string teamSetupText(const TeamSetup& setup);
 Result<std::vector<std::uint16_t>> teamPorts(const std::vector<TeamSetup>& teams, int base,
                                              int count, int referee);
 
-/// Of several teams each robot has a number of its own: that of its team's place times this, and
-/// its own. The first team's, and those of a match with one team, are as they are sent.
-inline constexpr int teamStep = 1000;
-constexpr int numberInTeam(int robot, std::size_t teams) {
-  return teams > 1 ? robot % teamStep : robot;
+/// Of the team at this place (RobotKey::team). Null: it has none.
+inline const TeamSetup* setupAt(int place, const std::vector<TeamSetup>& teams) {
+  return place > 0 && static_cast<std::size_t>(place) <= teams.size()
+             ? &teams[static_cast<std::size_t>(place) - 1]
+             : nullptr;
 }
-constexpr std::size_t teamPlace(int robot, std::size_t teams) {
-  return teams > 1 ? static_cast<std::size_t>(robot / teamStep) : 0;
-}
-/// Null without setups.
-const TeamSetup* teamOf(int robot, const std::vector<TeamSetup>& teams);
 
 class TeamRouter {
  public:
@@ -73,7 +68,7 @@ class TeamRouter {
   TeamRouter(const Profile& profile, std::vector<TeamSetup> teams, const Surroundings& where);
 
   /// Reads a datagram as its team writes: the first one whose ports and senders fit and whose
-  /// format it has. The robot's number is that over all teams. Null: it comes from no team.
+  /// format it has; DecodedText::place says which. Null: it comes from no team.
   std::shared_ptr<const TextDecoder> decode(const DatagramView& datagram, DecodedText& out) const;
   /// RobotKey::team of robots whose datagrams come like this one, from the team with the referee's
   /// number `team` where it says one. Nothing: it comes from no team.

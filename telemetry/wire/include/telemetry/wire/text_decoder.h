@@ -28,6 +28,7 @@ struct DecodedText {
   static constexpr std::size_t maxValues = 128;
   static constexpr std::size_t maxExtras = 32;  ///< keys that the profile does not name
   int robot = 0;                                ///< 0 when even that could not be read
+  int place = 0;              ///< RobotKey::team, as a TeamRouter finds it; 0: there are no teams
   std::optional<int> team{};  ///< the referee's number of its team, where the message says it
   TextErrors errors;
   std::size_t badField =

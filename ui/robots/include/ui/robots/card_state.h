@@ -73,7 +73,7 @@ class CardTracker {
  public:
   /// `milliseconds`: any monotonic real time. One entry per robot of the frame, in its order.
   std::vector<CardState> update(const link::MatchFrame& frame, qint64 milliseconds);
-  void rename(const std::vector<link::Renaming>& renamings) { link::rename(m_robots, renamings); }
+  void rename(const std::vector<Renaming>& renamings) { pitchboard::rename(m_robots, renamings); }
   /// Forgets everything: another match.
   void reset() {
     m_robots.clear();

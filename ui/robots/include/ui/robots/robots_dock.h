@@ -67,7 +67,7 @@ class RobotsDock : public QScrollArea {
   void showSelection();
   void showCards(const std::vector<CardState>& states);
   RobotCard* makeCard();
-  void rename(const std::vector<link::Renaming>& renamings);
+  void rename(const std::vector<Renaming>& renamings);
   void arrange();
   void unfloat(RobotKey id);
   void follow(RobotCard* card, const QPoint& globalPosition);

@@ -50,7 +50,7 @@ class FrameSource : public QObject {
  signals:
   void frameReceived(const pitchboard::ui::FramePtr& frame);
   /// From the next frame on these robots have other keys; what is known of them goes on.
-  void robotsRenamed(const std::vector<pitchboard::link::Renaming>& renamings);
+  void robotsRenamed(const std::vector<pitchboard::Renaming>& renamings);
   void eventsReceived(const std::vector<pitchboard::link::MatchEvent>& events);
   void logReceived(const std::vector<pitchboard::LogLine>& lines);
   /// What a recording holds of events, once for each recording.
