@@ -236,6 +236,17 @@ class TestLiveFrame : public QObject {
     QCOMPARE(heard.frame().robots.at(0).key, heardAs(3, 1));
   }
 
+  void teamsHaveTheNamesOfTheirSetups() {
+    Heard heard({});
+    telemetry::TeamSetup& setup = heard.options.team.teams.emplace_back();
+    setup.name = "RoboFEI";
+    setup.number = 6;
+    QVERIFY(heard.referee.accept(stateOfGame(), {{1}, 3838}, start));
+    const MatchFrame frame = heard.frame();
+    QCOMPARE(frame.referee->teams[0].name, std::string());
+    QCOMPARE(frame.referee->teams[1].name, std::string("RoboFEI"));
+  }
+
   void theRefereeGivesColourScoreAndPenalties() {
     Heard heard({robotSaying("2 " + atTheCentre)});
     heard.options.ourTeam = 6;

@@ -65,6 +65,17 @@ class TestLiveReferee : public QObject {
     QVERIFY(!referee.heard());
   }
 
+  void teamsHaveTheirNamesOnTheScoreboard() {
+    link::MatchFrame frame;
+    frame.origin = link::FrameOrigin::Live;
+    auto& teams = frame.referee.emplace().teams;
+    teams[0] = {12, "blue", 1, 4, {}, "RoboFEI"};
+    teams[1] = {7, "red", 0, 4, {}, {}};
+    const ScoreboardState state = scoreboardOf(frame);
+    QCOMPARE(state.leftName, QStringLiteral("ROBOFEI"));
+    QCOMPARE(state.rightName, QStringLiteral("RED"));
+  }
+
   void penaltiesOfOurTeamAreMarked() {
     const std::string bytes = live_rig::packet(QStringLiteral("v12hl640_2017.3_PENALISED.bin"));
     const auto state = std::get<telemetry::RefereeState>(telemetry::decodeReferee(bytes).value());

@@ -151,7 +151,10 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
     frame.snapshot.score = {frame.referee->teams[0].score, frame.referee->teams[1].score};
     frame.snapshot.clock = frame.referee->secondsLeft;
     frame.snapshot.clockRunning = frame.referee->state == "PLAYING" && !frame.referee->timedOut;
-    for (const RefereeTeamView& side : frame.referee->teams) {
+    for (RefereeTeamView& side : frame.referee->teams) {
+      for (const telemetry::TeamSetup& setup : options.team.teams) {
+        if (setup.number == side.number && side.number != 0) side.name = setup.name;
+      }
       if (side.number == frame.referee->ourTeam && side.number != 0) {
         ours = teamColour(side.colour).value_or(ours);
       }

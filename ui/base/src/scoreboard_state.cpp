@@ -33,6 +33,7 @@ QColor refereeColour(const std::string& words) {
 }
 
 QString refereeTeam(const link::RefereeTeamView& team) {
+  if (!team.name.empty()) return QString::fromStdString(team.name).toUpper();
   if (team.colour == "unknown") return QStringLiteral("TEAM %1").arg(team.number);
   return QString::fromStdString(team.colour).toUpper();
 }
