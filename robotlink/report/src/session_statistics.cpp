@@ -14,6 +14,8 @@
 namespace pitchboard::link {
 namespace {
 
+using telemetry::FieldMeaning;
+
 constexpr double longestStep = 2.5;  // s; a longer gap between rows counts as absence
 constexpr double centimetres = 100.0;
 
@@ -43,17 +45,15 @@ struct Robot {
         falls(findSlot(group, {"FALLS"})),
         fallen(findSlot(group, {"FALLEN", "IMU_STATE"})),
         trueBall(findSlot(group, {"TRUE_BALL_DIST"})),
-        seenBall(findSlot(group, {"VISION_BALL_DIST", "BALL_DIST"})),
+        seenBall(findSlot(group, FieldMeaning::BallDistance)),
         lost(findSlot(group, {"VISION_LOST"})),
         error(findSlot(group, {"BELIEF_ERROR"})),
-        x(findSlot(group, {"LOCALIZATION_X", "X"})),
-        y(findSlot(group, {"LOCALIZATION_Y", "Y"})),
-        action(findSlot(group, {"DECISION_ACTION_A", "ACTION_A"})),
-        flags{findSlot(group, {"CONTROL_WORKING", "CONTROL"}),
-              findSlot(group, {"VISION_WORKING", "VISION"}),
-              findSlot(group, {"LOCALIZATION_WORKING", "LOCALIZATION"}),
-              findSlot(group, {"DECISION_WORKING", "DECISION"}),
-              findSlot(group, {"IMU_WORKING", "IMU"})} {
+        x(findSlot(group, FieldMeaning::X)),
+        y(findSlot(group, FieldMeaning::Y)),
+        action(findSlot(group, FieldMeaning::Action)),
+        flags{findSlot(group, FieldMeaning::Control), findSlot(group, FieldMeaning::Vision),
+              findSlot(group, FieldMeaning::Localization), findSlot(group, FieldMeaning::Decision),
+              findSlot(group, FieldMeaning::Imu)} {
     seen.fill(-1e300);
     errorSum.assign(StatisticsBuilder::parts, 0.0);
     errorCount.assign(StatisticsBuilder::parts, 0);

@@ -16,6 +16,8 @@
 
 namespace pitchboard::link {
 
+using telemetry::FieldMeaning;
+
 constexpr double timeTolerance = 1e-6;  // s; files keep whole nanoseconds
 
 /// Where one group keeps what frames need.
@@ -55,21 +57,18 @@ struct RecordedFrames::Layout {
     falls = findSlot(group, {"FALLS"});
     unknownActions = findSlot(group, {"UNKNOWN_ACTIONS"});
     lastUnknown = findSlot(group, {"LAST_UNKNOWN_ACTION"});
-    actionA = findSlot(group, {"DECISION_ACTION_A", "ACTION_A"});
-    voltage = findSlot(group, {"VOLTAGE"});
+    actionA = findSlot(group, FieldMeaning::Action);
+    voltage = findSlot(group, FieldMeaning::Voltage);
     lost = findSlot(group, {"VISION_LOST"});
-    ballDist = findSlot(group, {"VISION_BALL_DIST", "BALL_DIST"});
-    pan = findSlot(group, {"VISION_PAN_DEG", "BALL_ANGLE"});
-    locX = findSlot(group, {"LOCALIZATION_X", "X"});
-    locY = findSlot(group, {"LOCALIZATION_Y", "Y"});
-    locTheta = findSlot(group, {"LOCALIZATION_THETA", "THETA"});
-    // The published localization publishes its belief under this name (SYSTEM.md section 5).
-    belief = findSlot(group, {"LOCALIZATION_RBT01_X", "BELIEF"});
-    flags = {findSlot(group, {"CONTROL_WORKING", "CONTROL"}),
-             findSlot(group, {"VISION_WORKING", "VISION"}),
-             findSlot(group, {"LOCALIZATION_WORKING", "LOCALIZATION"}),
-             findSlot(group, {"DECISION_WORKING", "DECISION"}),
-             findSlot(group, {"IMU_WORKING", "IMU"})};
+    ballDist = findSlot(group, FieldMeaning::BallDistance);
+    pan = findSlot(group, FieldMeaning::BallAngle);
+    locX = findSlot(group, FieldMeaning::X);
+    locY = findSlot(group, FieldMeaning::Y);
+    locTheta = findSlot(group, FieldMeaning::Theta);
+    belief = findSlot(group, FieldMeaning::Belief);
+    flags = {findSlot(group, FieldMeaning::Control), findSlot(group, FieldMeaning::Vision),
+             findSlot(group, FieldMeaning::Localization), findSlot(group, FieldMeaning::Decision),
+             findSlot(group, FieldMeaning::Imu)};
     age = findSlot(group, {"LINK_AGE", "AGE"});
     rate = findSlot(group, {"LINK_RATE", "RATE"});
     loss = findSlot(group, {"LINK_LOSS", "LOSS"});
@@ -82,7 +81,6 @@ struct RecordedFrames::Layout {
     // A robot of a team setup says itself what its columns mean.
     const bool says = !attribute(group, "profile").empty();
     if (!live || (!profile && !says)) return;
-    using telemetry::FieldMeaning;
     // A team's own names.
     const std::pair<FieldMeaning, RowSlot*> meanings[] = {{FieldMeaning::X, &locX},
                                                           {FieldMeaning::Y, &locY},
