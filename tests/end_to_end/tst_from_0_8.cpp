@@ -73,7 +73,7 @@ QByteArray missing(const MatchFrame& frame, const std::vector<Shown>& shown) {
                             QByteArray::number(wanted.x) + " " + QByteArray::number(wanted.y);
     if (found == frame.robots.end()) return "no robot " + name;
     if (found->ownName != wanted.ownName) return "other name: " + name;
-    if (found->board && found->board->actionA != wanted.action) return "other action: " + name;
+    if (found->decided && *found->decided != wanted.action) return "other action: " + name;
   }
   return {};
 }

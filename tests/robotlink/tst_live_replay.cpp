@@ -167,18 +167,17 @@ class TestLiveReplay : public QObject {
     QVERIFY(m_frames.size() >= 16);
     const MatchFrame& last = m_frames.back();
     QCOMPARE(last.robots.size(), std::size_t{4});
-    QVERIFY(last.referee && last.teamBall);
+    QVERIFY(last.referee && !last.teamBalls.empty());
     const auto any = [&](auto&& what) { return std::ranges::any_of(last.robots, what); };
-    QVERIFY(any([](const RobotFrame& r) { return r.health->penalty.has_value(); }));
-    QVERIFY(any([](const RobotFrame& r) { return r.health->conflict; }));
-    QVERIFY(any([](const RobotFrame& r) { return r.health->jitter > 0.0; }));
-    QVERIFY(any([](const RobotFrame& r) { return r.health->errorCount > 0; }));
-    QVERIFY(any([](const RobotFrame& r) { return r.health->battery && r.health->battery->low; }));
-    QVERIFY(any([](const RobotFrame& r) {
-      return r.health->processes[1].state == telemetry::ProcessState::Silent;
-    }));
+    QVERIFY(any([](const RobotFrame& r) { return r.penalty.has_value(); }));
+    QVERIFY(any([](const RobotFrame& r) { return r.link->conflict; }));
+    QVERIFY(any([](const RobotFrame& r) { return r.link->jitter > 0.0; }));
+    QVERIFY(any([](const RobotFrame& r) { return r.link->errorCount > 0; }));
+    QVERIFY(any([](const RobotFrame& r) { return r.battery && r.battery->low; }));
+    QVERIFY(any(
+        [](const RobotFrame& r) { return r.lamps[1].state == telemetry::ProcessState::Silent; }));
     QVERIFY(last.robots[0].identity.team != m_frames.front().robots[0].identity.team);
-    QVERIFY(m_frames.front().robots[0].health->messages >= 1);
+    QVERIFY(m_frames.front().robots[0].link->messages >= 1);
   }
 
   void theFileShowsWhatWasSeen() {
@@ -272,8 +271,8 @@ class TestLiveReplay : public QObject {
       });
       QVERIFY2(shown != m_frames.back().robots.end(), robot.name.c_str());
       QVERIFY(robot.link && robot.distance);
-      QCOMPARE(robot.link->messages, shown->health->messages);
-      QCOMPARE(robot.link->penalties, shown->health->penalty ? 1 : 0);
+      QCOMPARE(robot.link->messages, shown->link->messages);
+      QCOMPARE(robot.link->penalties, shown->penalty ? 1 : 0);
     }
     // The first robot walked 7 cm a message: what it believes, in steps of at least 10 cm.
     const auto& first = s.robots.front();

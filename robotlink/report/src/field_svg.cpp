@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <vector>
 
-#include <robotlink/frame/belief.h>
 #include <robotlink/frame/drawing_origin.h>
+#include <robotlink/frame/match_frame.h>
 #include <robotlink/report/report_page.h>
 
 #include "report_charts.h"
@@ -183,7 +183,7 @@ void drawDrawings(Drawing& d, const MatchFrame& frame) {
     const RobotFrame* robot = frame.robot(RobotId{drawn.robot});
     const char* team = robot ? fillOf(*robot) : teamFill.front();
     for (const auto& layer : drawn.layers) {
-      const auto origin = drawingOrigin(layer->frame, robot, frame.field);
+      const auto origin = drawingOrigin(layer->frame, robot);
       if (!origin) continue;
       for (const telemetry::DrawingShape& shape : layer->shapes) {
         drawShape(d, shape, *origin, inkOf(shape, team));
@@ -195,19 +195,17 @@ void drawDrawings(Drawing& d, const MatchFrame& frame) {
 }  // namespace
 
 std::string fieldSvg(const MatchFrame& frame) {
-  Drawing d(frame.field);
-  drawField(d, frame.field);
+  Drawing d(frame.settings->field);
+  drawField(d, frame.settings->field);
   for (const RobotFrame& robot : frame.robots) {
     if (!robot.poseKnown()) continue;
     const char* fill = fillOf(robot);
-    const double radius_m = robot.radius > 0.0 ? robot.radius : frame.field.robotRadius;
+    const double radius_m = robot.radius > 0.0 ? robot.radius : frame.settings->field.robotRadius;
     const double radius = 100 * radius_m;
     const std::string stroke = std::string("stroke=\"") + fill + "\" stroke-width=\"3\"";
-    if (frame.truthKnown && robot.board) {
-      if (const auto belief = believedPose(frame.field, *robot.board)) {
-        d.line(robot.pose.position, belief->position, stroke + " stroke-opacity=\"0.6\"");
-        d.circle(belief->position, radius, "fill=\"none\" stroke-dasharray=\"6 4\" " + stroke);
-      }
+    if (frame.truthKnown && robot.belief) {
+      d.line(robot.pose.position, robot.belief->position, stroke + " stroke-opacity=\"0.6\"");
+      d.circle(robot.belief->position, radius, "fill=\"none\" stroke-dasharray=\"6 4\" " + stroke);
     }
     const Point& at = robot.pose.position;
     const double reach = 1.9 * radius_m;
@@ -218,7 +216,7 @@ std::string fieldSvg(const MatchFrame& frame) {
     d.text(at, std::to_string(robot.identity.number));
   }
   if (frame.ballKnown) {
-    d.circle(frame.snapshot.ball, 100 * frame.field.ballRadius,
+    d.circle(frame.snapshot.ball, 100 * frame.settings->field.ballRadius,
              std::string("fill=\"") + ballColour + "\" stroke=\"#1b1d20\" stroke-width=\"1.5\"");
   }
   drawDrawings(d, frame);

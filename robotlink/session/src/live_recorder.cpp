@@ -6,20 +6,12 @@
 #include <robotlink/frame/second_sender.h>
 #include <robotlink/live/live_teams.h>
 #include <robotlink/session/session_events.h>
-#include <telemetry/wire/lenient_json.h>
 #include <telemetry/wire/referee_json.h>
 
 namespace pitchboard::link {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-using telemetry::lenient::flag;
-using telemetry::lenient::text;
-
-int whole(const Json& object, const char* key, int fallback = 0) {
-  return telemetry::lenient::whole<int>(object, key, fallback);
-}
 
 }  // namespace
 
@@ -45,39 +37,6 @@ std::string refereeToJson(const telemetry::RefereeState& packet, const RefereeVi
                                  {"playersLeft", r.teams[i].playersLeft}});
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-std::optional<RefereeView> refereeFromJson(std::string_view bytes) {
-  const Json json = telemetry::lenient::parsed<Json>(bytes);
-  if (!json.is_object() || text(json, "stateName").empty()) return {};
-  RefereeView r;
-  r.version = whole(json, "version");
-  r.sender = text(json, "sender");
-  r.state = text(json, "stateName");
-  r.setPlay = text(json, "setPlayName");
-  r.phase = text(json, "gamePhaseName");
-  r.firstHalf = flag(json, "firstHalf", true);
-  r.stopped = whole(json, "stopped") != 0;
-  r.secondsLeft = whole(json, "secsRemaining");
-  r.ourTeam = whole(json, "ourTeam");
-  const auto optional = [&json](const char* key) -> std::optional<int> {
-    const auto found = json.find(key);
-    if (found == json.end() || !found->is_number_integer()) return {};
-    return whole(json, key);
-  };
-  r.secondaryTime = optional("secondaryTime");
-  r.kickOffTeam = optional("kickOffTeamNumber");
-  const auto teams = json.find("teams");
-  for (std::size_t i = 0;
-       teams != json.end() && teams->is_array() && i < r.teams.size() && i < teams->size(); ++i) {
-    const Json& team = (*teams)[i];
-    if (!team.is_object()) continue;
-    std::string colour = text(team, "colourName");
-    if (colour.empty()) colour = telemetry::colourWords(whole(team, "colour", -1));
-    r.teams[i] = {whole(team, "number"), std::move(colour), whole(team, "score"),
-                  whole(team, "playersLeft")};
-  }
-  return r;
 }
 
 telemetry::SessionInfo liveSessionInfo(const LiveOptions& live, telemetry::WallTime zero,

@@ -27,7 +27,7 @@ class RobotItem;
 class RubberBandItem;
 class RulerItem;
 class SectorItem;
-class TeamBallItem;
+class TeamBallsItem;
 class TrailItem;
 class ViewWedgeItem;
 
@@ -103,7 +103,7 @@ class FieldScene : public QGraphicsScene {
   std::set<RobotId> m_hiddenTrails;
   std::optional<RobotId> m_followed;
   BallItem* m_ball;
-  TeamBallItem* m_teamBall;
+  TeamBallsItem* m_teamBalls;
   std::unique_ptr<DrawingItems> m_drawings;
   ComparedItem* m_compared;
   SectorItem* m_eopra;

@@ -12,7 +12,6 @@ namespace pitchboard::link {
 
 /// In the studio's frame. `robot` may be null: it is not on the field. Nothing for what nobody
 /// knows.
-std::optional<Pose> drawingOrigin(telemetry::DrawingFrame frame, const RobotFrame* robot,
-                                  const sim::FieldSpec& field);
+std::optional<Pose> drawingOrigin(telemetry::DrawingFrame frame, const RobotFrame* robot);
 
 }  // namespace pitchboard::link

@@ -21,8 +21,6 @@ namespace pitchboard::link {
 /// ...).
 std::string refereeToJson(const telemetry::RefereeState& packet, const RefereeView& referee,
                           double time);
-/// Nothing when the text is not of that form; what is missing stays at its default.
-std::optional<RefereeView> refereeFromJson(std::string_view json);
 
 /// What a session of live robots says about itself; `zero` as in LiveRecorder::create().
 telemetry::SessionInfo liveSessionInfo(const LiveOptions& live, telemetry::WallTime zero,

@@ -16,7 +16,7 @@ enum class UnitKind : std::uint8_t { None, Length, Angle, Voltage, Time, Share }
 struct MeaningInfo {
   FieldMeaning meaning = FieldMeaning::None;
   std::string_view word;      ///< in profile files: never change it
-  std::string_view variable;  ///< on the blackboard; empty: nowhere
+  std::string_view variable;  ///< on the blackboard; empty: nowhere. VISION_LOST is the opposite
   std::string_view sent;      ///< in the published message, which gives no variable names
   std::string_view unit;      ///< of the variable
   std::string_view category;
@@ -52,7 +52,7 @@ inline constexpr std::array<MeaningInfo, fieldMeaningCount> meaningTable = [] {
       {M::BallY, "ball-y", "", "", "", "", K::Length},
       {M::BallFieldX, "ball-field-x", "", "", "", "", K::Length},
       {M::BallFieldY, "ball-field-y", "", "", "", "", K::Length},
-      {M::BallSeen, "ball-seen", "", "", "", "", K::None},
+      {M::BallSeen, "ball-seen", "VISION_LOST", "", "", "Vision", K::None},
       {M::BallAge, "ball-age", "", "", "", "", K::Time},
       {M::Charge, "charge", "CHARGE", "", "%", "Robot", K::Share},
   }};
