@@ -54,7 +54,6 @@ inline QString difference(const RobotFrame& a, const RobotFrame& b) {
   }
   SAME(penalty);
   SAME(values);
-  SAME(boardKey);
   SAME(behaviour);
   SAME(link.has_value());
   return a.link ? difference(*a.link, *b.link) : QString();
