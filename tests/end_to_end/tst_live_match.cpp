@@ -12,6 +12,7 @@
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/live/live_watch.h>
+#include <simcore/world/published_frame.h>
 
 namespace tst_live_match {
 
@@ -59,8 +60,9 @@ class TestLiveMatch : public QObject {
         const link::RobotVariables variables;
         const int x = board->read(variables.localizationX);
         const int y = board->read(variables.localizationY);
-        const double away =
-            std::hypot(x - robot.board->localizationX, y - robot.board->localizationY);
+        const auto said =
+            sim::published_frame::localizationFromStudio(frame->settings->field, robot.pose);
+        const double away = std::hypot(x - said.x, y - said.y);
         if (away < 60.0 && robot.poseKnown()) ++agree;
       }
       return agree == 6;
@@ -68,8 +70,8 @@ class TestLiveMatch : public QObject {
     QTRY_VERIFY2_WITH_TIMEOUT(compare(), qPrintable(QString::number(agree)), 20000);
     const auto details = live.details();
     QCOMPARE(details.team.errors.messages(), std::uint64_t(0));
-    QTRY_VERIFY_WITH_TIMEOUT(live.latest()->robots[0].health->messages >= 3, 20000);
-    QVERIFY(live.latest()->robots[0].health->rate > 0.3);
+    QTRY_VERIFY_WITH_TIMEOUT(live.latest()->robots[0].link->messages >= 3, 20000);
+    QVERIFY(live.latest()->robots[0].link->rate > 0.3);
     match.terminate();
     QVERIFY(match.waitForFinished(60'000));
   }

@@ -133,7 +133,6 @@ void RobotsDock::showCards(const std::vector<CardState>& states) {
 }
 
 void RobotsDock::rename(const std::vector<link::Renaming>& renamings) {
-  m_tracker.rename(renamings);
   link::rename(m_cards, renamings);
   link::rename(m_floating, renamings);
   link::rename(m_byHand, renamings);

@@ -53,6 +53,8 @@ struct RobotStatus : LinkHealth {
   int number = 0;  ///< over all teams: numberInTeam(), teamPlace()
   /// 0: the robot of this number; 1, 2, ...: other programs that use the number at the same time.
   int slot = 0;
+  std::array<ProcessStatus, processCount> processes{};
+  std::optional<Battery> battery;
   WallTime lastMessage{};
   ErrorTally errors;
   std::shared_ptr<const TextDecoder> decoder;  ///< names and types of the values
