@@ -33,6 +33,8 @@ FramePtr movingFrame(int serial) {
     const double phase = serial * 0.01 + i;
     link::RobotFrame robot;
     robot.identity = {RobotId{i + 1}, i < 11 ? TeamColor::Blue : TeamColor::Red, i % 11 + 1, false};
+    robot.key = link::keyOf(robot.identity);
+    robot.name = robot.identity.name();
     robot.pose = {{-4.0 + 0.38 * i + 0.3 * std::cos(phase), 2.4 * std::sin(phase * 0.7)}, phase};
     robot.headYaw = phase + 0.2;
     robot.boardKey = 0;
@@ -53,8 +55,10 @@ std::unique_ptr<FieldView> viewOf(const benchmark::State& state) {
   view->show();
   for (int i = 0; i < firstSerial; ++i) view->showFrame(movingFrame(i));
   std::vector<RobotKey> selected;
-  for (int i = 1; i <= static_cast<int>(state.range(3)); ++i)
-    selected.push_back(frame->robots[static_cast<std::size_t>(i - 1)].key);
+  const auto robots = movingFrame(0)->robots;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(state.range(3)); ++i) {
+    selected.push_back(robots[i].key);
+  }
   view->select(selected);
   QCoreApplication::processEvents();
   return view;
