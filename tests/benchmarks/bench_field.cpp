@@ -55,9 +55,8 @@ std::unique_ptr<FieldView> viewOf(const benchmark::State& state) {
   view->show();
   for (int i = 0; i < firstSerial; ++i) view->showFrame(movingFrame(i));
   std::vector<RobotKey> selected;
-  const auto robots = movingFrame(0)->robots;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(state.range(3)); ++i) {
-    selected.push_back(robots[i].key);
+  for (const link::RobotFrame& robot : movingFrame(firstSerial)->robots) {
+    if (selected.size() < static_cast<std::size_t>(state.range(3))) selected.push_back(robot.key);
   }
   view->select(selected);
   QCoreApplication::processEvents();

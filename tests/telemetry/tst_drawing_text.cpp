@@ -173,8 +173,9 @@ class TestDrawingText : public QObject {
   void pagesMakeTheBookAgain() {
     DrawingBook book, copy;
     QVERIFY(book.take("PBD1 1\nlayer a 5\nline 0 0 0.1 0.3\nlayer b robot 2\ndisc 0 0 1", 1.0));
-    QVERIFY(book.take("PBD1 2\nlayer a belief 3\ncolour blue\ntext 0 0 hello", 1.5, 3000));
-    for (const DrawingBook::Page& page : book.pages(2.0)) QVERIFY(copy.take(page.text, page.time));
+    QVERIFY(book.take("PBD1 2\nlayer a belief 3\ncolour blue\ntext 0 0 hello", 1.5, 3));
+    for (const DrawingBook::Page& page : book.pages(2.0))
+      QVERIFY(copy.take(page.text, page.time, page.team));
     for (const double time : {2.0, 2.9, 3.1, 4.6, 6.1}) QVERIFY(copy.at(time) == book.at(time));
   }
 

@@ -80,9 +80,10 @@ class TestLiveCards : public QObject {
       telemetry::TeamSetup& team = options.team.teams[static_cast<std::size_t>(i)];
       team.firstPort = team.lastPort = options.portBase + 1 + i;
     }
-    s.live()->setOptions(options);
     s.goLive();
-    QVERIFY(Robot(s.options, 2).say());  // a guest
+    s.live()->setOptions(options);
+    QTRY_COMPARE(s.bound(), std::size_t(3));  // a port of each team, and the referee's
+    QVERIFY(Robot(s.options, 2).say());       // a guest
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
     QVERIFY(Robot(s.options, 1).say());
     QTRY_COMPARE(s.cards().size(), qsizetype(2));

@@ -199,6 +199,7 @@ void showReferee(const sim::WorldState& world, MatchFrame& frame) {
   const telemetry::RefereeState packet = refereePacket(world, 0, true);
   frame.refereeAutomatic = world.settings.referee->automatic;
   RefereeView& view = frame.referee.emplace(viewOf(packet));
+  view.stopped = game.stopped;  // which version 12 does not send, and who referees has to see
   view.sender = frame.refereeAutomatic ? "the simulated referee" : "a person";
   for (std::size_t side = 0; side < 2; ++side) {
     const auto& shirts = game.teams[side == 0 ? game.leftTeam() : 1 - game.leftTeam()].shirts;

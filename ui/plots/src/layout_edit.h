@@ -8,8 +8,8 @@
 
 namespace pitchboard::ui {
 
-/// The change has happened already; `put` shows a layout. Changes of look and limits within a second
-/// are one; what adds or removes is one for itself.
+/// The change has happened already; `put` shows a layout. Changes of look and limits within a
+/// second are one; what adds or removes is one for itself.
 Edit layoutEdit(const PlotLayout& before, const PlotLayout& after,
                 const std::function<void(const PlotLayout&)>& put);
 

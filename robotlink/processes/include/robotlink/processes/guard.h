@@ -2,8 +2,8 @@
 #pragma once
 
 // The guard of a match: a small process that outlives it. When the match is killed, the guard
-// removes the segments that nobody uses any more. The match tells it of them over a socket, a packet
-// for each; the end of the socket without "done" means that the match was killed.
+// removes the segments that nobody uses any more. The match tells it of them over a socket, a
+// packet for each; the end of the socket without "done" means that the match was killed.
 
 #include <string>
 #include <string_view>
