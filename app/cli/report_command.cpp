@@ -32,7 +32,7 @@ Result<void> exportReport(const telemetry::SessionReader& session, telemetry::Ti
   content.notes = session.notes();
   if (!session.complete()) content.notes.push_back("The recording broke off.");
 
-  link::RecordedFrames frames(link::backdropOf(session, robots));
+  link::RecordedFrames frames(link::backdropOf(session), robots);
   const link::MatchFrame frame = frames.frameAt(session, part.end);
   if (!frame.robots.empty()) {
     if (const auto picture = svgPicture(session, part.end)) {

@@ -102,7 +102,7 @@ int paintSession(const Arguments& arguments, WindowSize within) {
   const telemetry::TimeRange range{
       std::clamp(arguments.from.value_or(all->begin), all->begin, all->end),
       std::clamp(arguments.until.value_or(all->end), all->begin, all->end)};
-  link::RecordedFrames frames(link::backdropOf(*session, arguments.paintRobots));
+  link::RecordedFrames frames(link::backdropOf(*session), arguments.paintRobots);
   const auto frame = std::make_shared<link::MatchFrame>(frames.frameAt(*session, range.begin));
   ui::FieldView field(static_cast<ui::FrameSource*>(nullptr), nullptr);
   field.showFrame(frame);

@@ -33,14 +33,14 @@ FramePtr movingFrame(int serial) {
     const double phase = serial * 0.01 + i;
     link::RobotFrame robot;
     robot.identity = {RobotId{i + 1}, i < 11 ? TeamColor::Blue : TeamColor::Red, i % 11 + 1, false};
+    robot.key = link::keyOf(robot.identity);
+    robot.name = robot.identity.name();
     robot.pose = {{-4.0 + 0.38 * i + 0.3 * std::cos(phase), 2.4 * std::sin(phase * 0.7)}, phase};
     robot.headYaw = phase + 0.2;
-    link::RobotBoardView& board = robot.board.emplace();
-    board.localizationX = static_cast<int>(100 * (robot.pose.position.x + 4.5)) + 10;
-    board.localizationY = static_cast<int>(100 * (3.0 - robot.pose.position.y)) + 10;
-    board.belief = 25.0F;
-    board.localizationWorking = board.visionWorking = true;
-    board.ballDistCm = 150.0F;
+    robot.boardKey = 0;
+    robot.belief = {{robot.pose.position.x + 0.1, robot.pose.position.y - 0.1}, 0.0};
+    robot.sigma = 0.25;
+    robot.ball = link::SeenBall{{robot.pose.position.x + 1.6, robot.pose.position.y}, 1.5, 0.0};
     frame->robots.push_back(robot);
   }
   return frame;

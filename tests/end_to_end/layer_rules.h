@@ -130,8 +130,8 @@ inline QString roomOfPath(const QString& path) {
   return path.section('/', 0, 1);
 }
 
-/// The room of one of our headers ("robotlink/frame" of "robotlink/frame/belief.h"); empty for all
-/// others.
+/// The room of one of our headers ("robotlink/frame" of "robotlink/frame/build_robot.h"); empty for
+/// all others.
 inline QString roomOfHeader(const QString& header) {
   if (header.startsWith("base/")) return "simcore/base";
   if (header.startsWith("resources/")) return "resources";

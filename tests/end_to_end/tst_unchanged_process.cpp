@@ -33,10 +33,10 @@ class TestUnchangedProcess : public QObject {
            more + "}]}";
   }
 
-  static ProcessStatus firstProgram(const MatchRunner& runner) {
+  static ProcessSummary firstProgram(const MatchRunner& runner) {
     const auto frame = runner.latest();
     const auto all = frame->robots[0].processes();
-    return all.empty() ? ProcessStatus{} : all.front();
+    return all.empty() ? ProcessSummary{} : all.front();
   }
 
   /// What is loaded into the first program of the match, and how it gets its time.

@@ -14,7 +14,7 @@ namespace pitchboard::link {
     if (!(a.member == b.member)) return QStringLiteral(#member); \
   } while (false)
 
-inline QString difference(const RobotHealth& a, const RobotHealth& b) {
+inline QString difference(const telemetry::LinkHealth& a, const telemetry::LinkHealth& b) {
   SAME(sender);
   SAME(conflict);
   SAME(timedOut);
@@ -29,35 +29,6 @@ inline QString difference(const RobotHealth& a, const RobotHealth& b) {
   SAME(lost);
   SAME(duplicates);
   SAME(late);
-  for (std::size_t i = 0; i < a.processes.size(); ++i) {
-    SAME(processes[i].state);
-    SAME(processes[i].probability);
-    SAME(processes[i].since);
-  }
-  SAME(battery);
-  SAME(poseKnown);
-  SAME(action);
-  SAME(ball);
-  SAME(penalty);
-  SAME(values);
-  return {};
-}
-
-inline QString difference(const RobotBoardView& a, const RobotBoardView& b) {
-  SAME(actionA);
-  SAME(voltage);
-  SAME(visionLost);
-  SAME(ballDistCm);
-  SAME(panDeg);
-  SAME(localizationX);
-  SAME(localizationY);
-  SAME(localizationTheta);
-  SAME(belief);
-  SAME(controlWorking);
-  SAME(visionWorking);
-  SAME(localizationWorking);
-  SAME(decisionWorking);
-  SAME(imuWorking);
   return {};
 }
 
@@ -72,12 +43,21 @@ inline QString difference(const RobotFrame& a, const RobotFrame& b) {
   SAME(velocity);
   SAME(action);
   SAME(fallen);
-  SAME(board.has_value());
-  SAME(health.has_value());
-  if (a.board) {
-    if (const QString found = difference(*a.board, *b.board); !found.isEmpty()) return found;
+  SAME(belief);
+  SAME(sigma);
+  SAME(ball);
+  SAME(decided);
+  SAME(battery);
+  for (std::size_t i = 0; i < a.lamps.size(); ++i) {
+    SAME(lamps[i].state);
+    SAME(lamps[i].probability);
+    SAME(lamps[i].since);
   }
-  return a.health ? difference(*a.health, *b.health) : QString();
+  SAME(penalty);
+  SAME(values);
+  SAME(behaviour);
+  SAME(link.has_value());
+  return a.link ? difference(*a.link, *b.link) : QString();
 }
 
 inline QString difference(const RefereeView& a, const RefereeView& b) {
@@ -117,16 +97,17 @@ inline QString difference(const MatchFrame& a, const MatchFrame& b) {
   SAME(snapshot.score);
   SAME(snapshot.clock);
   SAME(snapshot.clockRunning);
-  SAME(field.name);
+  SAME(settings->field.name);
   SAME(robots.size());
   SAME(drawings);
   SAME(referee.has_value());
-  SAME(teamBall.has_value());
-  if (a.teamBall) {
-    SAME(teamBall->position);
-    SAME(teamBall->spread);
-    SAME(teamBall->agree);
-    SAME(teamBall->see);
+  SAME(teamBalls.size());
+  for (std::size_t i = 0; i < a.teamBalls.size(); ++i) {
+    SAME(teamBalls[i].team);
+    SAME(teamBalls[i].position);
+    SAME(teamBalls[i].spread);
+    SAME(teamBalls[i].agree);
+    SAME(teamBalls[i].see);
   }
   if (a.referee) {
     if (const QString found = difference(*a.referee, *b.referee); !found.isEmpty()) {

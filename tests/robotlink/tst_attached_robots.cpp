@@ -107,10 +107,9 @@ class TestAttachedRobots : public QObject {
     QTRY_VERIFY(hasRobot());
     const RobotFrame& robot = frame.robots[0];
     QCOMPARE(robot.identity.name(), std::string("R4"));
-    QCOMPARE(robot.board->key, key);
-    QCOMPARE(robot.board->localizationX, 600);
-    QCOMPARE(robot.board->voltage, 160);
-    QVERIFY(robot.board->visionWorking);
+    QCOMPARE(robot.boardKey.value_or(-1), key);
+    QVERIFY(robot.battery && std::abs(robot.battery->volts - 16.0) < 1e-9);
+    QVERIFY(robot.lamps[1].state == telemetry::ProcessState::Working);
     QVERIFY(robot.poseKnown() && !robot.timedOut());
     // The corner of a field of 9 by 6 m: 1.5 m to the right of its centre, 0.5 m below.
     QCOMPARE(robot.pose.position.x, 1.5);
@@ -135,7 +134,7 @@ class TestAttachedRobots : public QObject {
     Peer again(key, 4096, {"10=100"});
     QVERIFY(again.isReady);
     QTRY_VERIFY(robots.status().at(0).attached);
-    QTRY_VERIFY(hasRobot() && frame.robots[0].board->localizationX == 100);
+    QTRY_VERIFY(hasRobot() && frame.robots[0].pose.position.x == -3.5);
   }
 
   /// Looking back and Replay show it as it was seen.
@@ -172,9 +171,7 @@ class TestAttachedRobots : public QObject {
     QCOMPARE(seen.robots.size(), std::size_t(1));
     QCOMPARE(store->view(0)->info().name, std::string("Y7"));
 
-    FrameBackdrop backdrop;
-    backdrop.field = seen.field;
-    RecordedFrames recorded(backdrop);
+    RecordedFrames recorded(*seen.settings);
     const double last = store->view(0)->range()->end;
     const auto again = recorded.attachedAt(*store, last);
     QCOMPARE(again.size(), std::size_t(1));
@@ -183,19 +180,18 @@ class TestAttachedRobots : public QObject {
     QCOMPARE(now.identity.name(), then.identity.name());
     QCOMPARE(now.action, then.action);
     QVERIFY(now.pose == then.pose);
-    QVERIFY(now.health.has_value());
-    QVERIFY(now.health->poseKnown && !now.health->timedOut);
-    QVERIFY(now.health->battery == then.health->battery);
-    QVERIFY(then.health->ball.has_value() && now.health->ball == then.health->ball);
-    QVERIFY(now.health->action == then.health->action);
-    QCOMPARE(now.health->rate, then.health->rate);
+    QVERIFY(now.belief && !now.timedOut());
+    QVERIFY(now.battery == then.battery);
+    QVERIFY(then.ball.has_value() && now.ball == then.ball);
+    QVERIFY(now.decided == then.decided);
+    QCOMPARE(now.link->rate, then.link->rate);
     for (std::size_t i = 0; i < telemetry::processCount; ++i) {
-      QVERIFY(now.health->processes[i].state == then.health->processes[i].state);
+      QVERIFY(now.lamps[i].state == then.lamps[i].state);
     }
     // Ten seconds later nothing has come any more.
     const auto later = recorded.attachedAt(*store, last + 10.0);
     QCOMPARE(later.size(), std::size_t(1));
-    QVERIFY(later[0].health->timedOut);
+    QVERIFY(later[0].link->timedOut);
   }
 
   void itIsNeverWritten() {

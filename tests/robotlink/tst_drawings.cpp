@@ -116,7 +116,7 @@ class TestDrawings : public QObject {
     QTRY_VERIFY(layerOf(screen->last(), 1, "ball"));
     QCOMPARE(screen->last().robots.size(), std::size_t{1});
     QVERIFY(screen->last().robots[0].poseKnown());
-    QCOMPARE(screen->last().robots[0].health->errorCount, std::uint64_t{0});
+    QCOMPARE(screen->last().robots[0].link->errorCount, std::uint64_t{0});
     QTRY_VERIFY(!layerOf(screen->last(), 1, "ball"));  // two seconds
     QVERIFY(layerOf(screen->last(), 2, "plan"));
     QVERIFY(screen->last().drawingProblem.empty());

@@ -14,6 +14,7 @@
 #include <robotlink/experiment/run_player.h>
 #include <robotlink/experiment/situation.h>
 
+#include "../support/frame_settings.h"
 #include "experiment_rig.h"
 
 namespace tst_experiment {
@@ -228,7 +229,7 @@ void TestExperiment::separateProcessesEndInTheSameState() {
 
 void TestExperiment::aSituationKeepsWhatTheRefereeHadSaid() {
   MatchFrame frame;
-  frame.physics = "rigid-body";
+  ownSettings(frame).physics = "rigid-body";
   frame.snapshot.ball = {1.0, 0.5};
   frame.snapshot.ballVelocity = {-0.5, 0.25};
   frame.snapshot.clock = 33.0;

@@ -21,14 +21,14 @@ struct Stage {
     frame.snapshot.time = time;
     return events.compare(frame);
   }
-  RobotHealth& robot(int id, TeamColor team = TeamColor::Blue) {
+  RobotFrame& robot(int id, TeamColor team = TeamColor::Blue) {
     RobotFrame& seen = frame.robots.emplace_back();
     seen.identity = {{}, team, id, false};
     seen.key = keyOf(seen.identity);
     seen.name = seen.identity.name();
-    RobotHealth& health = seen.health.emplace();
-    health.sender = {*telemetry::parseAddress("192.168.0." + std::to_string(id)), 4000};
-    return health;
+    seen.link.emplace().sender = {*telemetry::parseAddress("192.168.0." + std::to_string(id)),
+                                  4000};
+    return seen;
   }
   RefereeView& referee() {
     RefereeView& view = frame.referee.emplace();
@@ -63,7 +63,7 @@ class TestLiveEvents : public QObject {
     QVERIFY(!s.at(0.2).empty());
     QVERIFY(s.at(0.3).empty());
     s.frame.referee->secondsLeft = 599;
-    s.frame.robots[0].health->age = std::chrono::milliseconds(500);
+    s.frame.robots[0].link->age = std::chrono::milliseconds(500);
     QVERIFY(s.at(0.4).empty());
   }
 
@@ -73,14 +73,14 @@ class TestLiveEvents : public QObject {
     auto told = s.at(1.0);
     QCOMPARE(kindsOf(told), (Kinds{Kind::RobotHeard}));
     QCOMPARE(told[0].detail, std::string("192.168.0.3:4000"));
-    s.frame.robots[0].health->timedOut = true;
+    s.frame.robots[0].link->timedOut = true;
     told = s.at(7.5);
     QCOMPARE(kindsOf(told), (Kinds{Kind::RobotSilent}));
     QCOMPARE(told[0].time, 7.5);
     QCOMPARE(told[0].robot, red(3));
     QCOMPARE(told[0].name, std::string("R3"));
     QCOMPARE(sentenceOf(told[0]), std::string("R3 is not heard any more"));
-    s.frame.robots[0].health->timedOut = false;
+    s.frame.robots[0].link->timedOut = false;
     QCOMPARE(kindsOf(s.at(8.0)), (Kinds{Kind::RobotBack}));
   }
 
@@ -90,7 +90,7 @@ class TestLiveEvents : public QObject {
     (void)s.at(1.0);
     s.frame.robots.clear();
     QVERIFY(s.at(2.0).empty());
-    s.robot(1).timedOut = true;
+    s.robot(1).link->timedOut = true;
     QCOMPARE(kindsOf(s.at(3.0)), (Kinds{Kind::RobotHeard, Kind::RobotSilent}));
   }
 
@@ -98,9 +98,9 @@ class TestLiveEvents : public QObject {
     Stage s;
     s.robot(3);
     (void)s.at(1.0);
-    s.frame.robots[0].health->sender.port = 4001;
+    s.frame.robots[0].link->sender.port = 4001;
     QVERIFY(s.at(2.0).empty());  // a new socket is no other address
-    s.frame.robots[0].health->sender.address = *telemetry::parseAddress("192.168.0.77");
+    s.frame.robots[0].link->sender.address = *telemetry::parseAddress("192.168.0.77");
     const auto told = s.at(3.0);
     QCOMPARE(kindsOf(told), (Kinds{Kind::AddressChanged}));
     QCOMPARE(told[0].robot, blue(3));
@@ -125,14 +125,14 @@ class TestLiveEvents : public QObject {
     Stage s;
     s.robot(1);
     (void)s.at(1.0);
-    s.frame.robots[0].health->conflict = true;
+    s.frame.robots[0].link->conflict = true;
     const auto told = s.at(2.0);
     QCOMPARE(kindsOf(told), (Kinds{Kind::SecondSender}));
     QCOMPARE(told[0].detail, std::string("192.168.0.1:4000"));
     QVERIFY(s.at(3.0).empty());
-    s.frame.robots[0].health->conflict = false;
+    s.frame.robots[0].link->conflict = false;
     QVERIFY(s.at(4.0).empty());
-    s.frame.robots[0].health->conflict = true;
+    s.frame.robots[0].link->conflict = true;
     QCOMPARE(kindsOf(s.at(5.0)), (Kinds{Kind::SecondSender}));
   }
 
@@ -140,17 +140,17 @@ class TestLiveEvents : public QObject {
     Stage s;
     s.robot(1);
     (void)s.at(1.0);
-    s.frame.robots[0].health->penalty = Penalty{"pushing", 30};
+    s.frame.robots[0].penalty = Penalty{"pushing", 30};
     auto told = s.at(2.0);
     QCOMPARE(kindsOf(told), (Kinds{Kind::Penalised}));
     QCOMPARE(told[0].detail, std::string("pushing"));
     QCOMPARE(told[0].value, 30);
     QCOMPARE(sentenceOf(told[0]), std::string("B1 penalised: pushing, 30 s"));
-    s.frame.robots[0].health->penalty->secondsLeft = 12;  // counting down is no event
+    s.frame.robots[0].penalty->secondsLeft = 12;  // counting down is no event
     QVERIFY(s.at(3.0).empty());
-    s.frame.robots[0].health->penalty->words = "pickup";
+    s.frame.robots[0].penalty->words = "pickup";
     QCOMPARE(kindsOf(s.at(4.0)), (Kinds{Kind::Penalised}));
-    s.frame.robots[0].health->penalty.reset();
+    s.frame.robots[0].penalty.reset();
     QCOMPARE(kindsOf(s.at(5.0)), (Kinds{Kind::PenaltyOver}));
   }
 
@@ -269,7 +269,7 @@ class TestLiveEvents : public QObject {
 
   void aLowBatteryIsSaidOnce() {
     Stage s;
-    RobotHealth& robot = s.robot(2);
+    RobotFrame& robot = s.robot(2);
     const auto volts = [&](double value) {
       robot.battery = telemetry::batteryAt(value, telemetry::usualBattery);
     };

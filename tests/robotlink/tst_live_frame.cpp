@@ -3,7 +3,7 @@
 
 #include <QtTest>
 
-#include <robotlink/frame/belief.h>
+#include <robotlink/frame/build_robot.h>
 #include <robotlink/frame/referee_view.h>
 #include <robotlink/match/match_runner.h>
 #include <robotlink/match/referee_packet.h>
@@ -125,7 +125,7 @@ class TestLiveFrame : public QObject {
     const MatchFrame frame = Heard({}).frame(7.5);
     QVERIFY(frame.origin == FrameOrigin::Live);
     QVERIFY(!frame.truthKnown && !frame.ballKnown);
-    QVERIFY(frame.robots.empty() && !frame.referee && !frame.teamBall);
+    QVERIFY(frame.robots.empty() && !frame.referee && frame.teamBalls.empty());
     QCOMPARE(frame.snapshot.time, 7.5);
     QVERIFY(frame.robot(heardAs(1)) == nullptr);
   }
@@ -143,20 +143,19 @@ class TestLiveFrame : public QObject {
     QVERIFY(robot.pose == centre);
     QCOMPARE(robot.headYaw, centre.yaw);
     QCOMPARE(robot.action, 8);
-    QVERIFY(robot.health && robot.health->action == std::optional(8));
-    QVERIFY(robot.board && robot.board->voltage == 165 && robot.board->belief == 20.0F);
+    QVERIFY(robot.link && robot.decided == std::optional(8));
+    QCOMPARE(robot.sigma, std::optional(0.2));
     // A metre away, to its left.
-    const auto ball = perceivedBall(frame.field, robot);
-    QVERIFY(ball);
-    QVERIFY(std::abs(std::hypot(ball->x - centre.position.x, ball->y - centre.position.y) - 1.0) <
-            1e-9);
+    QVERIFY(robot.ball);
+    const Point ball = robot.ball->place;
+    QVERIFY(std::abs(distance(ball, centre.position) - 1.0) < 1e-9);
     const double direction =
-        std::atan2(ball->y - centre.position.y, ball->x - centre.position.x) - centre.yaw;
+        std::atan2(ball.y - centre.position.y, ball.x - centre.position.x) - centre.yaw;
     QVERIFY(std::abs(std::sin(direction) - 1.0) < 1e-9);
-    QCOMPARE(robot.health->values.size(), std::size_t{15});
-    QCOMPARE(robot.health->values[1].name, std::string("X"));
-    QCOMPARE(robot.health->values[1].text, std::string("450"));
-    QCOMPARE(robot.health->values[1].unit, std::string("cm"));
+    QCOMPARE(robot.values.size(), std::size_t{15});
+    QCOMPARE(robot.values[1].name, std::string("X"));
+    QCOMPARE(robot.values[1].text, std::string("450"));
+    QCOMPARE(robot.values[1].unit, std::string("cm"));
   }
 
   void howItIsHeardIsCarriedAsItIs() {
@@ -173,20 +172,21 @@ class TestLiveFrame : public QObject {
     status.conflict = true;
     status.processes[3] = {telemetry::ProcessState::Silent, 0.1, 8s};
     status.battery = telemetry::batteryAt(15.9, telemetry::usualBattery);
-    const RobotHealth health = *Heard({status}).frame().robots.at(0).health;
+    const RobotFrame robot = Heard({status}).frame().robots.at(0);
+    const telemetry::LinkHealth& health = *robot.link;
     QCOMPARE(health.sender, status.sender);
     QCOMPARE(health.age, status.age);
     QCOMPARE(health.rate, status.rate);
     QCOMPARE(health.jitter, status.jitter);
-    QVERIFY(health.loss == status.loss && health.battery == status.battery);
+    QVERIFY(health.loss == status.loss && robot.battery == status.battery);
     QCOMPARE(health.messages, status.messages);
     QCOMPARE(health.bytes, status.bytes);
     QCOMPARE(health.errorCount, status.errorCount);
     QCOMPARE(health.recoveries, status.recoveries);
     QCOMPARE(health.lost, status.lost);
-    QVERIFY(health.conflict && health.battery->low);
-    QVERIFY(health.processes[3].state == telemetry::ProcessState::Silent);
-    QCOMPARE(health.processes[3].since, status.processes[3].since);
+    QVERIFY(health.conflict && robot.battery->low);
+    QVERIFY(robot.lamps[3].state == telemetry::ProcessState::Silent);
+    QCOMPARE(robot.lamps[3].since, status.processes[3].since);
   }
 
   void numbersBeyondTheFieldAreDrawnSomewhere() {
@@ -196,8 +196,8 @@ class TestLiveFrame : public QObject {
     const RobotFrame& robot = frame.robots.at(0);
     QVERIFY(std::abs(robot.pose.position.x) < 200 && std::abs(robot.pose.position.y) < 200);
     QVERIFY(std::isfinite(robot.pose.yaw));
-    QVERIFY(!perceivedBall(frame.field, robot));  // a kilometre away: no ball
-    QCOMPARE(robot.health->values[1].text, std::string("2000000000"));
+    QVERIFY(!robot.ball);  // a kilometre away: no ball
+    QCOMPARE(robot.values[1].text, std::string("2000000000"));
   }
 
   void withoutAPositionItIsHeardAndNotSeen() {
@@ -205,7 +205,7 @@ class TestLiveFrame : public QObject {
     status.values[1] = std::nan("");
     const MatchFrame frame = Heard({status}).frame();
     QVERIFY(!frame.robots.at(0).poseKnown());
-    QVERIFY(!frame.robots[0].health->ball);
+    QVERIFY(!frame.robots[0].ball);
   }
 
   void robotsThatAgreeMakeTheTeamsBall() {
@@ -216,10 +216,93 @@ class TestLiveFrame : public QObject {
                  robotSaying("4 450 300 0 20 100 0 1 1 1 1 1 8 0 165")});
     heard.team.robots[3].timedOut = true;
     const MatchFrame frame = heard.frame();
-    QVERIFY(frame.teamBall);
-    QCOMPARE(frame.teamBall->agree, 2);
-    QCOMPARE(frame.teamBall->see, 3);
-    QVERIFY(frame.robots[3].health->ball && !perceivedBall(frame.field, frame.robots[3]));
+    QCOMPARE(frame.teamBalls.size(), std::size_t{1});
+    QCOMPARE(frame.teamBalls[0].agree, 2);
+    QCOMPARE(frame.teamBalls[0].see, 3);
+    QVERIFY(!frame.robots[3].ball);
+  }
+
+  void eachTeamAgreesForItself() {
+    // Five see the ball left of the centre, four of the other team right of it.
+    std::vector<RobotFrame> robots(9);
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      robots[i].identity.team = i < 5 ? TeamColor::Blue : TeamColor::Red;
+      robots[i].ball = SeenBall{{i < 5 ? -1.0 : 1.0, 0.0}, 1.0, 0.0};
+    }
+    const std::vector<TeamBall> balls = agreedBalls(robots);
+    QCOMPARE(balls.size(), std::size_t{2});
+    QVERIFY(balls[0].team == TeamColor::Blue && balls[1].team == TeamColor::Red);
+    QCOMPARE(balls[0].agree, 5);
+    QCOMPARE(balls[0].see, 5);
+    QCOMPARE(balls[1].agree, 4);
+    QCOMPARE(balls[1].see, 4);
+    QCOMPARE(balls[1].position.x, 1.0);
+  }
+
+  void aBlackboardAndAMessageOfTheSameAreSeenAlike() {
+    RobotFrame said = Heard({robotSaying("3 " + atTheCentre)}).frame().robots.at(0);
+    const std::map<std::string, double> variables{
+        {"LOCALIZATION_X", 450},      {"LOCALIZATION_Y", 300},   {"LOCALIZATION_THETA", 0},
+        {"LOCALIZATION_RBT01_X", 20}, {"VISION_BALL_DIST", 100}, {"VISION_PAN_DEG", 90},
+        {"DECISION_ACTION_A", 8},     {"VISION_LOST", 0},        {"VISION_WORKING", 1},
+        {"LOCALIZATION_WORKING", 1},  {"DECISION_WORKING", 1},   {"IMU_WORKING", 1},
+        {"CONTROL_WORKING", 1},       {"VOLTAGE", 165}};
+    telemetry::GroupInfo group{"B3", {}, {{"attached", "1"}, {"robot", "3"}, {"number", "3"}}};
+    std::vector<double> row;
+    for (const auto& [name, value] : variables) {
+      group.columns.emplace_back().name = name;
+      row.push_back(value);
+    }
+    telemetry::SeriesStore store;
+    store.append(store.addGroup(group), {1.0, {}, row});
+    const std::vector<RobotFrame> read = RecordedFrames().attachedAt(store, 1.0);
+    QCOMPARE(read.size(), std::size_t{1});
+    QVERIFY(read[0].belief == said.belief && read[0].pose == said.pose);
+    QVERIFY(read[0].sigma == said.sigma && read[0].ball == said.ball && said.ball);
+    QVERIFY(read[0].decided == said.decided);
+    for (const telemetry::ProcessStatus& lamp : read[0].lamps) {
+      QVERIFY(lamp.state == telemetry::ProcessState::Working);
+    }
+    // What is lost, or seen by a vision that does not work, is no ball.
+    for (const char* name : {"VISION_LOST", "VISION_WORKING"}) {
+      telemetry::SeriesStore other;
+      std::vector<double> changed = row;
+      const auto at = std::distance(variables.begin(), variables.find(name));
+      changed[static_cast<std::size_t>(at)] = 1.0 - changed[static_cast<std::size_t>(at)];
+      other.append(other.addGroup(group), {1.0, {}, changed});
+      QVERIFY(!RecordedFrames().attachedAt(other, 1.0).at(0).ball);
+    }
+  }
+
+  void aLampIsSilentOnlyWhenItHasWorked() {
+    using telemetry::FieldMeaning;
+    using telemetry::ProcessState;
+    LampMemory memory;
+    double vision = 0.0;
+    const RobotReader reader = [&vision](FieldMeaning meaning) -> std::optional<double> {
+      if (meaning == FieldMeaning::Vision) return vision;
+      return std::nullopt;
+    };
+    QVERIFY(memory.note(reader, 0.0)[1].state == ProcessState::Unknown);
+    vision = 1.0;
+    QVERIFY(memory.note(reader, 1.0)[1].state == ProcessState::Working);
+    vision = 0.0;
+    QVERIFY(memory.note(reader, 1.9)[1].state == ProcessState::Working);
+    QVERIFY(memory.note(reader, 2.5)[1].state == ProcessState::Silent);
+    const auto& lamps = memory.note(reader, 10.5);
+    QCOMPARE(telemetry::secondsOf(lamps[1].since), 8.0);
+    QVERIFY(lamps[0].state == ProcessState::Unknown);
+    memory.jump();
+    QVERIFY(memory.note(reader, 3.0)[1].state == ProcessState::Silent);
+    memory.saw(1, 2.5);
+    QVERIFY(memory.note(reader, 3.0)[1].state == ProcessState::Working);
+  }
+
+  void aCentimetreIsNotCutOff() {
+    RobotStatus status = robotSaying("4 " + atTheCentre);
+    status.values[1] = 450.75;
+    const MatchFrame frame = Heard({status}).frame();
+    QVERIFY(std::abs(frame.robots.at(0).pose.position.x - 0.0075) < 1e-9);
   }
 
   void twoSendersOfOneNumberAreTwoRobots() {
@@ -265,14 +348,14 @@ class TestLiveFrame : public QObject {
     QCOMPARE(frame.snapshot.clock, 321.0);
     QVERIFY(frame.snapshot.clockRunning);
     QVERIFY(frame.robots.at(0).identity.team == TeamColor::Red);
-    QVERIFY(frame.robots[0].health->penalty);
-    QCOMPARE(frame.robots[0].health->penalty->secondsLeft, 30);
+    QVERIFY(frame.robots[0].penalty);
+    QCOMPARE(frame.robots[0].penalty->secondsLeft, 30);
     // A number that does not play: the colour that the user chose, and nobody's penalty.
     heard.options.ourTeam = 9;
     const MatchFrame other = heard.frame();
     QCOMPARE(other.referee->ourTeam, 0);
     QVERIFY(other.robots.at(0).identity.team == TeamColor::Yellow);
-    QVERIFY(!other.robots[0].health->penalty);
+    QVERIFY(!other.robots[0].penalty);
     // Ten seconds without a word: the state is shown, the clock is not said to run.
     heard.team.time = start + 11s;
     const MatchFrame late = heard.frame();

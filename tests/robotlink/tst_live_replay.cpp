@@ -168,18 +168,17 @@ class TestLiveReplay : public QObject {
     QVERIFY(m_frames.size() >= 16);
     const MatchFrame& last = m_frames.back();
     QCOMPARE(last.robots.size(), std::size_t{4});
-    QVERIFY(last.referee && last.teamBall);
+    QVERIFY(last.referee && !last.teamBalls.empty());
     const auto any = [&](auto&& what) { return std::ranges::any_of(last.robots, what); };
-    QVERIFY(any([](const RobotFrame& r) { return r.health->penalty.has_value(); }));
-    QVERIFY(any([](const RobotFrame& r) { return r.health->conflict; }));
-    QVERIFY(any([](const RobotFrame& r) { return r.health->jitter > 0.0; }));
-    QVERIFY(any([](const RobotFrame& r) { return r.health->errorCount > 0; }));
-    QVERIFY(any([](const RobotFrame& r) { return r.health->battery && r.health->battery->low; }));
-    QVERIFY(any([](const RobotFrame& r) {
-      return r.health->processes[1].state == telemetry::ProcessState::Silent;
-    }));
+    QVERIFY(any([](const RobotFrame& r) { return r.penalty.has_value(); }));
+    QVERIFY(any([](const RobotFrame& r) { return r.link->conflict; }));
+    QVERIFY(any([](const RobotFrame& r) { return r.link->jitter > 0.0; }));
+    QVERIFY(any([](const RobotFrame& r) { return r.link->errorCount > 0; }));
+    QVERIFY(any([](const RobotFrame& r) { return r.battery && r.battery->low; }));
+    QVERIFY(any(
+        [](const RobotFrame& r) { return r.lamps[1].state == telemetry::ProcessState::Silent; }));
     QVERIFY(last.robots[0].identity.team != m_frames.front().robots[0].identity.team);
-    QVERIFY(m_frames.front().robots[0].health->messages >= 1);
+    QVERIFY(m_frames.front().robots[0].link->messages >= 1);
   }
 
   void theFileShowsWhatWasSeen() {
@@ -284,7 +283,7 @@ class TestLiveReplay : public QObject {
     for (const telemetry::SessionEvent& event : clip->events()) {
       QVERIFY2(event.group.empty() || event.group.ends_with("1"), event.group.c_str());
     }
-    RecordedFrames frames(backdropOf(*clip)), only(backdropOf(*session, {"Robot 1"}));
+    RecordedFrames frames(backdropOf(*clip)), only(backdropOf(*session), {"Robot 1"});
     for (const MatchFrame& seen : m_frames) {
       if (seen.snapshot.time < selection.range.begin) continue;
       // Pictures and videos of the session show what the clip shows.
@@ -293,7 +292,7 @@ class TestLiveReplay : public QObject {
         QCOMPARE(frame.robots.size(), std::size_t{1});
         QCOMPARE(frame.robots[0].identity, seen.robots[0].identity);
         QCOMPARE(frame.robots[0].pose, seen.robots[0].pose);
-        QCOMPARE(frame.robots[0].health->messages, seen.robots[0].health->messages);
+        QCOMPARE(frame.robots[0].link->messages, seen.robots[0].link->messages);
         QCOMPARE(frame.referee.has_value(), seen.referee.has_value());
         QVERIFY(frame.snapshot.score == seen.snapshot.score);
       }
@@ -322,8 +321,8 @@ class TestLiveReplay : public QObject {
       });
       QVERIFY2(shown != m_frames.back().robots.end(), robot.name.c_str());
       QVERIFY(robot.link && robot.distance);
-      QCOMPARE(robot.link->messages, shown->health->messages);
-      QCOMPARE(robot.link->penalties, shown->health->penalty ? 1 : 0);
+      QCOMPARE(robot.link->messages, shown->link->messages);
+      QCOMPARE(robot.link->penalties, shown->penalty ? 1 : 0);
     }
     // The first robot walked 7 cm a message: what it believes, in steps of at least 10 cm.
     const auto& first = s.robots.front();

@@ -11,6 +11,8 @@
 #include <robotlink/session/moment_scenario.h>
 #include <robotlink/session/recorded_frame.h>
 
+#include "../support/frame_settings.h"
+
 namespace tst_moments {
 
 using namespace pitchboard;
@@ -102,7 +104,7 @@ void compareFrame(const MatchFrame& frame, const Witness::Seen& seen) {
   for (const sim::RobotSnapshot& robot : seen.snapshot.robots) {
     const RobotFrame* found = frame.robot(robot.identity.id);
     QVERIFY(found != nullptr && found->identity == robot.identity);
-    QVERIFY(found->board && !found->health);
+    QVERIFY(found->boardKey && !found->link);
     QVERIFY(found->pose.position == robot.pose.position);
     QVERIFY(std::abs(std::remainder(found->pose.yaw - robot.pose.yaw, 6.283185307179586)) < 1e-12);
     QVERIFY(found->statistics == robot.statistics);
@@ -132,23 +134,23 @@ class TestMoments : public QObject {
       const MatchFrame frame = frames.frameAt(m_match->store, static_cast<double>(tick) * oneTick);
       compareFrame(frame, m_match->witness->seen.at(tick));
       if (tick < 60) continue;
-      QVERIFY(frame.robots[0].board->visionWorking && frame.robots[0].board->controlWorking);
-      QVERIFY(!frame.robots[0].board->behaviour.empty());
+      QVERIFY(frame.robots[0].lamps[1].state == telemetry::ProcessState::Working);
+      QVERIFY(!frame.robots[0].behaviour.empty());
     }
   }
 
   void framesComeFromASession() {
     const auto session = telemetry::SessionReader::open(m_match->path).value();
     QVERIFY(session.complete() && session.notes().empty());
-    const FrameBackdrop backdrop = backdropOf(session);
+    const FrameSettings backdrop = backdropOf(session);
     QVERIFY(backdrop.field == m_match->scenario.settings.field);
     QVERIFY(backdrop.noise == m_match->scenario.settings.noise);
     RecordedFrames frames(backdrop);
     for (const std::uint64_t tick : {0U, 1U, 300U, 499U, 501U, 900U, 1200U, 7U}) {
       const MatchFrame frame = frames.frameAt(session, static_cast<double>(tick) / 60);
       compareFrame(frame, m_match->witness->seen.at(tick));
-      QVERIFY(frame.noise == m_match->scenario.settings.noise);
-      QCOMPARE(frame.seed, m_match->scenario.settings.seed);
+      QVERIFY(frame.settings->noise == m_match->scenario.settings.noise);
+      QCOMPARE(frame.settings->seed, m_match->scenario.settings.seed);
     }
     // Before the first row there is nothing, and that is no error.
     QVERIFY(frames.frameAt(session, -5).robots.empty());
@@ -256,8 +258,8 @@ class TestMoments : public QObject {
     QFETCH(bool, believed);
     RecordedFrames frames;
     MatchFrame frame = frames.frameAt(m_match->store, 15.0);
-    frame.field = m_match->scenario.settings.field;
-    frame.physics = physics.toStdString();
+    ownSettings(frame).field = m_match->scenario.settings.field;
+    ownSettings(frame).physics = physics.toStdString();
     frame.snapshot.score = {2, 1};
     MomentOptions options;
     options.base = &m_match->scenario;
@@ -297,9 +299,9 @@ class TestMoments : public QObject {
     }
     frame.snapshot.score = {-4, 3};
     frame.snapshot.clock = nan;
-    frame.field.length = -3;
+    ownSettings(frame).field.length = -3;
     for (const char* physics : {"rigid-body", "published", "something new"}) {
-      frame.physics = physics;
+      ownSettings(frame).physics = physics;
       const MomentScenario made = scenarioFromMoment(frame);
       QVERIFY(made.notes.size() >= 5);
       auto match = SimulatedMatch::create(made.scenario, {});
@@ -326,20 +328,16 @@ class TestMoments : public QObject {
       RobotFrame robot;
       robot.identity = {RobotId{i + 1}, TeamColor::Blue, i + 1, false};
       robot.pose = {{-1.0 + i, -1.0}, 0.3 * i};
-      RobotBoardView& board = robot.board.emplace();
-      board.visionWorking = true;
       // The last one sees something else.
       const Point seen = i == 3 ? Point{-4, -2} : Point{ball.x + 0.1 * (i - 1), ball.y};
-      const double dx = seen.x - robot.pose.position.x, dy = seen.y - robot.pose.position.y;
-      board.ballDistCm = static_cast<float>(100 * std::hypot(dx, dy));
-      board.panDeg = static_cast<float>((std::atan2(dy, dx) - robot.pose.yaw) * 57.29577951308232);
+      robot.ball = SeenBall{seen, distance(seen, robot.pose.position), 0.0};
       frame.robots.push_back(robot);
     }
     MomentScenario made = scenarioFromMoment(frame);
     QVERIFY(distance(made.scenario.ball, ball) < 1e-4);
     QCOMPARE(made.notes.size(), std::size_t{1});
     QVERIFY2(made.notes[0].find("3 of the 4") != std::string::npos, made.notes[0].c_str());
-    for (RobotFrame& robot : frame.robots) robot.board->visionLost = true;
+    for (RobotFrame& robot : frame.robots) robot.ball.reset();
     made = scenarioFromMoment(frame);
     QVERIFY(made.scenario.ball == Point{});
     QCOMPARE(made.notes,

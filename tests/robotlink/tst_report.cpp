@@ -78,7 +78,7 @@ class TestReport : public QObject {
     std::sort(errors.begin(), errors.end());
     QVERIFY(std::abs(*robot.errorMedian - errors[errors.size() / 2]) < 1.0);
     QVERIFY(std::abs(*robot.error90 - errors[errors.size() * 9 / 10]) < 1.0);
-    QCOMPARE(robot.errorCurve.size(), StatisticsBuilder::parts);
+    QCOMPARE(robot.errorCurve.size(), statisticsParts);
   }
 
   void thePageHasEverythingAndNothingFromOutside() {

@@ -237,7 +237,7 @@ class TestRobotThoughts : public QObject {
     auto runner = MatchRunner::start(match(2), options).value();
     if (!asked) {
       QTRY_VERIFY(runner->latest() && !runner->latest()->robots.empty() &&
-                  runner->latest()->robots[0].board->decisionWorking);
+                  runner->latest()->robots[0].lamps[3].state == telemetry::ProcessState::Working);
       QVERIFY(!runner->latest()->robots[0].thoughts && !runner->latest()->robots[1].thoughts);
       return;
     }

@@ -53,9 +53,8 @@ struct Studio : studio_rig::Studio {
     return count;
   }
   std::size_t robots() { return live()->frame()->robots.size(); }
-  const link::RobotHealth& health(std::size_t i = 0) {
-    return *live()->frame()->robots.at(i).health;
-  }
+  const link::RobotFrame& robot(std::size_t i = 0) { return live()->frame()->robots.at(i); }
+  const telemetry::LinkHealth& health(std::size_t i = 0) { return *robot(i).link; }
   QList<RobotCard*> cards() { return window.findChild<RobotsDock*>()->cards(); }
   QGraphicsView* canvas() { return window.field()->findChild<QGraphicsView*>(); }
   Scoreboard* scoreboard() { return window.findChild<Scoreboard*>(QStringLiteral("scoreboard")); }

@@ -19,10 +19,10 @@ using namespace pitchboard;
 
 /// As its localization writes it; whole centimetres and degrees.
 inline void believe(const link::MatchFrame& frame, link::RobotFrame& robot, const Pose& pose) {
-  const auto written = sim::published_frame::localizationFromStudio(frame.field, pose);
-  robot.board->localizationX = static_cast<int>(std::lround(written.x));
-  robot.board->localizationY = static_cast<int>(std::lround(written.y));
-  robot.board->localizationTheta = static_cast<int>(std::lround(written.degrees));
+  namespace published = sim::published_frame;
+  auto written = published::localizationFromStudio(frame.settings->field, pose);
+  written = {std::round(written.x), std::round(written.y), std::round(written.degrees)};
+  robot.belief = published::studioFromLocalization(frame.settings->field, written);
 }
 
 inline std::shared_ptr<link::MatchFrame> frameOf(int robots) {
@@ -38,11 +38,10 @@ inline std::shared_ptr<link::MatchFrame> frameOf(int robots) {
     robot.name = robot.identity.name();
     robot.pose = {{-3.0 + 0.7 * i, 1.5 - 0.5 * i}, 0.4 * i};
     robot.headYaw = robot.pose.yaw;
-    robot.board.emplace();
-    robot.board->behaviour = "striker";
-    robot.board->localizationWorking = true;
+    robot.boardKey = 0;
+    robot.behaviour = "striker";
     believe(*frame, robot, {{robot.pose.position.x + 0.1, robot.pose.position.y}, robot.pose.yaw});
-    robot.board->belief = 30.0F;
+    robot.sigma = 0.3;
     frame->robots.push_back(robot);
   }
   return frame;

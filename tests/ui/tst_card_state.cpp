@@ -22,10 +22,9 @@ link::MatchFrame frameOf(std::uint64_t serial) {
   robot.key = link::keyOf(robot.identity);
   robot.name = robot.identity.name();
   robot.action = 8;
-  link::RobotBoardView& board = robot.board.emplace();
-  board.actionA = 8;
-  board.voltage = 189;
-  board.visionWorking = board.decisionWorking = board.imuWorking = true;
+  robot.decided = 8;
+  robot.battery = telemetry::batteryAt(18.9, telemetry::usualBattery);
+  for (const std::size_t lamp : {1U, 3U, 4U}) robot.lamps[lamp].state = LampState::Working;
   frame.robots.push_back(robot);
   return frame;
 }
@@ -51,76 +50,34 @@ class TestCardState : public QObject {
   void aProcessThatStopsIsSilentAndSaysSinceWhen() {
     CardTracker tracker;
     link::MatchFrame frame = frameOf(1);
-    tracker.update(frame, 0);
-    frame.robots[0].board->decisionWorking = false;
-    tracker.update(frame, 1000);
-    const auto cards = tracker.update(frame, 9000);
+    frame.robots[0].lamps[3] = {LampState::Silent, 0.0, std::chrono::milliseconds(8900)};
+    const auto cards = tracker.update(frame, 0);
     QCOMPARE(cards[0].lamps[3].state, LampState::Silent);
     QCOMPARE(cards[0].tag, QStringLiteral("D silent 8 s"));
     QCOMPARE(cards[0].tagKind, TagKind::Error);
-    frame.robots[0].board->decisionWorking = true;
-    QCOMPARE(tracker.update(frame, 9100)[0].lamps[3].state, LampState::Working);
   }
 
-  void timeStandsStillWhilePaused() {
-    CardTracker tracker;
+  void aPenaltyIsSaidInTheSameWordsEverywhere() {
     link::MatchFrame frame = frameOf(1);
-    tracker.update(frame, 0);
-    frame.paused = true;
-    frame.robots[0].board->decisionWorking = false;
-    QCOMPARE(tracker.update(frame, 60000)[0].lamps[3].state, LampState::Working);
-  }
-
-  // Programs rest when the match is over; nobody is to blame for that.
-  void nobodyIsSilentWhenTheMatchIsOver() {
-    CardTracker tracker;
-    link::MatchFrame frame = frameOf(1);
-    tracker.update(frame, 0);
-    frame.finished = true;
-    frame.robots[0].board->decisionWorking = false;
-    const auto cards = tracker.update(frame, 60000);
-    QCOMPARE(cards[0].lamps[3].state, LampState::Working);
-    QVERIFY2(cards[0].tag.isEmpty(), qPrintable(cards[0].tag));
-    QVERIFY2(cards[0].detail.startsWith("finished"), qPrintable(cards[0].detail));
-  }
-
-  void aProcessNeverSeenIsUnknownForEver() {
-    CardTracker tracker;
-    const link::MatchFrame frame = frameOf(1);
-    tracker.update(frame, 0);
-    QCOMPARE(tracker.update(frame, 100000)[0].lamps[2].state, LampState::Unknown);
-  }
-
-  void communicationIsItsChildProcess() {
-    CardTracker tracker;
-    link::MatchFrame frame = frameOf(1);
-    link::ProcessStatus process;
-    process.robot = RobotId{4};
-    process.name = "communication";
-    const auto run = [&](link::ProcessState state) {
-      process.state = state;
-      frame.robots[0].processList =
-          std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
-    };
-    run(link::ProcessState::Running);
-    QCOMPARE(tracker.update(frame, 0)[0].lamps[0].state, LampState::Working);
-    run(link::ProcessState::Restarting);
-    QCOMPARE(tracker.update(frame, 100)[0].lamps[0].state, LampState::Silent);
+    frame.robots[0].penalty = link::Penalty{"pickup or incapable", 20};
+    QCOMPARE(CardTracker().update(frame, 0)[0].tag, QStringLiteral("pickup 20 s"));
+    frame.robots[0].link.emplace();
+    QCOMPARE(CardTracker().update(frame, 0)[0].tag, QStringLiteral("pickup 20 s"));
   }
 
   void aProgramThatKeepsRealTimeIsNamedWithTheReason() {
     CardTracker tracker;
     link::MatchFrame frame = frameOf(1);
-    link::ProcessStatus process;
-    process.robot = RobotId{4};
+    link::ProcessSummary process;
     process.name = "decision";
-    process.state = link::ProcessState::Running;
+    process.state = link::ProcessSummary::State::Running;
     process.foreign = true;
-    process.clock = link::ProcessClock::RealNotLoaded;
+    process.whyRealTime =
+        "the clock of the match cannot be loaded into it (static or setuid program)";
     process.speed = 8.0;
     process.achieved = 1.0;
     frame.robots[0].processList =
-        std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
+        std::make_shared<const std::vector<link::ProcessSummary>>(1, process);
     const CardState card = tracker.update(frame, 0)[0];
     QCOMPARE(card.tag, QStringLiteral("decision reaches \u00d71.0"));
     QCOMPARE(card.tagTip,
@@ -147,10 +104,10 @@ class TestCardState : public QObject {
     QFETCH(int, unknown);
     QFETCH(QString, tag);
     link::MatchFrame frame = frameOf(1);
-    frame.robots[0].board->voltage = voltage;
+    frame.robots[0].battery = telemetry::batteryAt(voltage / 10.0, telemetry::usualBattery);
     frame.robots[0].fallen = fallen;
     if (unknown != 0) {
-      frame.robots[0].board->actionA = unknown;
+      frame.robots[0].decided = unknown;
       frame.robots[0].statistics.unknownActions = 1;
       frame.robots[0].statistics.lastUnknownAction = unknown;
     }

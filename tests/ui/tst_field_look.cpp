@@ -107,12 +107,13 @@ class TestFieldLook : public QObject {
     auto frame = frameOf(8);
     frame->ballKnown = true;
     frame->robots[1].fallen = true;
-    frame->robots[2].health.emplace();
-    frame->robots[2].health->poseKnown = frame->robots[2].health->timedOut = true;
-    frame->robots[2].health->age = std::chrono::seconds(12345);
+    frame->robots[2].link.emplace();
+    frame->robots[2].link->timedOut = true;
+    frame->robots[2].link->age = std::chrono::seconds(12345);
     frame->robots[3].penalty = link::Penalty{"pushing", 20};
     believe(*frame, frame->robots[4], {{2.5, 2.0}, 1.0});
-    frame->teamBall = link::TeamBall{{1.0, -1.0}, 0.2, 2, 3};
+    frame->teamBalls = {{TeamColor::Blue, {1.0, -1.0}, 0.2, 2, 3},
+                        {TeamColor::Red, {-2.0, 1.0}, 0.4, 4, 4}};
     telemetry::DrawingBook book;
     QVERIFY(
         book.take("PBD1 1\nlayer a robot\narrow 0 0 1 0.5\ntext 0.5 0.5 a rather long text\n"
@@ -146,7 +147,7 @@ class TestFieldLook : public QObject {
           robot.pose.yaw += 0.3;
         }
         next->snapshot.ball.x += 0.3;
-        next->teamBall->position.y += 0.2;
+        next->teamBalls[0].position.y += 0.2;
         frame = next;
         m_view->showFrame(frame);
         const QString left = leftBehind();
@@ -160,7 +161,7 @@ class TestFieldLook : public QObject {
     }
     auto empty = std::make_shared<link::MatchFrame>(*frame);
     empty->robots.resize(3);
-    empty->teamBall.reset();
+    empty->teamBalls.clear();
     empty->drawings.clear();
     m_view->showFrame(empty);
     QCOMPARE(leftBehind(), QString());
@@ -256,7 +257,7 @@ class TestFieldLook : public QObject {
       const QSize size(1040, 740);
       const QImage without = m_view->picture(size);
       frame = std::make_shared<link::MatchFrame>(*frame);
-      frame->robots[0].board->belief = sigma;
+      frame->robots[0].sigma = static_cast<double>(sigma) / 100.0;
       m_view->layerActions()[std::size_t(FieldLayer::Belief)]->setChecked(true);
       m_view->showFrame(frame);
       const QImage with = m_view->picture(size);
@@ -336,12 +337,12 @@ class TestFieldLook : public QObject {
     QPointF centre;
     QSizeF plate;
     if (ofTheBall) {
-      auto* ball = new TeamBallItem(&style);
+      auto* ball = new TeamBallsItem(&style);
       link::TeamBall agreed;
       agreed.agree = 3;
       agreed.see = 4;
       agreed.spread = 0.2;
-      ball->setBall(agreed);
+      ball->setBalls({agreed});
       scene.addItem(ball);
       plate = plateSize(QStringLiteral("3 of 4 agree"));
       centre = {0, -(std::max(0.2, style.ballDrawRadius() + style.metres(5.0)) * scale) - 12};

@@ -44,7 +44,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     QFETCH(int, action);
     QVERIFY(trigger(pose(1).position, text));
     QCOMPARE(m_view->selection(), std::vector{blue(1)});
-    QTRY_COMPARE(m_controller->frame()->robots.front().board->actionA, action);
+    QTRY_COMPARE(m_controller->frame()->robots.front().decided.value_or(-1), action);
   }
 
   void menuOfARobotRemovesAndFollows() {
@@ -67,12 +67,12 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
 
   void menuOfARobotChangesItsBehaviour() {
     QVERIFY(trigger(pose(3).position, "Keeper"));
-    QTRY_COMPARE(m_controller->frame()->robots[2].board->behaviour, std::string("keeper"));
+    QTRY_COMPARE(m_controller->frame()->robots[2].behaviour, std::string("keeper"));
     QCOMPARE(m_controller->edits()->robot(RobotId{3})->behaviour, std::string("keeper"));
     QVERIFY(isChecked(pose(3).position, "Keeper"));
     QVERIFY(!isChecked(pose(3).position, "Striker"));
     QVERIFY(trigger(pose(3).position, "None (your own process)"));
-    QTRY_COMPARE(m_controller->frame()->robots[2].board->behaviour, std::string(link::noBehaviour));
+    QTRY_COMPARE(m_controller->frame()->robots[2].behaviour, std::string(link::noBehaviour));
   }
 
   void menuOfARobotChangesItsTeam() {

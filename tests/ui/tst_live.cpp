@@ -53,14 +53,12 @@ class TestLive : public QObject {
     QCOMPARE(shown.pose.position.x, believed.position.x);
     QCOMPARE(shown.pose.position.y, believed.position.y);
     QCOMPARE(shown.pose.yaw, believed.yaw);
-    QCOMPARE(frame->robots[0].board->belief, 20.0F);
-    const link::RobotHealth& health = *frame->robots[0].health;
-    QVERIFY(health.poseKnown && health.ball && health.battery);
-    QVERIFY(qAbs(health.battery->volts - 16.5) < 1e-9);
-    QVERIFY(qAbs(std::hypot(health.ball->x - believed.position.x,
-                            health.ball->y - believed.position.y) -
-                 1.0) < 1e-6);
-    QCOMPARE(health.action, std::optional(8));
+    const link::RobotFrame& robotNow = frame->robots[0];
+    QCOMPARE(robotNow.sigma, std::optional(0.2));
+    QVERIFY(robotNow.belief && robotNow.ball && robotNow.battery);
+    QVERIFY(qAbs(robotNow.battery->volts - 16.5) < 1e-9);
+    QVERIFY(qAbs(distance(robotNow.ball->place, believed.position) - 1.0) < 1e-6);
+    QCOMPARE(robotNow.decided, std::optional(8));
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
     QCOMPARE(s.cards()[0]->state().action, QStringLiteral("walk forward, slow"));
   }
@@ -112,7 +110,7 @@ class TestLive : public QObject {
       bool eventFilter(QObject*, QEvent* event) override {
         const FramePtr frame = live->frame();
         if (event->type() == QEvent::Paint && paintedAt < 0 && frame && !frame->robots.empty() &&
-            frame->robots[0].board->localizationX == wanted) {
+            qRound(100 * (frame->robots[0].pose.position.x + 4.5)) == wanted) {
           paintedAt = clock.nsecsElapsed();
         }
         return false;

@@ -121,8 +121,8 @@ class TestLiveCards : public QObject {
     };
     QVERIFY(says(1, 300, 150) && says(2, 200, 270) && says(3, 100, 20));
     QTRY_COMPARE(s.robots(), std::size_t(3));
-    QTRY_VERIFY(s.live()->frame()->teamBall);
-    const link::TeamBall ball = *s.live()->frame()->teamBall;
+    QTRY_COMPARE(s.live()->frame()->teamBalls.size(), std::size_t(1));
+    const link::TeamBall ball = s.live()->frame()->teamBalls.front();
     QCOMPARE(ball.agree, 2);
     QCOMPARE(ball.see, 3);
     QVERIFY(qAbs(ball.position.x - 0.10) < 1e-6);

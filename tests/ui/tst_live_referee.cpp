@@ -95,9 +95,9 @@ class TestLiveReferee : public QObject {
     QVERIFY(referee.send(static_cast<std::uint16_t>(s.options.refereePort), bytes));
     QVERIFY(robot.say());
     QTRY_VERIFY(s.robots() == 1 && s.live()->frame()->referee);
-    QVERIFY(!s.health().penalty);
+    QVERIFY(!s.robot().penalty);
     s.live()->setOurTeam(team);
-    QTRY_VERIFY(s.health().penalty);
+    QTRY_VERIFY(s.robot().penalty);
     QTRY_VERIFY(!s.cards().isEmpty() && s.cards()[0]->state().tagKind == TagKind::Warning);
     auto* chooser = s.window.findChild<QComboBox*>(QStringLiteral("ourTeam"));
     QTRY_COMPARE(chooser->currentData().toInt(), team);

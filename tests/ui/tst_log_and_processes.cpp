@@ -37,12 +37,11 @@ class TestLogAndProcesses : public QObject {
     }
     return made;
   }
-  static link::ProcessStatus process(int id, const char* name) {
-    link::ProcessStatus status;
+  static link::ProcessSummary process(int id, const char* name) {
+    link::ProcessSummary status;
     status.id = id;
-    status.robot = RobotId{1};
     status.name = name;
-    status.state = link::ProcessState::Running;
+    status.state = link::ProcessSummary::State::Running;
     status.pid = 4000 + id;
     return status;
   }
@@ -215,10 +214,11 @@ class TestLogAndProcesses : public QObject {
     link::RobotFrame robot;
     robot.identity = {RobotId{1}, TeamColor::Blue, 1, false};
     frame.robots.push_back(robot);
-    std::vector<link::ProcessStatus> all{process(1, "decision"), process(2, "communication")};
+    std::vector<link::ProcessSummary> all{process(1, "decision"), process(2, "communication")};
     const auto show = [&](std::chrono::seconds later) {
       if (!frame.robots.empty()) {
-        frame.robots[0].processList = std::make_shared<const std::vector<link::ProcessStatus>>(all);
+        frame.robots[0].processList =
+            std::make_shared<const std::vector<link::ProcessSummary>>(all);
       }
       model.update(frame, begin + later);
     };
@@ -231,7 +231,7 @@ class TestLogAndProcesses : public QObject {
     QCOMPARE(text(0, ProcessesModel::Pid), QStringLiteral("4001"));
     QCOMPARE(text(0, ProcessesModel::Uptime), QStringLiteral("2 min 5 s"));
     QCOMPARE(text(0, ProcessesModel::Heartbeat), QString());
-    all[0].state = link::ProcessState::Restarting;
+    all[0].state = link::ProcessSummary::State::Restarting;
     all[0].pid = 0;
     all[0].detail = "exit code 2";
     all[0].restarts = 3;

@@ -111,9 +111,9 @@ class TestMatchController : public QObject {
     const std::string before = c.edits()->robot(RobotId{1})->behaviour;
     c.edits()->setBehaviour({RobotId{1}, RobotId{2}}, QStringLiteral("idle"));
     QCOMPARE(stack->count(), 1);
-    QTRY_COMPARE(c.frame()->robots[0].board->behaviour, std::string("idle"));
+    QTRY_COMPARE(c.frame()->robots[0].behaviour, std::string("idle"));
     stack->undo();
-    QTRY_COMPARE(c.frame()->robots[0].board->behaviour, before);
+    QTRY_COMPARE(c.frame()->robots[0].behaviour, before);
     c.edits()->setNumber(RobotId{1}, 9);
     QTRY_COMPARE(c.frame()->robots[0].identity.number, 9);
     stack->undo();
@@ -138,15 +138,15 @@ class TestMatchController : public QObject {
     c.edits()->moveRobots({{id, c.frame()->robots[0].pose, {{1.5, 1.5}, 0.0}}});
     QTRY_COMPARE(xOf(c, id.value), 1.5);
     c.edits()->setPhysics(QStringLiteral("published"));
-    QTRY_VERIFY(c.frame() && c.frame()->physics == "published");
+    QTRY_VERIFY(c.frame() && c.frame()->settings->physics == "published");
     c.edits()->load(link::loadScenario("one-robot").value(), QStringLiteral("Load it"));
     QTRY_VERIFY(c.frame() && c.frame()->robots.size() == 1);
     QCOMPARE(stack->count(), 3);
     stack->undo();
     QTRY_VERIFY(c.frame() && c.frame()->robots.size() == 6);
-    QCOMPARE(c.frame()->physics, std::string("published"));
+    QCOMPARE(c.frame()->settings->physics, std::string("published"));
     stack->undo();
-    QTRY_VERIFY(c.frame() && c.frame()->physics == "rigid-body");
+    QTRY_VERIFY(c.frame() && c.frame()->settings->physics == "rigid-body");
     QTRY_VERIFY(std::abs(xOf(c, id.value) - 1.5) < 1e-6);
     stack->undo();
     QTRY_VERIFY(std::abs(xOf(c, id.value) - 1.5) > 0.1);
@@ -163,7 +163,7 @@ class TestMatchController : public QObject {
     QVERIFY(before.robots[0].statistics.distanceWalked > 0.05);
     QSignalSpy restarts(&c, &MatchController::restarted);
     c.edits()->setPhysics(QStringLiteral("published"));
-    QTRY_COMPARE(c.frame()->physics, std::string("published"));
+    QTRY_COMPARE(c.frame()->settings->physics, std::string("published"));
     QCOMPARE(c.frame()->snapshot.tick, before.snapshot.tick);
     QVERIFY(c.frame()->snapshot.score == before.snapshot.score);
     for (std::size_t i = 0; i < before.robots.size(); ++i) {
@@ -176,21 +176,21 @@ class TestMatchController : public QObject {
     QCOMPARE(restarts.count(), 0);
     // Memory, and what is true in it, before and after.
     QVERIFY(c.series()->range()->begin < 0.05 && c.series()->range()->end > 19.9);
-    QCOMPARE(c.frameAt(1.0)->physics, std::string("rigid-body"));
-    QCOMPARE(c.frameAt(15.0)->physics, std::string("published"));
+    QCOMPARE(c.frameAt(1.0)->settings->physics, std::string("rigid-body"));
+    QCOMPARE(c.frameAt(15.0)->settings->physics, std::string("published"));
     QCOMPARE(c.frameAt(1.0)->snapshot.tick, std::uint64_t(60));
     const auto archive = c.memory()->archive();
     QCOMPARE(archive->reenter(60)->settings.physics, std::string("rigid-body"));
     QCOMPARE(sim::stateHash(archive->reenter(1200).value()), c.stateHash());
     // As any edit it is undone, and time goes on.
     c.edits()->undoStack()->undo();
-    QTRY_COMPARE(c.frame()->physics, std::string("rigid-body"));
+    QTRY_COMPARE(c.frame()->settings->physics, std::string("rigid-body"));
     QCOMPARE(tickOf(c), std::uint64_t(1200));
     c.edits()->undoStack()->redo();
-    QTRY_COMPARE(c.frame()->physics, std::string("published"));
+    QTRY_COMPARE(c.frame()->settings->physics, std::string("published"));
     const std::uint64_t hashThen = sim::stateHash(archive->reenter(60).value());
     c.memory()->continueFrom(1.0);
-    QTRY_COMPARE(c.frame()->physics, std::string("rigid-body"));
+    QTRY_COMPARE(c.frame()->settings->physics, std::string("rigid-body"));
     QCOMPARE(c.stateHash(), hashThen);
     QCOMPARE(c.edits()->physics(), std::string("rigid-body"));
   }
@@ -205,7 +205,7 @@ class TestMatchController : public QObject {
     c.restart();
     QTRY_VERIFY(c.frame());
     QCOMPARE(tickOf(c), std::uint64_t(0));
-    QCOMPARE(c.frame()->physics, std::string("published"));  // as chosen
+    QCOMPARE(c.frame()->settings->physics, std::string("published"));  // as chosen
     QVERIFY(std::abs(xOf(c, 1) - scenario.robots[0].pose.position.x) < 1e-9);
     // Also when the match goes on from a moment that an undo has brought back.
     c.runTo(600);
@@ -283,7 +283,7 @@ class TestMatchController : public QObject {
     QTRY_COMPARE(errors.count(), 1);
     noise.forward = 0.25;
     c.edits()->setNoise(noise);
-    QTRY_COMPARE(c.frame() ? c.frame()->noise.forward : 0.0, 0.25);
+    QTRY_COMPARE(c.frame() ? c.frame()->settings->noise.forward : 0.0, 0.25);
   }
 
   void aScenarioThatCannotBePlayedLeavesNoFrame() {

@@ -13,7 +13,6 @@
 #include <csignal>
 
 #include <robotlink/blackboard/system_v.h>
-#include <robotlink/frame/belief.h>
 #include <ui/base/notice_bar.h>
 #include <ui/processes/orphan_notice.h>
 #include <ui/processes/processes_dock.h>
@@ -29,7 +28,7 @@ namespace tst_processes_dock {
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
-using State = link::ProcessState;
+using State = link::ProcessSummary::State;
 
 class TestProcessesDock : public QObject {
   Q_OBJECT
@@ -68,10 +67,10 @@ class TestProcessesDock : public QObject {
     m_controller->open(scenario);
   }
 
-  link::ProcessStatus process(const char* name) const {
+  link::ProcessSummary process(const char* name) const {
     const FramePtr frame = m_controller->frame();
     if (!frame || frame->robots.empty()) return {};
-    for (const link::ProcessStatus& one : frame->robots[0].processes()) {
+    for (const link::ProcessSummary& one : frame->robots[0].processes()) {
       if (one.name == name) return one;
     }
     return {};
@@ -84,8 +83,7 @@ class TestProcessesDock : public QObject {
   double beliefError() const {
     const FramePtr frame = m_controller->frame();
     const link::RobotFrame& robot = frame->robots[0];
-    const auto belief = link::believedPose(frame->field, *robot.board);
-    return belief ? distance(belief->position, robot.pose.position) : 1e9;
+    return robot.belief ? distance(robot.belief->position, robot.pose.position) : 1e9;
   }
   int events(link::MatchEventKind kind) const {
     return static_cast<int>(
@@ -184,7 +182,7 @@ class TestProcessesDock : public QObject {
     QCOMPARE(process("localization").pid, localization);
     QCOMPARE(process("localization").restarts, 0);
     const auto givesSigns = [this] {
-      const link::ProcessStatus now = process("localization");
+      const link::ProcessSummary now = process("localization");
       const double age =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - now.started).count();
       return age > 2.0 && now.heartbeatAge && *now.heartbeatAge < 0.5 * age;
@@ -333,13 +331,13 @@ class TestProcessesDock : public QObject {
     const pid_t first = process("decision").pid;
     choose("decision", QStringLiteral("Restart"));
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && process("decision").pid != first, 30'000);
-    QCOMPARE(process("decision").clock, link::ProcessClock::Match);
+    QCOMPARE(process("decision").whyRealTime, std::string());
     // What is opened at this speed follows from the start.
     m_told.clear();
     const pid_t second = process("decision").pid;
     m_controller->restart();
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && process("decision").pid != second, 30'000);
-    QCOMPARE(process("decision").clock, link::ProcessClock::Match);
+    QCOMPARE(process("decision").whyRealTime, std::string());
     QVERIFY(m_told.isEmpty());
   }
 };

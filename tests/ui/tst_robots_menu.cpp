@@ -99,10 +99,10 @@ class TestRobotsMenu : public QObject {
     QCOMPARE(s.window.field()->selection(), std::vector{blue(2)});
     QVERIFY(s.entry({"Select", "B2"})->isChecked());
     QVERIFY(s.trigger({"Behaviour", "Keeper"}));
-    QTRY_COMPARE(s.controller.frame()->robot(RobotId{2})->board->behaviour, std::string("keeper"));
+    QTRY_COMPARE(s.controller.frame()->robot(RobotId{2})->behaviour, std::string("keeper"));
     QVERIFY(s.entry({"Behaviour", "Keeper"})->isChecked());
     QVERIFY(s.trigger({"Order", "Kick left"}));
-    QTRY_COMPARE(s.controller.frame()->robot(RobotId{2})->board->actionA, 5);
+    QTRY_COMPARE(s.controller.frame()->robot(RobotId{2})->decided.value_or(-1), 5);
     QVERIFY(s.trigger({"Number", "9"}));
     QTRY_COMPARE(s.controller.frame()->robot(RobotId{2})->identity.number, 9);
     QTRY_COMPARE(s.window.field()->selection(), std::vector{blue(9)});

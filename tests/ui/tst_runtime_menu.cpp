@@ -47,16 +47,16 @@ class TestRuntimeMenu : public QObject {
     QVERIFY(QFile::rename(fresh, path));
   }
 
-  static std::vector<link::ProcessStatus> processesOf(const MatchController& controller,
-                                                      int robot) {
+  static std::vector<link::ProcessSummary> processesOf(const MatchController& controller,
+                                                       int robot) {
     const FramePtr frame = controller.frame();
     const link::RobotFrame* seen = frame ? frame->robot(RobotId{robot}) : nullptr;
     if (!seen) return {};
     const auto all = seen->processes();
     return {all.begin(), all.end()};
   }
-  static link::ProcessStatus decisionOf(const MatchController& controller, int robot) {
-    for (const link::ProcessStatus& one : processesOf(controller, robot)) {
+  static link::ProcessSummary decisionOf(const MatchController& controller, int robot) {
+    for (const link::ProcessSummary& one : processesOf(controller, robot)) {
       if (one.name == "decision") return one;
     }
     return {};
@@ -118,16 +118,16 @@ class TestRuntimeMenu : public QObject {
     choose(controller, 1, QStringLiteral("Run my program"));
     QVERIFY(typed);
     const auto says = [&](const QString& words) {
-      const link::ProcessStatus now = decisionOf(controller, 1);
+      const link::ProcessSummary now = decisionOf(controller, 1);
       const std::string wanted =
           (words + QLatin1Char(' ') + QString::number(m_base + 100)).toStdString();
-      return now.foreign && now.state == link::ProcessState::Running && !now.lastLines.empty() &&
-             now.lastLines.back() == wanted;
+      return now.foreign && now.state == link::ProcessSummary::State::Running &&
+             !now.lastLines.empty() && now.lastLines.back() == wanted;
     };
     QTRY_VERIFY_WITH_TIMEOUT(says(QStringLiteral("first")), 30'000);
     // It is watched: what runs beside it is ours and stays, planning is not.
     std::vector<std::string> names;
-    for (const link::ProcessStatus& one : processesOf(controller, 1)) names.push_back(one.name);
+    for (const link::ProcessSummary& one : processesOf(controller, 1)) names.push_back(one.name);
     QCOMPARE(names,
              (std::vector<std::string>{"localization", "team", "decision", "communication"}));
     // Built again: it starts again.

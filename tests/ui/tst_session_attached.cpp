@@ -110,8 +110,8 @@ class TestSessionAttached : public QObject {
       const bool shown = QTest::qWaitFor(
           [&] {
             const FramePtr frame = live->frame();
-            if (!frame || frame->robots.size() != 1 || !frame->robots[0].board ||
-                frame->robots[0].board->localizationX != 500 + 20 * step) {
+            if (!frame || frame->robots.size() != 1 || !frame->robots[0].belief ||
+                qRound(100 * (frame->robots[0].belief->position.x + 4.5)) != 500 + 20 * step) {
               return false;
             }
             if (first < 0.0) first = frame->snapshot.time;
@@ -127,15 +127,15 @@ class TestSessionAttached : public QObject {
   static QString differenceOf(const FramePtr& seen, const FramePtr& again) {
     if (!again || again->robots.size() != seen->robots.size()) return QStringLiteral("no robot");
     link::RobotFrame a = seen->robots[0], b = again->robots[0];
-    if (!a.health || !b.health) return QStringLiteral("no health");
+    if (!a.link || !b.link) return QStringLiteral("not heard");
     for (link::RobotFrame* robot : {&a, &b}) {
-      link::RobotHealth& health = *robot->health;
+      telemetry::LinkHealth& health = *robot->link;
       health.age = {};
       health.jitter = {};
       health.rate = {};
       health.messages = {};
       health.bytes = {};
-      for (auto& process : health.processes) process.since = {};
+      for (auto& lamp : robot->lamps) lamp.since = {};
     }
     return link::difference(a, b);
   }
@@ -157,7 +157,7 @@ class TestSessionAttached : public QObject {
     std::vector<FramePtr> seen = walk(s, segment, 1, 9);
     QCOMPARE(seen.size(), std::size_t(8));
     QCOMPARE(seen[0]->robots[0].identity.name(), std::string("B3"));
-    QVERIFY(seen[0]->robots[0].health->battery && seen[0]->robots[0].health->ball);
+    QVERIFY(seen[0]->robots[0].battery && seen[0]->robots[0].ball);
     QVERIFY(!(seen[0]->robots[0].pose == seen[7]->robots[0].pose));
     QTest::mouseClick(s.record(), Qt::LeftButton, {}, {8, 8});
     QTRY_COMPARE(saved.size(), 1);

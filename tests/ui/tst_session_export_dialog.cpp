@@ -68,7 +68,7 @@ class TestSessionExportDialog : public QObject {
     QVERIFY2(moved(robot) > 0.8, "nobody has walked");
     const QColor team = theme().team(now->robots[robot].identity.team);
     const auto isAt = [&](const QImage& image, const Point& p) {
-      const auto& field = now->field;
+      const auto& field = now->settings->field;
       const double scale = std::min(image.width() / (field.length + 2 * field.border),
                                     image.height() / (field.width + 2 * field.border));
       const QPoint at(qRound(image.width() / 2.0 + p.x * scale),

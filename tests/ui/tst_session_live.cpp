@@ -90,7 +90,9 @@ class TestSessionLive : public QObject {
   static int placeIn(const FramePtr& frame) {
     if (!frame) return -1;
     for (const link::RobotFrame& robot : frame->robots) {
-      if (robot.identity.number == 1 && robot.board) return robot.board->localizationX;
+      if (robot.identity.number == 1 && robot.belief) {
+        return qRound(100 * (robot.belief->position.x + 4.5));
+      }
     }
     return -1;
   }

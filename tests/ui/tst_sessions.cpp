@@ -7,8 +7,11 @@
 #include <QToolButton>
 #include <QtTest>
 
+#include <robotlink/live/live_books.h>
+#include <robotlink/session/live_recorder.h>
 #include <robotlink/session/state_archive.h>
 #include <telemetry/session/session_reader.h>
+#include <telemetry/wire/text_protocol.h>
 #include <ui/base/notice_bar.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
@@ -192,6 +195,41 @@ class TestSessions : public QObject {
     const link::Scenario& scenario = s.controller.scenario();
     QCOMPARE(scenario.robots.size(), std::size_t(6));
     QVERIFY(std::abs(scenario.ball.x - ball.x) < 1e-9);
+  }
+
+  /// A recording of Live begins with the message of one robot.
+  void aLiveSessionOpensWhereAllAreSeen() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("live.mcap"));
+    const link::LiveOptions options;
+    const telemetry::WallTime zero = std::chrono::system_clock::now();
+    auto recorder = link::LiveRecorder::create(path.toStdString(), options, zero).value();
+    recorder->remembered(0.5, link::LiveBooks(options).text(options, 0.5, zero));
+    const auto say = [&](double time, int port, std::string_view payload) {
+      const telemetry::Duration after(static_cast<std::int64_t>(time * 1e9));
+      const auto from = static_cast<std::uint16_t>(4000 + port);
+      recorder->unusedHeard(
+          time,
+          {zero + after, {{0x7f000001}, from}, static_cast<std::uint16_t>(port), false, payload});
+    };
+    for (int robot = 1; robot <= 10; ++robot) {
+      telemetry::TextMessage message = live_rig::message(robot);
+      say(1.0 + 0.1 * robot, options.portBase + robot, telemetry::encode(message));
+    }
+    QFile packet(QStringLiteral(PITCHBOARD_TEST_DATA "/gamecontroller/v12hl688_READY.bin"));
+    QVERIFY(packet.open(QIODevice::ReadOnly));
+    say(2.4, options.refereePort, packet.readAll().toStdString());
+    say(9.0, options.portBase + 1, telemetry::encode(live_rig::message(1)));
+    QVERIFY(recorder->finish());
+
+    ReplayController replay;
+    QSignalSpy opened(&replay, &ReplayController::opened);
+    replay.open(path);
+    QTRY_COMPARE(opened.count(), 1);
+    QTRY_VERIFY(replay.frame());
+    QCOMPARE(replay.frame()->robots.size(), std::size_t(10));
+    QVERIFY(replay.frame()->referee);
+    QVERIFY(replay.frame()->snapshot.time < 3.0);
   }
 
   void recordWritesAFileThatReplays() {

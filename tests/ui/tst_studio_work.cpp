@@ -62,12 +62,12 @@ class TestStudioWork : public QObject {
       }
       return nullptr;
     }
-    link::ProcessStatus child(int robot, const std::string& name) {
-      link::ProcessStatus newest;
+    link::ProcessSummary child(int robot, const std::string& name) {
+      link::ProcessSummary newest;
       if (!controller.frame()) return newest;
       const link::RobotFrame* seen = controller.frame()->robot(RobotId{robot});
       if (seen == nullptr) return newest;
-      for (const link::ProcessStatus& status : seen->processes()) {
+      for (const link::ProcessSummary& status : seen->processes()) {
         if (status.name == name) newest = status;
       }
       return newest;
@@ -124,7 +124,7 @@ class TestStudioWork : public QObject {
     s.controller.edits()->setNoise(noise);  // reaches the match once it is there
     gate.release();
     QTRY_VERIFY(s.controller.frame());
-    QTRY_COMPARE(s.controller.frame()->noise.forward, 0.25);
+    QTRY_COMPARE(s.controller.frame()->settings->noise.forward, 0.25);
     QVERIFY(!label->isVisible());
   }
 
@@ -184,7 +184,7 @@ class TestStudioWork : public QObject {
     Studio s(options(link::Cognition::External));
     s.controller.open(match());
     QTRY_VERIFY_WITH_TIMEOUT(s.child(1, "communication").pid > 0, 20000);
-    const link::ProcessStatus first = s.child(1, "decision");
+    const link::ProcessSummary first = s.child(1, "decision");
     QVERIFY(first.pid > 0);
     auto* table = s.window.findChild<QTableView*>(QStringLiteral("processesTable"));
     QTRY_VERIFY(table->isVisible() && table->model()->rowCount() > 0);
@@ -206,13 +206,13 @@ class TestStudioWork : public QObject {
     };
     QVERIFY(click(QStringLiteral("Restart decision of B1")));
     QTRY_VERIFY(s.child(1, "decision").restarts == 1);
-    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Running);
+    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessSummary::State::Running);
     QVERIFY(s.child(1, "decision").pid != first.pid);
     QVERIFY(click(QStringLiteral("Stop decision of B1")));
-    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Stopped);
-    QCOMPARE(s.child(1, "communication").state, link::ProcessState::Running);
+    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessSummary::State::Stopped);
+    QCOMPARE(s.child(1, "communication").state, link::ProcessSummary::State::Running);
     QVERIFY(click(QStringLiteral("Start decision of B1")));
-    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Running);
+    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessSummary::State::Running);
     QVERIFY(click(QStringLiteral("Kill decision of B1")));
     QTRY_COMPARE(s.child(1, "decision").restarts, 3);
   }
@@ -234,19 +234,19 @@ class TestStudioWork : public QObject {
     box("Forward")->selectAll();
     QTest::keyClicks(box("Forward"), QStringLiteral("1.25"));
     QTest::keyClick(box("Forward"), Qt::Key_Return);
-    QTRY_COMPARE(s.controller.frame()->noise.forward, 0.0125);
+    QTRY_COMPARE(s.controller.frame()->settings->noise.forward, 0.0125);
     auto* preset = dock->findChild<QComboBox*>(QStringLiteral("noisePreset"));
     QCOMPARE(preset->currentText(), QStringLiteral("custom"));
     const int none = preset->findText(QStringLiteral("none"));
     preset->setCurrentIndex(none);
     emit preset->activated(none);
-    QTRY_COMPARE(s.controller.frame()->noise, link::noisePreset("none").value());
+    QTRY_COMPARE(s.controller.frame()->settings->noise, link::noisePreset("none").value());
     auto* model = dock->findChild<QComboBox*>(QStringLiteral("physicsModel"));
     const int published = model->findData(QStringLiteral("published"));
     QVERIFY(published >= 0);
     model->setCurrentIndex(published);
     emit model->activated(published);
-    QTRY_COMPARE(s.controller.frame() ? s.controller.frame()->physics : std::string(),
+    QTRY_COMPARE(s.controller.frame() ? s.controller.frame()->settings->physics : std::string(),
                  std::string("published"));
   }
 

@@ -116,7 +116,7 @@ class TestWindowMatch : public QObject {
     QCOMPARE(s.facts(), QStringLiteral("Match %1 · seed 1 · your processes only").arg(free));
     QVERIFY(s.entry("whoDecides", QStringLiteral("Only your own"))->isChecked());
     QVERIFY(s.entry("matchNumber", QStringLiteral("Another… (%1)").arg(free))->isChecked());
-    QCOMPARE(s.controller.frame()->robots.front().board->key, free * 10'000 + 100);
+    QCOMPARE(s.controller.frame()->robots.front().boardKey.value_or(-1), free * 10'000 + 100);
     QVERIFY(s.controller.isPaused());
     s.entry("whoDecides", QStringLiteral("Inside"))->trigger();
     QTRY_VERIFY(s.controller.frame() && !s.controller.frame()->matchNumber);

@@ -92,7 +92,7 @@ class TestWindowMenus : public QObject {
     QTRY_VERIFY(s.controller.frame() && s.controller.frame()->matchNumber == free);
     QTRY_VERIFY(!s.controller.frame()->robots.empty() &&
                 !s.controller.frame()->robots.front().processes().empty());
-    QCOMPARE(s.controller.frame()->robots.front().board->key, free * 10'000 + 100);
+    QCOMPARE(s.controller.frame()->robots.front().boardKey.value_or(-1), free * 10'000 + 100);
     QTRY_VERIFY(std::ranges::all_of(s.controller.frame()->robots.front().processes(),
                                     [](const auto& process) { return process.pid > 0; }));
     QCOMPARE(s.ticked("whoDecides"), QStringList{QStringLiteral("In separate processes")});

@@ -55,7 +55,7 @@ Json stopJson(const RunStop& stop) {
 
 /// What a robot hears of a simulated or recorded game.
 int wordFor(const RobotFrame& robot, const RefereeView& referee) {
-  const bool penalised = robot.penalty || (robot.health && robot.health->penalty);
+  const bool penalised = robot.penalty.has_value();
   if (penalised || referee.stopped) return refereeStop;
   if (referee.state == "PLAYING") return refereePlay;
   if (referee.state == "READY") return refereeReady;

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/frame/drawing_origin.h>
 
-#include <robotlink/frame/belief.h>
-
 namespace pitchboard::link {
 
-std::optional<Pose> drawingOrigin(telemetry::DrawingFrame frame, const RobotFrame* robot,
-                                  const sim::FieldSpec& field) {
+std::optional<Pose> drawingOrigin(telemetry::DrawingFrame frame, const RobotFrame* robot) {
   if (frame == telemetry::DrawingFrame::Field) return Pose{};
   if (robot == nullptr || !robot->poseKnown()) return std::nullopt;
-  if (frame == telemetry::DrawingFrame::Belief) return perceivingPose(field, *robot);
+  if (frame == telemetry::DrawingFrame::Belief) return robot->belief.value_or(robot->pose);
   return robot->pose;
 }
 

@@ -14,9 +14,8 @@
 
 #include <base/lined_json.h>
 #include <robotlink/blackboard/system_v.h>
-#include <robotlink/frame/working_flags.h>
+#include <robotlink/frame/build_robot.h>
 #include <robotlink/live/board_columns.h>
-#include <robotlink/live/board_health.h>
 
 #include "board_map.h"
 
@@ -51,8 +50,9 @@ class AttachedRobots::Reader {
       const int offset = variable.type == VariableType::Int ? 0 : m_map.layout.floatOffset;
       m_places.push_back(static_cast<std::size_t>(variable.index + offset));
     }
-    for (std::size_t i = 0; i < names.size(); ++i) m_wanted[i] = columnNamed(names[i]);
-    m_seen.fill(-1e9);
+    for (std::size_t i = 0; i < m_wanted.size(); ++i) {
+      m_wanted[i] = columnNamed(telemetry::meaningTable[i].variable);
+    }
     m_thread = std::jthread([this](const std::stop_token& stop) { run(stop); });
   }
 
@@ -78,44 +78,16 @@ class AttachedRobots::Reader {
     robot.identity.number = m_board.number();
     robot.identity.team = m_board.team;
     robot.name = robot.identity.name();
-    BoardHeard heard;
-    heard.age = std::max(0.0, m_seconds() - m_newest.time);
-    heard.samples = m_status.samples;
-    heard.rate = m_board.rate;
-    heard.gone = !m_status.attached;
-    heard.poseKnown = m_wanted[LocX] && m_wanted[LocY];
-    heard.pose = {value(LocX), value(LocY), value(LocTheta)};
-    for (std::size_t i = 0; i < heard.hasFlag.size(); ++i) {
-      heard.hasFlag[i] = m_wanted[Control + i].has_value();
-    }
-    robot.board = boardView(heard.gone);
-    fillBoardHealth(frame.field, heard, robot);
+    robot.boardKey = m_board.key;
+    const bool gone = !m_status.attached;
+    robot.link = boardLink(std::max(0.0, m_seconds() - m_newest.time), m_board.rate, gone);
+    robot.link->messages = m_status.samples;
+    if (!gone) robot.lamps = m_lamps;
+    buildRobot(reader(), frame.settings->field, false, robot);
+    robot.action = robot.decided.value_or(0);
   }
 
  private:
-  enum Wanted : std::size_t {
-    ActionA,
-    Voltage,
-    Lost,
-    BallDist,
-    Pan,
-    LocX,
-    LocY,
-    LocTheta,
-    Belief,
-    Control,
-    Vision,
-    Localization,
-    Decision,
-    Imu,
-    wantedCount
-  };
-  static constexpr std::array<std::string_view, wantedCount> names{
-      "DECISION_ACTION_A",    "VOLTAGE",         "VISION_LOST",    "VISION_BALL_DIST",
-      "VISION_PAN_DEG",       "LOCALIZATION_X",  "LOCALIZATION_Y", "LOCALIZATION_THETA",
-      "LOCALIZATION_RBT01_X", "CONTROL_WORKING", "VISION_WORKING", "LOCALIZATION_WORKING",
-      "DECISION_WORKING",     "IMU_WORKING"};
-
   std::optional<std::size_t> columnNamed(std::string_view name) const {
     const auto& columns = m_columns.columns();
     const auto found = std::find_if(columns.begin(), columns.end(),
@@ -124,42 +96,18 @@ class AttachedRobots::Reader {
     return static_cast<std::size_t>(found - columns.begin());
   }
 
-  /// Of the newest sample; 0 for what the catalog does not have.
-  double value(Wanted wanted) const {
-    const auto place = m_wanted[wanted];
-    if (!place) return 0.0;
-    const std::uint32_t word = m_newest.words[*place];
-    if (m_columns.columns()[*place].type == telemetry::ColumnType::Int32) {
-      return std::bit_cast<std::int32_t>(word);
-    }
-    const auto real = static_cast<double>(std::bit_cast<float>(word));
-    return std::isfinite(real) ? real : 0.0;
-  }
-  int whole(Wanted wanted) const {
-    return static_cast<int>(std::clamp(value(wanted), -2147483648.0, 2147483647.0));
-  }
-
-  RobotBoardView boardView(bool gone) const {
-    RobotBoardView view;
-    view.key = m_board.key;
-    view.actionA = whole(ActionA);
-    view.voltage = whole(Voltage);
-    view.visionLost = whole(Lost) != 0;
-    view.ballDistCm = static_cast<float>(value(BallDist));
-    view.panDeg = static_cast<float>(value(Pan));
-    view.localizationX = whole(LocX);
-    view.localizationY = whole(LocY);
-    view.localizationTheta = whole(LocTheta);
-    view.belief = static_cast<float>(value(Belief));
-    const auto works = [&](Wanted flag) {
-      return !gone && m_newest.time - m_seen[flag - Control] <= flagMemory;
+  /// Of the newest sample.
+  RobotReader reader() const {
+    return [this](telemetry::FieldMeaning meaning) -> std::optional<double> {
+      const auto place = m_wanted[static_cast<std::size_t>(meaning)];
+      if (!place) return std::nullopt;
+      const std::uint32_t word = m_newest.words[*place];
+      const bool whole = m_columns.columns()[*place].type == telemetry::ColumnType::Int32;
+      const double value = whole ? std::bit_cast<std::int32_t>(word)
+                                 : static_cast<double>(std::bit_cast<float>(word));
+      if (!std::isfinite(value)) return std::nullopt;
+      return meantBy(meaning, value);
     };
-    view.controlWorking = works(Control);
-    view.visionWorking = works(Vision);
-    view.localizationWorking = works(Localization);
-    view.decisionWorking = works(Decision);
-    view.imuWorking = works(Imu);
-    return view;
   }
 
   void run(const std::stop_token& stop) {
@@ -218,9 +166,7 @@ class AttachedRobots::Reader {
     for (const std::size_t place : m_places) row.words.push_back(view.word(place));
     const std::lock_guard lock(m_mutex);
     m_newest = row;
-    for (std::size_t i = 0; i < m_seen.size(); ++i) {
-      if (value(static_cast<Wanted>(Control + i)) != 0.0) m_seen[i] = row.time;
-    }
+    m_lamps = m_works.note(reader(), row.time);
     if (m_rows.size() == mostRows) {
       m_rows.erase(m_rows.begin(), m_rows.begin() + mostRows / 4);
       m_status.missed += mostRows / 4;
@@ -235,15 +181,24 @@ class AttachedRobots::Reader {
   const std::function<double()> m_seconds;
   telemetry::GroupInfo m_group;
   std::vector<std::size_t> m_places;  // words of the columns
-  std::array<std::optional<std::size_t>, wantedCount> m_wanted;
+  std::array<std::optional<std::size_t>, telemetry::fieldMeaningCount> m_wanted;
 
   mutable std::mutex m_mutex;  // of what follows
   AttachedStatus m_status{m_board, false, {}, 0, 0};
   BoardRow m_newest;
-  std::array<double, telemetry::processCount> m_seen{};  // when each flag was set last
+  LampMemory m_works;
+  LampMemory::Lamps m_lamps{};
   std::vector<BoardRow> m_rows;
   std::jthread m_thread;  // last: it uses all of the above
 };
+
+telemetry::LinkHealth boardLink(double age, double rate, bool gone) {
+  telemetry::LinkHealth link;
+  link.age = std::chrono::duration_cast<telemetry::Duration>(std::chrono::duration<double>(age));
+  link.rate = gone ? 0.0 : rate;
+  link.timedOut = gone;
+  return link;
+}
 
 AttachedRobots::AttachedRobots(std::function<double()> seconds) : m_seconds(std::move(seconds)) {}
 AttachedRobots::~AttachedRobots() = default;

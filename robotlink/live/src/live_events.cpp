@@ -80,7 +80,7 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, std::vector
 }
 
 void LiveEvents::compareRobot(const RobotFrame& heard, double time, std::vector<MatchEvent>& out) {
-  const RobotHealth& health = *heard.health;
+  const telemetry::LinkHealth& link = *heard.link;
   const auto say = [&](Kind kind, std::string detail = {}, std::optional<int> value = {}) {
     MatchEvent event = eventOf(kind, time, heard.key, heard.name);
     event.detail = std::move(detail);
@@ -90,15 +90,15 @@ void LiveEvents::compareRobot(const RobotFrame& heard, double time, std::vector<
   const auto [entry, isNew] = m_robots.try_emplace(heard.key);
   Known& known = entry->second;
   if (isNew) {
-    say(Kind::RobotHeard, health.sender.text());
-  } else if (health.sender.address != known.address) {
-    say(Kind::AddressChanged, known.address.text() + " to " + health.sender.address.text());
+    say(Kind::RobotHeard, link.sender.text());
+  } else if (link.sender.address != known.address) {
+    say(Kind::AddressChanged, known.address.text() + " to " + link.sender.address.text());
   }
-  if (health.timedOut != known.timedOut) {
-    say(health.timedOut ? Kind::RobotSilent : Kind::RobotBack);
+  if (link.timedOut != known.timedOut) {
+    say(link.timedOut ? Kind::RobotSilent : Kind::RobotBack);
   }
-  if (health.conflict && !known.conflict) say(Kind::SecondSender, health.sender.text());
-  const auto& penalty = health.penalty;
+  if (link.conflict && !known.conflict) say(Kind::SecondSender, link.sender.text());
+  const auto& penalty = heard.penalty;
   if (penalty && (!known.penalty || known.penalty->words != penalty->words)) {
     say(Kind::Penalised, penalty->words, penalty->secondsLeft);
   } else if (!penalty && known.penalty) {
@@ -107,20 +107,20 @@ void LiveEvents::compareRobot(const RobotFrame& heard, double time, std::vector<
   // A voltage trembles: it is low until it is well above.
   constexpr double well = 0.1;
   bool low = known.batteryLow;
-  if (health.battery && !health.timedOut) {
-    low = health.battery->low || (low && health.battery->fraction < known.lowFraction + well);
+  if (heard.battery && !link.timedOut) {
+    low = heard.battery->low || (low && heard.battery->fraction < known.lowFraction + well);
     if (low && !known.batteryLow) {
-      if (health.battery->volts > 0.0) {
-        say(Kind::BatteryLow, {}, static_cast<int>(std::lround(health.battery->volts * 10.0)));
+      if (heard.battery->volts > 0.0) {
+        say(Kind::BatteryLow, {}, static_cast<int>(std::lround(heard.battery->volts * 10.0)));
       } else {
-        say(Kind::BatteryLow, std::to_string(std::lround(health.battery->fraction * 100.0)) + " %");
+        say(Kind::BatteryLow, std::to_string(std::lround(heard.battery->fraction * 100.0)) + " %");
       }
-      known.lowFraction = health.battery->fraction;
+      known.lowFraction = heard.battery->fraction;
     }
   }
-  known.address = health.sender.address;
-  known.timedOut = health.timedOut;
-  known.conflict = health.conflict;
+  known.address = link.sender.address;
+  known.timedOut = link.timedOut;
+  known.conflict = link.conflict;
   known.penalty = penalty;
   known.batteryLow = low;
 }
@@ -132,7 +132,7 @@ std::vector<MatchEvent> LiveEvents::compare(const MatchFrame& now) {
     m_referee = now.referee;
   }
   for (const RobotFrame& robot : now.robots) {
-    if (robot.health) compareRobot(robot, now.snapshot.time, out);
+    if (robot.link) compareRobot(robot, now.snapshot.time, out);
   }
   std::erase_if(m_robots, [&now](const auto& known) { return now.robot(known.first) == nullptr; });
   return out;

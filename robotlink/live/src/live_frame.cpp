@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <robotlink/frame/belief.h>
+#include <robotlink/frame/build_robot.h>
 #include <robotlink/frame/referee_view.h>
 #include <robotlink/live/live_teams.h>
 #include <simcore/world/published_frame.h>
@@ -16,35 +16,6 @@ using telemetry::FieldMeaning;
 using telemetry::RefereeState;
 using telemetry::RobotStatus;
 
-/// Sane numbers for drawing; what was sent stays in `values`.
-constexpr double farAway_cm = 10'000.0;
-
-double sane(double cm) {
-  return std::clamp(cm, -farAway_cm, farAway_cm);
-}
-
-int asInt(std::optional<double> value) {
-  constexpr double most = 2147483647.0;
-  return value ? static_cast<int>(std::clamp(*value, -most, most)) : 0;
-}
-
-std::optional<Pose> poseOf(const RobotStatus& robot, const sim::FieldSpec& field) {
-  const auto x = robot.value(FieldMeaning::X);
-  const auto y = robot.value(FieldMeaning::Y);
-  if (!x || !y) return std::nullopt;
-  const double theta = std::fmod(robot.value(FieldMeaning::Theta).value_or(0.0), 360.0);
-  return sim::published_frame::studioFromLocalization(field, {sane(*x), sane(*y), theta});
-}
-
-/// SYSTEM.md section 7: at distance BALL_DIST and angle THETA + BALL_ANGLE; -1 is no ball.
-std::optional<Point> ballOf(const RobotStatus& robot, const Pose& pose,
-                            const sim::FieldSpec& field) {
-  const auto distance = robot.value(FieldMeaning::BallDistance);
-  const auto angle = robot.value(FieldMeaning::BallAngle);
-  if (!distance || !angle) return std::nullopt;
-  return ballSeenFrom(pose, *distance, *angle, field);
-}
-
 std::vector<HeardValue> valuesOf(const RobotStatus& robot) {
   std::vector<HeardValue> values;
   values.reserve(robot.words.size());
@@ -54,36 +25,6 @@ std::vector<HeardValue> valuesOf(const RobotStatus& robot) {
                       i < fields.size() ? fields[i].unit : std::string()});
   }
   return values;
-}
-
-RobotHealth healthOf(const RobotStatus& robot) {
-  RobotHealth health;
-  static_cast<telemetry::LinkHealth&>(health) = robot;
-  if (const auto action = robot.value(FieldMeaning::Action)) health.action = asInt(action);
-  health.values = valuesOf(robot);
-  return health;
-}
-
-RobotBoardView boardOf(const RobotStatus& robot) {
-  RobotBoardView board;
-  board.actionA = asInt(robot.value(FieldMeaning::Action));
-  board.voltage = asInt(robot.value(FieldMeaning::Voltage));
-  board.ballDistCm = static_cast<float>(robot.value(FieldMeaning::BallDistance).value_or(-1.0));
-  board.visionLost = board.ballDistCm <= 0.0F;
-  board.panDeg = static_cast<float>(robot.value(FieldMeaning::BallAngle).value_or(0.0));
-  board.localizationX = asInt(robot.value(FieldMeaning::X));
-  board.localizationY = asInt(robot.value(FieldMeaning::Y));
-  board.localizationTheta = asInt(robot.value(FieldMeaning::Theta));
-  board.belief = static_cast<float>(robot.value(FieldMeaning::Belief).value_or(0.0));
-  const auto works = [&robot](std::size_t process) {
-    return robot.processes[process].state == telemetry::ProcessState::Working;
-  };
-  board.controlWorking = works(0);
-  board.visionWorking = works(1);
-  board.localizationWorking = works(2);
-  board.decisionWorking = works(3);
-  board.imuWorking = works(4);
-  return board;
 }
 
 std::vector<RobotReplyView> repliesOf(const telemetry::RefereeTracker& tracker,
@@ -141,7 +82,9 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
   frame.origin = FrameOrigin::Live;
   frame.truthKnown = false;
   frame.ballKnown = false;
-  frame.field = options.field;
+  FrameSettings settings;
+  settings.field = options.field;
+  frame.settings = std::make_shared<const FrameSettings>(std::move(settings));
   frame.snapshot.time = time;
   frame.speed = 1.0;
   TeamColor ours = options.colour;
@@ -160,7 +103,6 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
       }
     }
   }
-  std::vector<Point> balls;
   frame.robots.reserve(team.robots.size());
   for (const RobotStatus& robot : team.robots) {
     RobotFrame& out = frame.robots.emplace_back();
@@ -170,21 +112,21 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
     out.identity.team = colourOf(options, robot.key, ours, frame.referee);
     out.name = out.identity.name();
     out.ownName = ownNameOf(options, robot.key);
-    RobotHealth& health = out.health.emplace(healthOf(robot));
+    out.link = robot;
+    out.lamps = robot.processes;
     if (state != nullptr) {
-      health.penalty = penaltyOf(*state, refereeNumberOf(options, robot.key), out.identity.number);
+      out.penalty = penaltyOf(*state, refereeNumberOf(options, robot.key), out.identity.number);
     }
-    out.action = health.action.value_or(0);
-    if (const auto pose = poseOf(robot, options.field)) {
-      health.poseKnown = true;
-      out.pose = *pose;
-      out.headYaw = pose->yaw;
-      health.ball = ballOf(robot, *pose, options.field);
-    }
-    out.board = boardOf(robot);
-    if (const auto ball = perceivedBall(options.field, out)) balls.push_back(*ball);
+    out.values = valuesOf(robot);
+    const RobotReader reader = [&robot](FieldMeaning meaning) {
+      // The decoder has left out a ball that is not seen.
+      return meaning == FieldMeaning::BallSeen ? std::nullopt : robot.value(meaning);
+    };
+    buildRobot(reader, options.field, false, out);
+    out.battery = robot.battery;
+    out.action = out.decided.value_or(0);
   }
-  frame.teamBall = agreedBall(balls);
+  frame.teamBalls = agreedBalls(frame.robots);
   return frame;
 }
 

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include <robotlink/frame/build_robot.h>
 #include <robotlink/live/live_books.h>
 #include <robotlink/live/live_teams.h>
 
@@ -178,6 +179,7 @@ struct LiveWatch::Impl {
     auto made = std::make_shared<MatchFrame>(books.frame(options, team, clock->seconds(team.time)));
     made->serial = ++serial;
     boards.addTo(*made);
+    made->teamBalls = agreedBalls(made->robots);
     boards.takeRows([this](const telemetry::GroupInfo& group, std::span<const BoardRow> rows) {
       for (const auto& observer : observers) observer->sampled(group, rows);
     });

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <robotlink/frame/drawing_origin.h>
-#include <robotlink/frame/working_flags.h>
 #include <robotlink/match/match_drawings.h>
 #include <robotlink/match/referee_packet.h>
 
@@ -13,10 +12,18 @@ namespace pitchboard::link {
 namespace {
 
 using namespace std::chrono_literals;
+using telemetry::FieldMeaning;
 
-constexpr std::chrono::duration<double> workingAfter(flagMemory);
 constexpr auto thoughtsInterval = 100ms;
 constexpr auto speedWindow = 1s;
+static_assert(static_cast<int>(ProcessState::GivenUp) ==
+              static_cast<int>(ProcessSummary::State::GivenUp));
+
+bool communicationRuns(const RobotFrame& robot) {
+  return std::ranges::any_of(robot.processes(), [](const ProcessSummary& one) {
+    return one.name == "communication" && one.state == ProcessSummary::State::Running;
+  });
+}
 
 }  // namespace
 
@@ -38,14 +45,16 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   out.robots.resize(state.robots.size());
   out.teams = teamsByColour();
   takeProcesses(match.processes());
+  if (!still && m_last != Time{}) m_playing += std::chrono::duration<double>(now - m_last).count();
+  m_last = now;
   for (std::size_t i = 0; i < state.robots.size(); ++i) {
     RobotFrame& robot = out.robots[i];
     static_cast<sim::RobotSnapshot&>(robot) = m_snapshot.robots[i];
     robot.key = keyOf(robot.identity);
     robot.name = robot.identity.name();
-    fillBoard(match, state.robots[i], now, still, robot.board.emplace());
     const auto processes = m_processes.find(robot.slot());
     robot.processList = processes == m_processes.end() ? nullptr : processes->second;
+    fillRobot(match, robot);
     robot.thoughts.reset();
     robot.runtime = runtimeChoiceToText(match.runtime(robot.slot()));
     robot.ofOthers = false;
@@ -57,7 +66,7 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   out.matchNumber = number ? std::optional(number->value) : std::nullopt;
   out.inLockStep = match.inLockStep();
   out.slowestOwnProgram = match.slowestOwnProgram();
-  std::erase_if(m_lastSeen, [&](const auto& entry) { return !simulation.indexOf(entry.first); });
+  std::erase_if(m_lamps, [&](const auto& entry) { return !simulation.indexOf(entry.first); });
   if (still || now - m_thoughtsTime >= thoughtsInterval) {
     m_thoughts = match.thoughts();
     m_thoughtsTime = now;
@@ -78,62 +87,61 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   out.refereeRules = state.game ? state.settings.referee->name : std::string();
   out.finishedBy = match.finishedBy();
   out.finished = !out.finishedBy.empty();
-  out.field = state.settings.field;
-  out.noise = state.settings.noise;
-  out.physics = state.settings.physics;
-  out.seed = state.settings.seed;
-  out.tickRate = state.settings.tickRate;
+  out.settings = settingsOf(state);
   fillSpeed(match, now, still, out);
+}
+
+/// A new one when something changed; the frames of a match share it.
+std::shared_ptr<const FrameSettings> FrameBuilder::settingsOf(const sim::WorldState& state) {
+  const sim::SimulationSettings& now = state.settings;
+  const FrameSettings& kept = *m_settings;
+  if (kept.field != now.field || kept.noise != now.noise || kept.physics != now.physics ||
+      kept.seed != now.seed || kept.tickRate != now.tickRate) {
+    m_settings = std::make_shared<const FrameSettings>(
+        FrameSettings{now.field, now.noise, now.physics, now.seed, now.tickRate});
+  }
+  return m_settings;
 }
 
 /// Copied when something changed; the frames of a second share one copy.
 void FrameBuilder::takeProcesses(const ProcessManager& processes) {
   if (std::exchange(m_processVersion, processes.version()) == processes.version()) return;
-  std::map<RobotId, std::vector<ProcessStatus>> byRobot;
-  for (const ProcessStatus& one : processes.statuses()) byRobot[one.robot].push_back(one);
+  std::map<RobotId, std::vector<ProcessSummary>> byRobot;
+  for (const ProcessStatus& one : processes.statuses()) {
+    byRobot[one.robot].push_back({one.id, one.name, static_cast<ProcessSummary::State>(one.state),
+                                  one.pid, one.restarts, one.detail, one.lastLines, one.started,
+                                  one.cpu, one.memoryBytes, one.heartbeatAge, one.foreign,
+                                  one.speed, one.achieved, whyRealTime(one.clock)});
+  }
   m_processes.clear();
   for (auto& [robot, list] : byRobot) {
-    m_processes[robot] = std::make_shared<const std::vector<ProcessStatus>>(std::move(list));
+    m_processes[robot] = std::make_shared<const std::vector<ProcessSummary>>(std::move(list));
   }
 }
 
-void FrameBuilder::fillBoard(const SimulatedMatch& match, const sim::RobotIdentity& robot, Time now,
-                             bool still, RobotBoardView& out) {
-  const Blackboard* board = match.blackboard(robot.id);
+void FrameBuilder::fillRobot(const SimulatedMatch& match, RobotFrame& out) {
+  const Blackboard* board = match.blackboard(out.slot());
   if (!board) return;
-  const RobotVariables& v = match.variables();
-  out.key = board->key();
-  out.behaviour = match.behaviour(robot.id);
-  out.actionA = readOr(*board, v.decisionActionA);
-  out.voltage = readOr(*board, v.voltage);
-  out.visionLost = readOr(*board, v.visionLost) != 0;
-  out.ballDistCm = readOr(*board, v.visionBallDist);
-  out.panDeg = readOr(*board, v.visionPanDeg);
-  out.localizationX = readOr(*board, v.localizationX);
-  out.localizationY = readOr(*board, v.localizationY);
-  out.localizationTheta = readOr(*board, v.localizationTheta);
-  out.belief = readOr(*board, v.localizationBelief);
-
-  struct Flag {
-    IntVar variable;
-    bool RobotBoardView::*working;
-    bool simulated;
-  };
-  const std::array<Flag, flags> all{
-      {{v.controlWorking, &RobotBoardView::controlWorking, true},
-       {v.visionWorking, &RobotBoardView::visionWorking, true},
-       {v.imuWorking, &RobotBoardView::imuWorking, true},
-       {v.localizationWorking, &RobotBoardView::localizationWorking, false},
-       {v.decisionWorking, &RobotBoardView::decisionWorking, false}}};
-  const auto [entry, isNew] = m_lastSeen.try_emplace(robot.id);
-  if (isNew) entry->second.fill(Time::min());
-  for (std::size_t i = 0; i < flags; ++i) {
-    Time& seen = entry->second[i];
-    const bool wasWorking = seen != Time::min() && now - seen <= workingAfter;
-    const bool heldUp = still && all[i].simulated && wasWorking;
-    if (readOr(*board, all[i].variable) != 0 || heldUp) seen = now;
-    out.*all[i].working = seen != Time::min() && now - seen <= workingAfter;
+  if (std::exchange(m_catalog, &match.catalog()) != &match.catalog()) {
+    for (std::size_t i = 0; i < m_variables.size(); ++i) {
+      const std::string_view name = telemetry::meaningTable[i].variable;
+      m_variables[i] = name.empty() ? nullptr : m_catalog->find(name);
+    }
   }
+  const RobotReader reader = [&](FieldMeaning meaning) -> std::optional<double> {
+    // Communication sets no flag on its blackboard: its process tells.
+    if (meaning == FieldMeaning::Control) return communicationRuns(out) ? 1.0 : 0.0;
+    const Variable* variable = m_variables[static_cast<std::size_t>(meaning)];
+    if (variable == nullptr) return std::nullopt;
+    const double value = variable->type == VariableType::Int
+                             ? board->read(IntVar{variable->index})
+                             : static_cast<double>(board->read(FloatVar{variable->index}));
+    return meantBy(meaning, value);
+  };
+  out.boardKey = board->key();
+  out.behaviour = match.behaviour(out.slot());
+  out.lamps = m_lamps[out.slot()].note(reader, m_playing);
+  buildRobot(reader, match.simulation().state().settings.field, true, out);
 }
 
 void FrameBuilder::fillSpeed(const SimulatedMatch& match, Time now, bool still, MatchFrame& out) {
@@ -145,7 +153,7 @@ void FrameBuilder::fillSpeed(const SimulatedMatch& match, Time now, bool still, 
   const double wall = std::chrono::duration<double>(now - first.time).count();
   const double ticks = static_cast<double>(m_ticksDone - first.ticksDone);
   out.ticksPerSecond = !still && wall > 0 ? ticks / wall : 0.0;
-  out.speed = out.ticksPerSecond / out.tickRate;
+  out.speed = out.ticksPerSecond / out.settings->tickRate;
   if (ticks > 0) out.tickMicroseconds = (m_busy - first.busy) / ticks * 1e6;
 }
 

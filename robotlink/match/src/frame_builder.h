@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 
+#include <robotlink/frame/build_robot.h>
 #include <robotlink/match/match_runner.h>
 
 namespace pitchboard::link {
@@ -22,7 +23,7 @@ class FrameBuilder {
   void addBusy(std::chrono::steady_clock::duration busy, std::uint64_t ticks);
   /// Standing still or playing at another speed: measure anew.
   void resetSpeed(Time now, std::uint64_t tick);
-  /// Everything but serial and dropped counts. `still`: flags of simulated processes do not age.
+  /// Everything but serial and dropped counts. `still`: nobody expects a sign of life.
   void fill(SimulatedMatch& match, Time now, bool still, MatchFrame& out);
 
  private:
@@ -32,21 +33,23 @@ class FrameBuilder {
     std::uint64_t ticksDone = 0;
     double busy = 0.0;  // s
   };
-  static constexpr std::size_t flags = 5;
-  using LastSeen = std::array<Time, flags>;
-
-  void fillBoard(const SimulatedMatch& match, const sim::RobotIdentity& robot, Time now, bool still,
-                 RobotBoardView& out);
+  void fillRobot(const SimulatedMatch& match, RobotFrame& out);
+  std::shared_ptr<const FrameSettings> settingsOf(const sim::WorldState& state);
   void takeProcesses(const ProcessManager& processes);
   void fillSpeed(const SimulatedMatch& match, Time now, bool still, MatchFrame& out);
 
   std::deque<Sample> m_samples;
   std::uint64_t m_ticksDone = 0;
   double m_busy = 0.0;
-  std::map<RobotId, LastSeen> m_lastSeen;
+  std::map<RobotId, LampMemory> m_lamps;
+  std::array<const Variable*, telemetry::fieldMeaningCount> m_variables{};  // of m_catalog
+  const VariableCatalog* m_catalog = nullptr;
+  Time m_last{};
+  double m_playing = 0.0;  // s in which the match did not stand still
+  std::shared_ptr<const FrameSettings> m_settings = std::make_shared<const FrameSettings>();
   sim::Snapshot m_snapshot;  // keeps its memory
   std::uint64_t m_processVersion = 0;
-  std::map<RobotId, std::shared_ptr<const std::vector<ProcessStatus>>> m_processes;
+  std::map<RobotId, std::shared_ptr<const std::vector<ProcessSummary>>> m_processes;
   std::vector<RobotThoughts> m_thoughts;  // change seldom, and cost more than the rest of a frame
   Time m_thoughtsTime{};
 };

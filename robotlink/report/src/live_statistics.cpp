@@ -24,13 +24,21 @@ struct Robot {
   std::array<double, telemetry::processCount> worked{}, known{};
 };
 
+/// m; believed places tremble by less.
+constexpr double leastMove = 0.1;
+
+bool isKick(int code) {
+  const sim::Action* action = sim::findAction(code);
+  return action && action->kind == ActionKind::Kick;
+}
+
 class Walk {
  public:
-  explicit Walk(telemetry::TimeRange range) : m_range(range) {}
+  explicit Walk(telemetry::TimeRange range) : m_range(range), m_sums(range) {}
 
   void add(const MatchFrame& frame, double step) {
     for (const RobotFrame& robot : frame.robots) {
-      if (robot.health) add(frame, robot, step);
+      if (robot.link) add(frame, robot, step);
     }
     m_last = frame;
   }
@@ -44,9 +52,6 @@ class Walk {
       if (event.kind == MatchEventKind::RobotSilent) ++link.silences;
       if (event.kind == MatchEventKind::Penalised) ++link.penalties;
     }
-    SessionStatistics out;
-    out.range = m_range;
-    std::map<TeamColor, TeamSummary> teams;
     for (auto& [id, robot] : m_robots) {
       RobotSummary& s = robot.out;
       if (robot.anchor) s.distance = robot.way;
@@ -55,73 +60,48 @@ class Walk {
       }
       if (robot.present > 0.0) s.link->heard = s.seconds / robot.present;
       if (id.sender > 0 && !isAttached(id)) s.name += " (second)";
-      TeamSummary& team = teams[s.team];
-      team.team = s.team;
-      team.ballSeconds += s.ballSeconds;
-      team.kicks += s.kicks;
-      team.falls += s.falls;
-      team.distance += s.distance.value_or(0.0);
-      out.robots.push_back(s);
+      m_sums.add(s);
     }
-    score(teams);
-    const double part = (m_range.end - m_range.begin) / static_cast<double>(parts);
-    for (auto& [colour, team] : teams) {
-      const auto curve = m_possession.find(colour);
-      for (std::size_t i = 0; curve != m_possession.end() && part > 0.0 && i < parts; ++i) {
-        team.ballCurve.push_back(std::min(1.0, curve->second[i] / part));
-      }
-      out.teams.push_back(std::move(team));
+    // Both teams of the referee, also the one of which no robot is heard.
+    for (std::size_t i = 0; m_last.referee && i < m_last.referee->teams.size(); ++i) {
+      const RefereeTeamView& side = m_last.referee->teams[i];
+      const auto colour = std::ranges::find(teamColors, side.colour, &TeamColorInfo::name);
+      if (colour != teamColors.end()) m_sums.team(colour->color).score = side.score;
     }
-    std::ranges::stable_sort(out.robots,
-                             [](const auto& a, const auto& b) { return a.team < b.team; });
-    return out;
+    return m_sums.finish();
   }
 
  private:
-  static constexpr std::size_t parts = StatisticsBuilder::parts;
-
-  /// Both teams of the referee, also the one of which no robot is heard.
-  void score(std::map<TeamColor, TeamSummary>& teams) const {
-    if (!m_last.referee) return;
-    for (const RefereeTeamView& side : m_last.referee->teams) {
-      const auto colour = std::ranges::find(teamColors, side.colour, &TeamColorInfo::name);
-      if (colour == teamColors.end()) continue;
-      TeamSummary& team = teams[colour->color];
-      team.team = colour->color;
-      team.score = side.score;
-    }
-  }
-
   void add(const MatchFrame& frame, const RobotFrame& seen, double step) {
     const auto [entry, isNew] = m_robots.try_emplace(seen.key);
     Robot& robot = entry->second;
-    const RobotHealth& health = *seen.health;
+    const telemetry::LinkHealth& link = *seen.link;
     RobotSummary& out = robot.out;
     if (isNew) out.link = RobotSummary::Link{};  // clang 14 refuses emplace() here
     // Colours may come late, with the referee.
     out.name = seen.name;
     out.team = seen.identity.team;
-    out.link->messages = health.messages;
-    out.link->loss = health.loss;
+    out.link->messages = link.messages;
+    out.link->loss = link.loss;
     robot.present += step;
-    if (health.timedOut) return;
+    if (link.timedOut) return;
     out.seconds += step;
-    if (health.battery && health.battery->volts > 0.0) {
+    if (seen.battery && seen.battery->volts > 0.0) {
       out.link->leastVolts =
-          std::min(out.link->leastVolts.value_or(health.battery->volts), health.battery->volts);
+          std::min(out.link->leastVolts.value_or(seen.battery->volts), seen.battery->volts);
     }
-    const bool kicking = health.action && isKick(*health.action);
+    const bool kicking = seen.decided && isKick(*seen.decided);
     if (kicking && !robot.wasKicking) ++out.kicks;
     robot.wasKicking = kicking;
     if (seen.fallen && !robot.wasFallen) ++out.falls;
     robot.wasFallen = seen.fallen;
-    for (std::size_t i = 0; i < health.processes.size(); ++i) {
-      const telemetry::ProcessState state = health.processes[i].state;
+    for (std::size_t i = 0; i < seen.lamps.size(); ++i) {
+      const telemetry::ProcessState state = seen.lamps[i].state;
       if (state == telemetry::ProcessState::Unknown) continue;
       robot.known[i] += step;
       if (state == telemetry::ProcessState::Working) robot.worked[i] += step;
     }
-    if (!health.poseKnown) return;
+    if (!seen.poseKnown()) return;
     const Point here = seen.pose.position;
     if (!robot.anchor) robot.anchor = here;
     const double way = std::hypot(here.x - robot.anchor->x, here.y - robot.anchor->y);
@@ -129,29 +109,59 @@ class Walk {
       robot.way += way;
       robot.anchor = here;
     }
-    if (!health.ball || std::hypot(health.ball->x - here.x, health.ball->y - here.y) > ballReach) {
-      return;
+    if (seen.ball && seen.ball->distance <= ballReach) {
+      m_sums.hold(out, frame.snapshot.time, step);
     }
-    out.ballSeconds += step;
-    auto& curve = m_possession[out.team];
-    curve.resize(parts, 0.0);
-    const double length = std::max(m_range.end - m_range.begin, 1e-9);
-    const double share = (frame.snapshot.time - m_range.begin) / length;
-    curve[static_cast<std::size_t>(std::clamp(share * static_cast<double>(parts), 0.0,
-                                              static_cast<double>(parts - 1)))] += step;
   }
 
   telemetry::TimeRange m_range;
   std::map<RobotKey, Robot> m_robots;
-  std::map<TeamColor, std::vector<double>> m_possession;
+  TeamSums m_sums;
   MatchFrame m_last;
 };
 
 }  // namespace
 
-bool isKick(int code) {
-  const sim::Action* action = sim::findAction(code);
-  return action && action->kind == ActionKind::Kick;
+std::size_t TeamSums::part(double time) const {
+  const double length = m_range.end - m_range.begin;
+  const double share = length > 0 ? (time - m_range.begin) / length : 0.0;
+  return static_cast<std::size_t>(std::clamp(share * static_cast<double>(statisticsParts), 0.0,
+                                             static_cast<double>(statisticsParts - 1)));
+}
+
+void TeamSums::hold(RobotSummary& robot, double time, double seconds) {
+  robot.ballSeconds += seconds;
+  std::vector<double>& curve = m_held[robot.team];
+  curve.resize(statisticsParts, 0.0);
+  curve[part(time)] += seconds;
+}
+
+TeamSummary& TeamSums::team(TeamColor team) {
+  TeamSummary& found = m_teams[team];
+  found.team = team;
+  return found;
+}
+
+SessionStatistics TeamSums::finish() {
+  SessionStatistics out;
+  out.range = m_range;
+  for (const RobotSummary& robot : m_robots) {
+    TeamSummary& sum = team(robot.team);
+    sum.ballSeconds += robot.ballSeconds;
+    sum.kicks += robot.kicks;
+    sum.falls += robot.falls;
+    sum.distance += robot.distance.value_or(0.0);
+  }
+  const double length = (m_range.end - m_range.begin) / static_cast<double>(statisticsParts);
+  for (auto& [colour, team] : m_teams) {
+    for (const double seconds : m_held[colour]) {
+      if (length > 0) team.ballCurve.push_back(std::min(1.0, seconds / length));
+    }
+    out.teams.push_back(std::move(team));
+  }
+  out.robots = std::move(m_robots);
+  std::ranges::stable_sort(out.robots, {}, &RobotSummary::team);
+  return out;
 }
 
 SessionStatistics liveStatistics(const telemetry::SessionReader& session,

@@ -1,18 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The statistics of a live match, from the frames that were seen: whatever a team's profile calls
-// things, a frame has places in metres, the battery, the penalties. Private to the library.
+// The statistics of a live match, from the frames that were seen, and the sums that they have in
+// common with those of a simulated one. Private to the library.
+
+#include <map>
 
 #include <robotlink/report/session_statistics.h>
 
 namespace pitchboard::link {
 
-/// m; believed places tremble by less.
-inline constexpr double leastMove = 0.1;
+/// Who had the ball when, and the teams' sums over their robots.
+class TeamSums {
+ public:
+  explicit TeamSums(telemetry::TimeRange range) : m_range(range) {}
 
-/// An action's code that lets control kick.
-bool isKick(int code);
+  /// The part of the curves in which this time lies.
+  std::size_t part(double time) const;
+  void hold(RobotSummary& robot, double time, double seconds);
+  TeamSummary& team(TeamColor team);
+  void add(const RobotSummary& robot) { m_robots.push_back(robot); }
+  SessionStatistics finish();
+
+ private:
+  telemetry::TimeRange m_range;
+  std::vector<RobotSummary> m_robots;
+  std::map<TeamColor, TeamSummary> m_teams;
+  std::map<TeamColor, std::vector<double>> m_held;  // s in each part
+};
 
 SessionStatistics liveStatistics(const telemetry::SessionReader& session,
                                  telemetry::TimeRange range);

@@ -6,7 +6,7 @@
 #include <map>
 
 #include <base/angles.h>
-#include <robotlink/frame/working_flags.h>
+#include <robotlink/frame/build_robot.h>
 #include <robotlink/report/quantile.h>
 #include <robotlink/session/row_slot.h>
 
@@ -14,6 +14,8 @@
 
 namespace pitchboard::link {
 namespace {
+
+using telemetry::FieldMeaning;
 
 constexpr double longestStep = 2.5;  // s; a longer gap between rows counts as absence
 constexpr double centimetres = 100.0;
@@ -29,264 +31,169 @@ struct Counted {
   }
 };
 
-struct Robot {
-  explicit Robot(const telemetry::GroupInfo& group)
-      : trueX(findSlot(group, {"TRUE_X"})),
-        walked(findSlot(group, {"DISTANCE_WALKED"})),
+struct RobotColumns {
+  explicit RobotColumns(const telemetry::GroupInfo& group)
+      : walked(findSlot(group, {"DISTANCE_WALKED"})),
         kicks(findSlot(group, {"KICKS"})),
         falls(findSlot(group, {"FALLS"})),
-        fallen(findSlot(group, {"FALLEN", "IMU_STATE"})),
         trueBall(findSlot(group, {"TRUE_BALL_DIST"})),
-        seenBall(findSlot(group, {"VISION_BALL_DIST", "BALL_DIST"})),
-        lost(findSlot(group, {"VISION_LOST"})),
         error(findSlot(group, {"BELIEF_ERROR"})),
-        x(findSlot(group, {"LOCALIZATION_X", "X"})),
-        y(findSlot(group, {"LOCALIZATION_Y", "Y"})),
-        action(findSlot(group, {"DECISION_ACTION_A", "ACTION_A"})),
-        flags{findSlot(group, {"CONTROL_WORKING", "CONTROL"}),
-              findSlot(group, {"VISION_WORKING", "VISION"}),
-              findSlot(group, {"LOCALIZATION_WORKING", "LOCALIZATION"}),
-              findSlot(group, {"DECISION_WORKING", "DECISION"}),
-              findSlot(group, {"IMU_WORKING", "IMU"})} {
-    seen.fill(-1e300);
-    errorSum.assign(StatisticsBuilder::parts, 0.0);
-    errorCount.assign(StatisticsBuilder::parts, 0);
-  }
+        flags{findSlot(group, FieldMeaning::Control), findSlot(group, FieldMeaning::Vision),
+              findSlot(group, FieldMeaning::Localization), findSlot(group, FieldMeaning::Decision),
+              findSlot(group, FieldMeaning::Imu)} {}
 
-  RowSlot trueX, walked, kicks, falls, fallen, trueBall, seenBall, lost, error, x, y, action;
+  RowSlot walked, kicks, falls, trueBall, error;
   std::array<RowSlot, telemetry::processCount> flags;
+};
+
+/// What rows of one robot have said so far.
+struct Tally {
   RobotSummary out;
   bool facesLeft = false;
   std::optional<double> lastTime;
   Counted distance, kicked, fell;
-  std::optional<std::pair<double, double>> anchor;  // cm
-  double believedWay = 0.0;                         // cm
-  bool wasFallen = false, wasKicking = false;
-  std::array<double, telemetry::processCount> seen;
+  std::array<std::optional<double>, telemetry::processCount> seen;
   std::array<double, telemetry::processCount> worked{};
+  std::array<bool, telemetry::processCount> known{};
   std::vector<float> errors;
-  std::vector<double> errorSum;
-  std::vector<std::uint32_t> errorCount;
+  std::vector<double> errorSum = std::vector<double>(statisticsParts);
+  std::vector<std::uint32_t> errorCount = std::vector<std::uint32_t>(statisticsParts);
 };
 
-}  // namespace
+/// Takes rows in order of time.
+class RowStatistics {
+ public:
+  explicit RowStatistics(telemetry::TimeRange range) : m_range(range), m_sums(range) {}
+  void add(telemetry::GroupId id, const telemetry::GroupInfo& group, const telemetry::RowView& row);
+  SessionStatistics finish();
 
-struct StatisticsBuilder::Impl {
+ private:
   struct Claim {
-    Robot* robot;
+    Tally* robot;
     double distance;  // cm
     double seconds;
   };
-
-  telemetry::TimeRange range;
-  std::map<std::string, Robot> robots;  // by name: one robot may change its columns
-  std::map<telemetry::GroupId, Robot*> byId;
-  std::map<TeamColor, std::vector<double>> possession;
-  std::vector<Claim> claims;  // of one time
-  double claimTime = -1e300;
-  std::uint64_t rows = 0;
-  bool truth = false;
-  std::optional<sim::Score> firstScore, lastScore;
-  RowSlot scoreLeft, scoreRight;
-  std::optional<telemetry::GroupId> match;
-
-  std::size_t part(double time) const {
-    const double length = range.end - range.begin;
-    const double share = length > 0 ? (time - range.begin) / length : 0.0;
-    return static_cast<std::size_t>(
-        std::clamp(share * static_cast<double>(parts), 0.0, static_cast<double>(parts - 1)));
-  }
+  struct Source {  // of rows
+    RobotColumns columns;
+    Tally* robot;
+  };
   void settle();
-  void hold(Robot& robot, double seconds);
-  void addRobot(Robot& robot, const telemetry::RowView& row);
+  void addRobot(const RobotColumns& columns, Tally& robot, const telemetry::RowView& row);
+
+  telemetry::TimeRange m_range;
+  TeamSums m_sums;
+  std::map<std::string, Tally> m_robots;  // by name: one robot may change its columns
+  std::map<telemetry::GroupId, Source> m_sources;
+  std::vector<Claim> m_claims;  // of one time
+  double m_claimTime = -1e300;
+  std::uint64_t m_rows = 0;
+  std::optional<sim::Score> m_firstScore, m_lastScore;
+  RowSlot m_scoreLeft, m_scoreRight;
+  std::optional<telemetry::GroupId> m_match;
 };
 
 /// The nearest robot of one time has the ball.
-void StatisticsBuilder::Impl::settle() {
-  const auto nearest = std::ranges::min_element(
-      claims, [](const auto& a, const auto& b) { return a.distance < b.distance; });
-  if (nearest != claims.end()) hold(*nearest->robot, nearest->seconds);
-  claims.clear();
+void RowStatistics::settle() {
+  const auto nearest = std::ranges::min_element(m_claims, {}, &Claim::distance);
+  if (nearest != m_claims.end()) m_sums.hold(nearest->robot->out, m_claimTime, nearest->seconds);
+  m_claims.clear();
 }
 
-void StatisticsBuilder::Impl::hold(Robot& robot, double seconds) {
-  robot.out.ballSeconds += seconds;
-  auto& curve = possession[robot.out.team];
-  curve.resize(parts, 0.0);
-  curve[part(claimTime)] += seconds;
-}
-
-void StatisticsBuilder::Impl::addRobot(Robot& r, const telemetry::RowView& row) {
-  const bool hasTruth = r.trueX.present();
-  truth = truth || hasTruth;
+void RowStatistics::addRobot(const RobotColumns& columns, Tally& r, const telemetry::RowView& row) {
   const double since = r.lastTime ? row.time - *r.lastTime : 0.0;
   const double step = since > 0.0 && since <= longestStep ? since : 0.0;
   r.lastTime = row.time;
   r.out.seconds += step;
-
-  r.distance.take(r.walked.read(row));
-  r.kicked.take(r.kicks.read(row));
-  r.fell.take(r.falls.read(row));
-  const bool isFallen = r.fallen.readOr(row, 0.0) != 0.0;
-  if (!r.falls.present() && isFallen && !r.wasFallen) ++r.out.falls;
-  r.wasFallen = isFallen;
-  const bool kicking = isKick(r.action.readInt(row));
-  if (!r.kicks.present() && kicking && !r.wasKicking) ++r.out.kicks;
-  r.wasKicking = kicking;
-  if (!r.walked.present() && std::isfinite(r.x.read(row)) && std::isfinite(r.y.read(row))) {
-    const std::pair<double, double> here{r.x.read(row), r.y.read(row)};
-    if (!r.anchor) r.anchor = here;
-    const double way = std::hypot(here.first - r.anchor->first, here.second - r.anchor->second);
-    if (way >= leastMove * centimetres) {
-      r.believedWay += way;
-      r.anchor = here;
-    }
-  }
-
-  if (const double error = r.error.read(row); std::isfinite(error)) {
+  r.distance.take(columns.walked.read(row));
+  r.kicked.take(columns.kicks.read(row));
+  r.fell.take(columns.falls.read(row));
+  if (const double error = columns.error.read(row); std::isfinite(error)) {
     r.errors.push_back(static_cast<float>(error));
-    r.errorSum[part(row.time)] += error;
-    ++r.errorCount[part(row.time)];
+    r.errorSum[m_sums.part(row.time)] += error;
+    ++r.errorCount[m_sums.part(row.time)];
   }
-  for (std::size_t f = 0; f < r.flags.size(); ++f) {
-    const bool was = row.time - r.seen[f] <= std::max(flagMemory, step);
-    if (r.flags[f].readOr(row, 0.0) != 0.0) r.seen[f] = row.time;
+  for (std::size_t f = 0; f < columns.flags.size(); ++f) {
+    r.known[f] = columns.flags[f].present();
+    const bool was = r.seen[f] && row.time - *r.seen[f] <= std::max(flagMemory, step);
+    if (columns.flags[f].readOr(row, 0.0) != 0.0) r.seen[f] = row.time;
     if (was && step > 0.0) r.worked[f] += step;
   }
-
-  const double reach = ballReach * centimetres;
-  if (hasTruth) {
-    const double distance = r.trueBall.read(row);
-    if (distance <= reach && step > 0.0) claims.push_back({&r, distance, step});
-  } else {
-    const double distance = r.seenBall.read(row);
-    if (r.lost.readOr(row, 0.0) == 0.0 && distance > 0.0 && distance <= reach) hold(r, step);
-  }
+  const double distance = columns.trueBall.read(row);
+  if (distance <= ballReach * centimetres && step > 0.0) m_claims.push_back({&r, distance, step});
 }
 
-StatisticsBuilder::StatisticsBuilder(telemetry::TimeRange range)
-    : m_impl(std::make_unique<Impl>()) {
-  m_impl->range = range;
-}
-StatisticsBuilder::~StatisticsBuilder() = default;
-
-void StatisticsBuilder::add(telemetry::GroupId id, const telemetry::GroupInfo& group,
-                            const telemetry::RowView& row) {
-  Impl& impl = *m_impl;
-  if (row.time < impl.range.begin || row.time > impl.range.end) return;
-  ++impl.rows;
-  if (row.time != impl.claimTime) {
-    impl.settle();
-    impl.claimTime = row.time;
+void RowStatistics::add(telemetry::GroupId id, const telemetry::GroupInfo& group,
+                        const telemetry::RowView& row) {
+  if (row.time < m_range.begin || row.time > m_range.end) return;
+  ++m_rows;
+  if (row.time != m_claimTime) {
+    settle();
+    m_claimTime = row.time;
   }
-  auto known = impl.byId.find(id);
-  if (known == impl.byId.end()) {
-    Robot* robot = nullptr;
-    const char* const number = attribute(group, "live") == "1" ? "number" : "robot";
-    if (attributeNumber(group, number) != 0) {
-      const auto [entry, isNew] = impl.robots.try_emplace(group.name, group);
-      robot = &entry->second;
-      if (!isNew) {
-        // The same robot with other columns (another catalog): its places are looked up anew.
-        Robot again(group);
-        again.out = robot->out;
-        again.distance = robot->distance;
-        again.kicked = robot->kicked;
-        again.fell = robot->fell;
-        again.lastTime = robot->lastTime;
-        again.believedWay = robot->believedWay;
-        again.worked = robot->worked;
-        again.seen = robot->seen;
-        again.errors = std::move(robot->errors);
-        again.errorSum = std::move(robot->errorSum);
-        again.errorCount = std::move(robot->errorCount);
-        *robot = std::move(again);
-      }
+  auto known = m_sources.find(id);
+  if (known == m_sources.end()) {
+    Tally* robot = nullptr;
+    // Robots without the truth are those of Live (liveStatistics()).
+    if (attributeNumber(group, "robot") != 0 && findSlot(group, {"TRUE_X"}).present()) {
+      robot = &m_robots[group.name];
       robot->out.name = group.name;
       robot->out.team = teamOf(group);
       robot->facesLeft = attribute(group, "imu180") == "1";
     } else if (findSlot(group, {"SCORE_LEFT"}).present()) {
-      impl.match = id;
-      impl.scoreLeft = findSlot(group, {"SCORE_LEFT"});
-      impl.scoreRight = findSlot(group, {"SCORE_RIGHT"});
+      m_match = id;
+      m_scoreLeft = findSlot(group, {"SCORE_LEFT"});
+      m_scoreRight = findSlot(group, {"SCORE_RIGHT"});
     }
-    known = impl.byId.emplace(id, robot).first;
+    known = m_sources.emplace(id, Source{RobotColumns(group), robot}).first;
   }
-  if (known->second) return impl.addRobot(*known->second, row);
-  if (impl.match == id) {
-    const sim::Score score{impl.scoreLeft.readInt(row), impl.scoreRight.readInt(row)};
-    if (!impl.firstScore) impl.firstScore = score;
-    impl.lastScore = score;
+  if (known->second.robot) return addRobot(known->second.columns, *known->second.robot, row);
+  if (m_match == id) {
+    m_lastScore = sim::Score{m_scoreLeft.readInt(row), m_scoreRight.readInt(row)};
+    if (!m_firstScore) m_firstScore = m_lastScore;
   }
 }
 
-SessionStatistics StatisticsBuilder::finish() {
-  Impl& impl = *m_impl;
-  impl.settle();
-  SessionStatistics out;
-  out.range = impl.range;
-  out.truthKnown = impl.truth;
-  out.rows = impl.rows;
-  std::map<TeamColor, TeamSummary> teams;
-  for (auto& [name, r] : impl.robots) {
+SessionStatistics RowStatistics::finish() {
+  settle();
+  for (auto& [name, r] : m_robots) {
     RobotSummary& s = r.out;
-    if (r.walked.present()) {
-      s.distance = r.distance.total;
-    } else if (r.anchor) {
-      s.distance = r.believedWay / centimetres;
-    }
-    if (r.kicks.present()) s.kicks = static_cast<std::uint32_t>(std::min(r.kicked.total, 4e9));
-    if (r.falls.present()) s.falls = static_cast<std::uint32_t>(std::min(r.fell.total, 4e9));
+    s.distance = r.distance.total;
+    s.kicks = static_cast<std::uint32_t>(std::min(r.kicked.total, 4e9));
+    s.falls = static_cast<std::uint32_t>(std::min(r.fell.total, 4e9));
     if (!r.errors.empty()) {
       std::ranges::sort(r.errors);
       s.errorMedian = quantile(r.errors, 0.5);
       s.error90 = quantile(r.errors, 0.9);
-      for (std::size_t i = 0; i < parts; ++i) {
+      for (std::size_t i = 0; i < statisticsParts; ++i) {
         s.errorCurve.push_back(r.errorCount[i] > 0 ? r.errorSum[i] / r.errorCount[i]
                                                    : std::nan(""));
       }
     }
-    for (std::size_t f = 0; f < r.flags.size(); ++f) {
-      if (r.flags[f].present() && s.seconds > 0.0)
-        s.uptime[f] = std::min(1.0, r.worked[f] / s.seconds);
+    for (std::size_t f = 0; f < r.known.size(); ++f) {
+      if (r.known[f] && s.seconds > 0.0) s.uptime[f] = std::min(1.0, r.worked[f] / s.seconds);
     }
-    TeamSummary& team = teams[s.team];
-    team.team = s.team;
-    team.ballSeconds += s.ballSeconds;
-    team.kicks += s.kicks;
-    team.falls += s.falls;
-    team.distance += s.distance.value_or(0.0);
+    m_sums.add(s);
     // The side that a team defends is told by its robots' heading at the start.
-    if (impl.lastScore) {
-      team.score = r.facesLeft ? impl.lastScore->right : impl.lastScore->left;
-      team.scored = *team.score - (r.facesLeft ? impl.firstScore->right : impl.firstScore->left);
+    if (m_lastScore) {
+      TeamSummary& team = m_sums.team(s.team);
+      team.score = r.facesLeft ? m_lastScore->right : m_lastScore->left;
+      team.scored = *team.score - (r.facesLeft ? m_firstScore->right : m_firstScore->left);
     }
-    out.robots.push_back(s);
   }
-  const double partLength = (impl.range.end - impl.range.begin) / static_cast<double>(parts);
-  for (auto& [color, team] : teams) {
-    const auto curve = impl.possession.find(color);
-    if (curve != impl.possession.end() && partLength > 0) {
-      for (const double seconds : curve->second) {
-        team.ballCurve.push_back(std::min(1.0, seconds / partLength));
-      }
-    }
-    out.teams.push_back(std::move(team));
-  }
-  std::ranges::stable_sort(out.robots,
-                           [](const auto& a, const auto& b) { return a.team < b.team; });
+  const bool truth = !m_robots.empty();
+  SessionStatistics out = m_sums.finish();
+  out.truthKnown = truth;
+  out.rows = m_rows;
   return out;
 }
 
-namespace {
-
 template <class Source>
 SessionStatistics walked(const Source& source, telemetry::TimeRange range) {
-  StatisticsBuilder builder(range);
+  RowStatistics statistics(range);
   forEachRow(source, range, [&](telemetry::GroupId id, const auto& group, const auto& row) {
-    builder.add(id, group, row);
+    statistics.add(id, group, row);
   });
-  return builder.finish();
+  return statistics.finish();
 }
 
 }  // namespace

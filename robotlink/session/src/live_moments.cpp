@@ -17,6 +17,7 @@ constexpr std::array everything{SessionStream::Telemetry, SessionStream::Referee
                                 SessionStream::LiveState};
 constexpr double usualStep = 20.0;   // s; books are kept every 15
 constexpr double disorder = 2.0;     // s; what was kept later may have come so much earlier
+constexpr double farAway = 1e9;      // s; no source lasts so long
 constexpr double tolerance = 5e-10;  // s; files keep whole nanoseconds
 
 telemetry::Duration duration(double seconds) {
@@ -99,8 +100,20 @@ bool LiveMoments::goTo(const LiveHistory& history, double time) {
     if (time - reach < history.begin()) break;
   }
   impl.known.reset();
-  if (!start) return false;
   bool begun = false;
+  if (!start) {
+    if (time < history.begin()) return false;
+    // They were lost with a part of the file: who is heard from its beginning on is shown, as the
+    // next ones say what the datagrams mean.
+    history.walk(booksOnly, {until, farAway}, [&](const auto& record) {
+      impl.take(record);
+      return !impl.known;
+    });
+    if (!impl.known) return false;
+    impl.known->books.clear(impl.known->options);
+    start = history.begin();
+    begun = true;
+  }
   history.walk(everything, {*start - disorder, until}, [&](const LiveRecord& record) {
     begun = begun || (record.stream == SessionStream::LiveState &&
                       std::abs(record.time - *start) <= tolerance);

@@ -9,7 +9,7 @@
 #include <base/ids.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/cognition/referee_orders.h>
-#include <robotlink/frame/belief.h>
+#include <robotlink/frame/build_robot.h>
 #include <robotlink/scenario/moment_writes.h>
 #include <simcore/world/limits.h>
 #include <simcore/world/places.h>
@@ -55,18 +55,18 @@ class Maker {
     scenario.title = title + ", at " + time + " s";
     if (!m_options.base) scenario.name = "moment";
     sim::SimulationSettings& settings = scenario.settings;
-    if (sim::validate(m_frame.field)) {
-      settings.field = m_frame.field;
+    if (sim::validate(m_frame.settings->field)) {
+      settings.field = m_frame.settings->field;
     } else {
       note("The field of this moment cannot be played on; the scenario has another one.");
     }
     const auto models = sim::physicsModels();
     if (std::any_of(models.begin(), models.end(),
-                    [&](const auto& model) { return model.name == m_frame.physics; })) {
-      settings.physics = m_frame.physics;
-      settings.noise = m_frame.noise;
-      settings.seed = m_frame.seed;
-      settings.tickRate = m_frame.tickRate;
+                    [&](const auto& model) { return model.name == m_frame.settings->physics; })) {
+      settings.physics = m_frame.settings->physics;
+      settings.noise = m_frame.settings->noise;
+      settings.seed = m_frame.settings->seed;
+      settings.tickRate = m_frame.settings->tickRate;
     }
     // Nothing of the frame may keep the match from starting.
     if (!sim::Simulation::create(settings)) {
@@ -100,14 +100,13 @@ class Maker {
       return;
     }
     if (m_frame.truthKnown && believed()) {
-      const auto belief = robot.board ? believedPose(m_frame.field, *robot.board) : std::nullopt;
-      if (belief) {
-        out.pose = *belief;
+      if (robot.belief) {
+        out.pose = *robot.belief;
       } else {
         note(name + " does not know where it is; it stands where it truly was.");
       }
     }
-    if (robot.board && !robot.board->behaviour.empty()) out.behaviour = robot.board->behaviour;
+    if (!robot.behaviour.empty()) out.behaviour = robot.behaviour;
     const auto known = behaviours();
     if (out.behaviour != noBehaviour &&
         std::none_of(known.begin(), known.end(),
@@ -218,10 +217,8 @@ class Maker {
   std::vector<Sighting> sightings() const {
     std::vector<Sighting> out;
     for (const RobotFrame& robot : m_frame.robots) {
-      const auto ball = perceivedBall(m_frame.field, robot);
-      if (!ball || !sim::isFinite({*ball, 0.0})) continue;
-      const Point from = perceivingPose(m_frame.field, robot).position;
-      out.push_back({*ball, distance(*ball, from), robot.identity.name()});
+      if (!robot.ball || !sim::isFinite({robot.ball->place, 0.0})) continue;
+      out.push_back({robot.ball->place, robot.ball->distance, robot.identity.name()});
     }
     return out;
   }
@@ -255,9 +252,10 @@ class Maker {
                              : "No robot sees the ball; it lies on the centre mark.");
       return;
     }
-    std::vector<Point> balls;
-    for (const Sighting& one : seen) balls.push_back(one.ball);
-    if (const auto agreed = agreedBall(balls)) {
+    // A team that sees another ball than the other does not outvote it.
+    const std::vector<TeamBall> balls = agreedBalls(m_frame.robots);
+    const auto agreed = std::ranges::max_element(balls, {}, &TeamBall::agree);
+    if (agreed != balls.end()) {
       ball = agreed->position;
       if (static_cast<std::size_t>(agreed->agree) == seen.size()) return;
       note("The robots do not agree where the ball is: " + std::to_string(agreed->agree) +

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where the groups of a recording keep what frames need: names are looked up once. A blackboard, a
-// message and the truth call the same thing differently. Private to robotlink.
+// Where the groups of a recording keep what frames need: names are looked up once. Private to
+// robotlink.
 
 #include <array>
 #include <optional>
-#include <utility>
 
-#include <robotlink/live/live_teams.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/row_slot.h>
 
@@ -16,16 +14,21 @@
 
 namespace pitchboard::link {
 
+using telemetry::FieldMeaning;
+
 constexpr double timeTolerance = 1e-6;  // s; files keep whole nanoseconds
+
+constexpr FieldMeaning lampOf(std::size_t lamp) {
+  return static_cast<FieldMeaning>(static_cast<std::size_t>(FieldMeaning::Control) + lamp);
+}
 
 /// Where one group keeps what frames need.
 struct RecordedFrames::Layout {
-  static constexpr std::size_t flagCount = 5;
-  Layout(const telemetry::GroupInfo& group, const telemetry::Profile* profile)
+  explicit Layout(const telemetry::GroupInfo& group)
       : columns(group.columns.size()),
-        live(attribute(group, "live") == "1"),
-        attached(!live && attribute(group, "attached") == "1"),
-        robot{attributeNumber(group, live ? "number" : "robot")},
+        attached(attribute(group, "attached") == "1"),
+        // Robots of Live are made from their datagrams (LiveMoments).
+        robot{attribute(group, "live") == "1" ? 0 : attributeNumber(group, "robot")},
         isMatch(robot.value == 0 && findSlot(group, {"BALL_X"}).present()) {
     if (isMatch) {
       tick = findSlot(group, {"TICK"});
@@ -48,78 +51,33 @@ struct RecordedFrames::Layout {
     headYaw = findSlot(group, {"HEAD_YAW"});
     vx = findSlot(group, {"VX"});
     vy = findSlot(group, {"VY"});
-    action = findSlot(group, {"ACTION", "CONTROL_ACTION", "ACTION_A", "DECISION_ACTION_A"});
+    action = findSlot(group, {"ACTION", "CONTROL_ACTION", "DECISION_ACTION_A"});
     fallen = findSlot(group, {"FALLEN", "IMU_STATE"});
     distance = findSlot(group, {"DISTANCE_WALKED"});
     kicks = findSlot(group, {"KICKS"});
     falls = findSlot(group, {"FALLS"});
     unknownActions = findSlot(group, {"UNKNOWN_ACTIONS"});
     lastUnknown = findSlot(group, {"LAST_UNKNOWN_ACTION"});
-    actionA = findSlot(group, {"DECISION_ACTION_A", "ACTION_A"});
-    voltage = findSlot(group, {"VOLTAGE"});
-    lost = findSlot(group, {"VISION_LOST"});
-    ballDist = findSlot(group, {"VISION_BALL_DIST", "BALL_DIST"});
-    pan = findSlot(group, {"VISION_PAN_DEG", "BALL_ANGLE"});
-    locX = findSlot(group, {"LOCALIZATION_X", "X"});
-    locY = findSlot(group, {"LOCALIZATION_Y", "Y"});
-    locTheta = findSlot(group, {"LOCALIZATION_THETA", "THETA"});
-    // The published localization publishes its belief under this name (SYSTEM.md section 5).
-    belief = findSlot(group, {"LOCALIZATION_RBT01_X", "BELIEF"});
-    flags = {findSlot(group, {"CONTROL_WORKING", "CONTROL"}),
-             findSlot(group, {"VISION_WORKING", "VISION"}),
-             findSlot(group, {"LOCALIZATION_WORKING", "LOCALIZATION"}),
-             findSlot(group, {"DECISION_WORKING", "DECISION"}),
-             findSlot(group, {"IMU_WORKING", "IMU"})};
-    age = findSlot(group, {"LINK_AGE", "AGE"});
-    rate = findSlot(group, {"LINK_RATE", "RATE"});
-    loss = findSlot(group, {"LINK_LOSS", "LOSS"});
-    errors = findSlot(group, {"LINK_ERRORS", "ERRORS"});
-    volts = findSlot(group, {"LINK_VOLTS", "VOLTS"});
-    jitter = findSlot(group, {"JITTER"});
-    lostMessages = findSlot(group, {"LOST"});
-    duplicates = findSlot(group, {"DUPLICATES"});
-    late = findSlot(group, {"LATE"});
-    // A robot of a team setup says itself what its columns mean.
-    const bool says = !attribute(group, "profile").empty();
-    if (!live || (!profile && !says)) return;
-    using telemetry::FieldMeaning;
-    // A team's own names.
-    const std::pair<FieldMeaning, RowSlot*> meanings[] = {{FieldMeaning::X, &locX},
-                                                          {FieldMeaning::Y, &locY},
-                                                          {FieldMeaning::Theta, &locTheta},
-                                                          {FieldMeaning::Belief, &belief},
-                                                          {FieldMeaning::BallDistance, &ballDist},
-                                                          {FieldMeaning::BallAngle, &pan},
-                                                          {FieldMeaning::Action, &actionA},
-                                                          {FieldMeaning::Voltage, &voltage},
-                                                          {FieldMeaning::Control, &flags[0]},
-                                                          {FieldMeaning::Vision, &flags[1]},
-                                                          {FieldMeaning::Localization, &flags[2]},
-                                                          {FieldMeaning::Decision, &flags[3]},
-                                                          {FieldMeaning::Imu, &flags[4]}};
-    for (const auto& [meaning, slot] : meanings) {
-      const auto place = says ? std::nullopt : profile->indexOf(meaning);
-      const std::string name = place  ? profile->fields[*place].name
-                               : says ? std::string(attribute(group, meaningAttribute(meaning)))
-                                      : std::string();
-      *slot = name.empty() ? RowSlot{} : findSlot(group, {name.c_str()});
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      const std::string_view name = telemetry::meaningTable[i].variable;
+      if (!name.empty()) variables[i] = findSlot(group, {name});
     }
-    action = actionA;
+  }
+
+  const RowSlot& of(FieldMeaning meaning) const {
+    return variables[static_cast<std::size_t>(meaning)];
   }
 
   std::size_t columns;
-  bool live;
   bool attached;  ///< a blackboard of the computer that recorded
   RobotId robot;
   bool isMatch;
   RowSlot tick, ballX, ballY, ballVx, ballVy, clock, clockRunning, scoreLeft, scoreRight, tickTime;
   RowSlot trueX, trueY, trueYaw, headYaw, vx, vy, action, fallen, distance, kicks, falls,
       unknownActions, lastUnknown;
-  RowSlot actionA, voltage, lost, ballDist, pan, locX, locY, locTheta, belief, age, rate, loss,
-      errors, volts, jitter, lostMessages, duplicates, late;
-  std::array<RowSlot, flagCount> flags;
-  std::optional<GameSlots> game;      // of the match
-  std::optional<PlayerSlots> player;  // of a robot
+  std::array<RowSlot, telemetry::fieldMeaningCount> variables;  // of the blackboard
+  std::optional<GameSlots> game;                                // of the match
+  std::optional<PlayerSlots> player;                            // of a robot
 };
 
 }  // namespace pitchboard::link

@@ -23,7 +23,7 @@ void RecordedFrames::addGame(std::size_t match, MatchFrame& frame) {
   for (std::size_t i = 0; i < m_groups.size(); ++i) {
     if (!m_groups[i] || !m_rows[i].present) continue;
     const Layout& layout = layoutOf(i);
-    if (layout.robot.value == 0 || layout.live || !layout.player) continue;
+    if (layout.robot.value == 0 || layout.attached || !layout.player) continue;
     if (std::abs(m_rows[i].time - m_rows[match].time) > timeTolerance) continue;
     if (const RobotFrame* robot = frame.robot(layout.robot)) {
       addPlayer(*layout.player, m_rows[i].view(), robot->identity, *world);
@@ -32,7 +32,7 @@ void RecordedFrames::addGame(std::size_t match, MatchFrame& frame) {
   showReferee(*world, frame);
 }
 
-void RecordedFrames::fillMatch(std::size_t group, MatchFrame& frame) {
+void RecordedFrames::fillMatch(std::size_t group, MatchFrame& frame, FrameSettings& settings) {
   const Layout& l = layoutOf(group);
   const telemetry::RowView row = m_rows[group].view();
   sim::GameSnapshot& s = frame.snapshot;
@@ -46,15 +46,15 @@ void RecordedFrames::fillMatch(std::size_t group, MatchFrame& frame) {
   s.tick = static_cast<std::uint64_t>(std::clamp(l.tick.readOr(row, 0.0), 0.0, 9e15));
   frame.tickMicroseconds = l.tickTime.readOr(row, 0.0);
   const telemetry::GroupInfo& info = *m_groups[group];
-  if (const auto physics = attribute(info, "physics"); !physics.empty()) frame.physics = physics;
+  if (const auto physics = attribute(info, "physics"); !physics.empty()) settings.physics = physics;
   if (const std::string seed(attribute(info, "seed")); !seed.empty()) {
-    frame.seed = std::strtoull(seed.c_str(), nullptr, 10);
+    settings.seed = std::strtoull(seed.c_str(), nullptr, 10);
   }
   double rate = 0.0;
   const std::string_view text = attribute(info, "tick_rate");
   std::from_chars(text.data(), text.data() + text.size(), rate);
   if (rate >= sim::tickRateParameter.least && rate <= sim::tickRateParameter.most) {
-    frame.tickRate = rate;
+    settings.tickRate = rate;
   }
 }
 

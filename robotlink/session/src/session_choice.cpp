@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include <robotlink/frame/build_robot.h>
 #include <robotlink/live/live_books.h>
 #include <robotlink/live/live_teams.h>
 #include <robotlink/session/live_moments.h>
@@ -189,7 +190,7 @@ void keepRobots(MatchFrame& frame, std::span<const std::string> robots) {
   std::erase_if(frame.drawings, [&frame](const telemetry::RobotDrawings& drawings) {
     return frame.robot(drawings.robot) == nullptr;
   });
-  if (frame.robots.size() < 2) frame.teamBall.reset();
+  if (!frame.teamBalls.empty()) frame.teamBalls = agreedBalls(frame.robots);
 }
 
 void chooseRobots(const telemetry::SessionReader& session, telemetry::ExportFormat format,

@@ -23,7 +23,7 @@ bool isPath(std::string_view text) {
 }  // namespace
 
 std::string_view meaningName(FieldMeaning meaning) {
-  return profile_words::meanings[static_cast<std::size_t>(meaning)];
+  return info(meaning).word;
 }
 
 std::string_view formatName(MessageFormat format) {

@@ -56,7 +56,7 @@ ProfileField fieldFrom(JsonReport& report, const JsonObject& object) {
   field.unit = object.text("unit", {}, maxFileBytes);
   // Profiles of version 0.1 call it "group".
   field.category = object.text(object.find("category") ? "category" : "group", {}, maxFileBytes);
-  field.meaning = chosen(object, "meaning", meanings, "meaning", FieldMeaning::None);
+  field.meaning = chosen(object, "meaning", meaningWords, "meaning", FieldMeaning::None);
   field.variable = object.text("variable", {}, maxFileBytes);
   field.key = object.text("key", {}, maxFileBytes);
   field.scale = object.number("scale", 1.0, anyNumber);

@@ -7,16 +7,15 @@
 #include <array>
 #include <string_view>
 
-#include <telemetry/wire/profile.h>
+#include <telemetry/wire/meanings.h>
 
 namespace pitchboard::telemetry::profile_words {
 
-inline constexpr std::array<std::string_view, fieldMeaningCount> meanings{
-    "none",         "robot",         "x",          "y",        "theta",
-    "belief",       "ball-distance", "ball-angle", "control",  "vision",
-    "localization", "decision",      "imu",        "action",   "yaw",
-    "voltage",      "sequence",      "team",       "ball-x",   "ball-y",
-    "ball-field-x", "ball-field-y",  "ball-seen",  "ball-age", "charge"};
+inline constexpr auto meaningWords = [] {
+  std::array<std::string_view, fieldMeaningCount> words;
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = meaningTable[i].word;
+  return words;
+}();
 inline constexpr std::array<std::string_view, 4> types{"int", "float", "flag", "text"};
 inline constexpr std::array<std::string_view, messageFormatCount> formats{
     "words", "key=value", "json", "lua", "binary", "mitecom", "hulks", "cit-brains", "protobuf"};
@@ -30,7 +29,7 @@ inline constexpr std::array<std::string_view, 3> robotSources{"message", "port",
 inline constexpr std::array<std::string_view, 2> encodings{"ascii", "utf-8"};
 inline constexpr std::array<std::string_view, 4> messages{"robocup", "nubots", "rhoban", "utra"};
 
-static_assert(!meanings.back().empty() && !formats.back().empty() && !wireTypes.back().empty(),
+static_assert(!formats.back().empty() && !wireTypes.back().empty(),
               "every value of an enumeration of profile.h needs its word here");
 
 inline constexpr std::size_t maxNameBytes = 60;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include <base/angles.h>
+#include <telemetry/wire/meanings.h>
 
 namespace pitchboard::telemetry {
 namespace {
@@ -17,31 +18,29 @@ constexpr double perMetre = 100.0, perVolt = 10.0, percent = 100.0;
 // Beyond it no field ends; what was sent stays in the message's own columns.
 constexpr double farAway = 1e6;
 
-enum class Kind { Length, Angle, Voltage, Time, Share };
-
 struct Unit {
   std::string_view name;
-  Kind kind;
+  UnitKind kind;
   double factor;  ///< to m, rad, V, s, 1
 };
 constexpr double radian = radiansFromDegrees(1.0);
-constexpr std::array<Unit, 17> units{{{"m", Kind::Length, 1.0},
-                                      {"cm", Kind::Length, 0.01},
-                                      {"mm", Kind::Length, 0.001},
-                                      {"rad", Kind::Angle, 1.0},
-                                      {"°", Kind::Angle, radian},
-                                      {"deg", Kind::Angle, radian},
-                                      {"V", Kind::Voltage, 1.0},
-                                      {"0.1 V", Kind::Voltage, 0.1},
-                                      {"dV", Kind::Voltage, 0.1},
-                                      {"mV", Kind::Voltage, 0.001},
-                                      {"s", Kind::Time, 1.0},
-                                      {"ms", Kind::Time, 0.001},
-                                      {"µs", Kind::Time, 1e-6},
-                                      {"us", Kind::Time, 1e-6},
-                                      {"ns", Kind::Time, 1e-9},
-                                      {"%", Kind::Share, 0.01},
-                                      {"1", Kind::Share, 1.0}}};
+constexpr std::array<Unit, 17> units{{{"m", UnitKind::Length, 1.0},
+                                      {"cm", UnitKind::Length, 0.01},
+                                      {"mm", UnitKind::Length, 0.001},
+                                      {"rad", UnitKind::Angle, 1.0},
+                                      {"°", UnitKind::Angle, radian},
+                                      {"deg", UnitKind::Angle, radian},
+                                      {"V", UnitKind::Voltage, 1.0},
+                                      {"0.1 V", UnitKind::Voltage, 0.1},
+                                      {"dV", UnitKind::Voltage, 0.1},
+                                      {"mV", UnitKind::Voltage, 0.001},
+                                      {"s", UnitKind::Time, 1.0},
+                                      {"ms", UnitKind::Time, 0.001},
+                                      {"µs", UnitKind::Time, 1e-6},
+                                      {"us", UnitKind::Time, 1e-6},
+                                      {"ns", UnitKind::Time, 1e-9},
+                                      {"%", UnitKind::Share, 0.01},
+                                      {"1", UnitKind::Share, 1.0}}};
 
 const Unit* unitNamed(std::string_view name) {
   const auto found = std::find_if(units.begin(), units.end(),
@@ -49,33 +48,9 @@ const Unit* unitNamed(std::string_view name) {
   return found == units.end() ? nullptr : &*found;
 }
 
-/// How the published system calls what has this meaning.
-struct Published {
-  FieldMeaning meaning;
-  Kind kind;
-  std::string_view variable;  ///< empty: only made of, never made
-  std::string_view unit;
-  std::string_view category;
-};
-constexpr std::array<Published, 13> publishedTable{
-    {{FieldMeaning::X, Kind::Length, "LOCALIZATION_X", "cm", "Localization"},
-     {FieldMeaning::Y, Kind::Length, "LOCALIZATION_Y", "cm", "Localization"},
-     {FieldMeaning::Theta, Kind::Angle, "LOCALIZATION_THETA", "°", "Localization"},
-     {FieldMeaning::Belief, Kind::Length, "BELIEF", "cm", "Localization"},
-     {FieldMeaning::BallDistance, Kind::Length, "VISION_BALL_DIST", "cm", "Vision"},
-     {FieldMeaning::BallAngle, Kind::Angle, "VISION_PAN_DEG", "°", "Vision"},
-     {FieldMeaning::Voltage, Kind::Voltage, "VOLTAGE", "0.1 V", "Robot"},
-     {FieldMeaning::Charge, Kind::Share, "CHARGE", "%", "Robot"},
-     {FieldMeaning::BallX, Kind::Length, {}, {}, {}},
-     {FieldMeaning::BallY, Kind::Length, {}, {}, {}},
-     {FieldMeaning::BallFieldX, Kind::Length, {}, {}, {}},
-     {FieldMeaning::BallFieldY, Kind::Length, {}, {}, {}},
-     {FieldMeaning::BallAge, Kind::Time, {}, {}, {}}}};
-
-const Published* publishedOf(FieldMeaning meaning) {
-  const auto found = std::find_if(publishedTable.begin(), publishedTable.end(),
-                                  [meaning](const Published& p) { return p.meaning == meaning; });
-  return found == publishedTable.end() ? nullptr : &*found;
+/// Null for what is taken as it is sent.
+const MeaningInfo* publishedOf(FieldMeaning meaning) {
+  return info(meaning).kind == UnitKind::None ? nullptr : &info(meaning);
 }
 
 bool isOfBall(FieldMeaning meaning) {
@@ -86,7 +61,7 @@ bool isOfBall(FieldMeaning meaning) {
 
 /// The message has the value in another unit than the published one.
 bool differs(const ProfileField& field) {
-  const Published* known = publishedOf(field.meaning);
+  const MeaningInfo* known = publishedOf(field.meaning);
   const Unit* unit = unitNamed(field.unit);
   if (known == nullptr || known->variable.empty() || unit == nullptr) return false;
   return unit->kind == known->kind && unit->factor != unitNamed(known->unit)->factor;
@@ -120,25 +95,26 @@ bool isPublishedForm(const Profile& profile) {
 }
 
 bool unitFits(FieldMeaning meaning, std::string_view unit) {
-  const Published* known = publishedOf(meaning);
+  const MeaningInfo* known = publishedOf(meaning);
   if (known == nullptr) return true;
   const Unit* found = unitNamed(unit);
   return found != nullptr && found->kind == known->kind;
 }
 
 std::string unitsOf(FieldMeaning meaning) {
-  const Published* known = publishedOf(meaning);
+  const MeaningInfo* known = publishedOf(meaning);
   if (known == nullptr) return "any";
   switch (known->kind) {
-    case Kind::Length:
+    case UnitKind::Length:
       return "m, cm or mm";
-    case Kind::Angle:
+    case UnitKind::Angle:
       return "rad or °";
-    case Kind::Voltage:
+    case UnitKind::Voltage:
       return "V, 0.1 V or mV";
-    case Kind::Time:
+    case UnitKind::Time:
       return "s, ms, µs or ns";
-    case Kind::Share:
+    case UnitKind::None:
+    case UnitKind::Share:
       break;
   }
   return "% or 1";
@@ -164,7 +140,7 @@ PublishedValues::PublishedValues(const Profile& sent, const Surroundings& where)
     const ProfileField& field = sent.fields[i];
     const auto meaning = static_cast<std::size_t>(field.meaning);
     if (field.meaning != FieldMeaning::None) m_indices[meaning] = i;
-    if (const Published* known = publishedOf(field.meaning)) {
+    if (const MeaningInfo* known = publishedOf(field.meaning)) {
       const Unit* unit = unitNamed(field.unit);
       const bool fits = unit != nullptr && unit->kind == known->kind;
       if (!known->unit.empty()) m_factors[meaning] = unitNamed(known->unit)->factor;
@@ -177,7 +153,7 @@ PublishedValues::PublishedValues(const Profile& sent, const Surroundings& where)
       wanted[static_cast<std::size_t>(FieldMeaning::BallAngle)] = true;
     }
   }
-  const auto give = [this](std::size_t index, const Published& known) {
+  const auto give = [this](std::size_t index, const MeaningInfo& known) {
     ProfileField& field = m_shown.fields[index];
     field.meaning = known.meaning;
     field.unit = known.unit;
@@ -190,7 +166,7 @@ PublishedValues::PublishedValues(const Profile& sent, const Surroundings& where)
     shown.key = field.sentName();
     shown.name = field.variable;
     const auto unit = where.unitOf ? where.unitOf(field.variable) : std::string();
-    const Published* known = publishedOf(field.meaning);
+    const MeaningInfo* known = publishedOf(field.meaning);
     if (known != nullptr && !known->variable.empty() &&
         (unit == known->unit || unit.empty() || field.variable == known->variable)) {
       if (wanted[static_cast<std::size_t>(field.meaning)]) give(i, *known);
@@ -201,7 +177,7 @@ PublishedValues::PublishedValues(const Profile& sent, const Surroundings& where)
       shown.unit = unit;
     }
   }
-  for (const Published& known : publishedTable) {
+  for (const MeaningInfo& known : meaningTable) {
     if (!wanted[static_cast<std::size_t>(known.meaning)] || known.variable.empty()) continue;
     if (m_shown.fields.size() >= DecodedText::maxValues) break;
     for (ProfileField& field : m_shown.fields) {

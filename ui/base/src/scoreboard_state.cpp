@@ -92,8 +92,7 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   }
   QStringList penalties;
   for (const link::RobotFrame& robot : frame.robots) {
-    const auto& penalty =
-        robot.health && robot.health->penalty ? robot.health->penalty : robot.penalty;
+    const auto& penalty = robot.penalty;
     if (!penalty) continue;
     penalties << robotName(robot.identity) + (penalty->secondsLeft > 0
                                                   ? QStringLiteral(" %1").arg(penalty->secondsLeft)

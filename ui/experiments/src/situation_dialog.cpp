@@ -42,7 +42,7 @@ QString usualFolder(const QSettings* settings) {
 }
 
 bool knowsBehaviour(const link::RobotFrame& robot) {
-  return robot.board && !robot.board->behaviour.empty();
+  return !robot.behaviour.empty();
 }
 
 QWidget* inRow(QWidget* parent, std::initializer_list<QWidget*> widgets) {

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <robotlink/frame/belief.h>
 #include <robotlink/frame/robot_frame.h>
-#include <simcore/world/published_frame.h>
 #include <ui/base/theme.h>
 
 #include "field_stamps.h"
@@ -22,11 +20,10 @@ constexpr double noseReach = 1.75;  // of the ghost's radius
 BeliefLook beliefOf(const link::RobotFrame& robot, const sim::FieldSpec& field) {
   BeliefLook look;
   look.team = robot.identity.team;
-  look.ghost = !robot.health;
-  look.believed = robot.health ? robot.pose : link::believedPose(field, *robot.board);
+  look.ghost = !robot.link;
+  look.believed = robot.belief;
   if (look.believed) {
-    const double sigma =
-        sim::published_frame::metresFromCm(static_cast<double>(robot.board->belief));
+    const double sigma = robot.sigma.value_or(0.0);
     look.sigma = std::isfinite(sigma) ? std::clamp(sigma, 0.0, field.length) : field.length;
   }
   look.number = robot.identity.number;
@@ -36,8 +33,8 @@ BeliefLook beliefOf(const link::RobotFrame& robot, const sim::FieldSpec& field) 
       look.stands = robot.pose.position;
     }
   }
-  look.origin = link::perceivingPose(field, robot).position;
-  look.ball = link::perceivedBall(field, robot);
+  look.origin = robot.belief.value_or(robot.pose).position;
+  if (robot.ball) look.ball = robot.ball->place;
   look.opacity = robot.timedOut() ? 0.45 : 1.0;
   return look;
 }

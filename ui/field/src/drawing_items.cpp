@@ -158,7 +158,7 @@ void DrawingItems::show(const link::MatchFrame* frame, const std::vector<RobotKe
     }
     const link::RobotFrame* robot = frame->robot(drawn.robot);
     for (const auto& layer : drawn.layers) {
-      const auto origin = link::drawingOrigin(layer->frame, robot, frame->field);
+      const auto origin = link::drawingOrigin(layer->frame, robot);
       if (!origin || !m_style->drawings.shows(drawn.robot, layer->name)) continue;
       const std::pair key(drawn.robot, layer->name);
       auto kept = before.extract(key);

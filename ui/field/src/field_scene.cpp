@@ -74,7 +74,7 @@ struct FieldScene::Robot {
 FieldScene::FieldScene(QObject* parent)
     : QGraphicsScene(parent),
       m_ball(new BallItem(&m_style)),
-      m_teamBall(new TeamBallItem(&m_style)),
+      m_teamBalls(new TeamBallsItem(&m_style)),
       m_drawings(std::make_unique<DrawingItems>(this, &m_style, drawingHeight)),
       m_compared(new ComparedItem(&m_style)),
       m_eopra(new SectorItem(&m_style, SectorItem::Kind::Eopra)),
@@ -85,7 +85,7 @@ FieldScene::FieldScene(QObject* parent)
   // Everything moves all the time: an index would cost more than it saves.
   setItemIndexMethod(QGraphicsScene::NoIndex);
   const std::pair<QGraphicsItem*, Height> items[] = {
-      {m_ball, ballHeight},    {m_teamBall, ballHeight},   {m_compared, beliefHeight},
+      {m_ball, ballHeight},    {m_teamBalls, ballHeight},  {m_compared, beliefHeight},
       {m_eopra, sectorHeight}, {m_starVars, sectorHeight}, {m_names, nameHeight},
       {m_ruler, toolHeight},   {m_band, toolHeight}};
   for (const auto& [item, height] : items) {
@@ -107,7 +107,7 @@ void FieldScene::styleChanged() {
     robot->particles.styleChanges();
     robot->path.styleChanges();
   }
-  m_teamBall->styleChanges();
+  m_teamBalls->styleChanges();
   m_drawings->styleChanges();
   m_compared->styleChanges();
   m_ball->styleChanges();
@@ -121,7 +121,7 @@ void FieldScene::styleChanged() {
 void FieldScene::showFrame(const FramePtr& frame) {
   m_frame = frame;
   m_ball->setVisible(frame && frame->ballKnown);
-  m_teamBall->setBall(frame ? frame->teamBall : std::nullopt);
+  m_teamBalls->setBalls(frame ? frame->teamBalls : std::vector<link::TeamBall>());
   m_drawings->show(frame.get(), m_selection);
   if (!frame) {
     m_robots.clear();
@@ -129,8 +129,8 @@ void FieldScene::showFrame(const FramePtr& frame) {
     showSelected();
     return;
   }
-  if (!(m_style.field == frame->field)) {
-    m_style.field = frame->field;
+  if (!(m_style.field == frame->settings->field)) {
+    m_style.field = frame->settings->field;
     update();
   }
   matchRobots();
@@ -155,7 +155,7 @@ void FieldScene::showNames() {
   }
   m_names->setRobots(std::move(named));
   for (const auto& [id, place] : m_names->words()) m_robots.at(id)->body.setWordPlace(place);
-  m_teamBall->setRobots(std::move(places), m_style.robotDrawRadius());
+  m_teamBalls->setRobots(std::move(places), m_style.robotDrawRadius());
 }
 
 // Of the selected robots, or of all while none is selected: six clouds at once hide each other.
@@ -214,10 +214,9 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
   look.followed = m_followed == id;
   if (now.fallen) look.word = QStringLiteral("fallen");
   if (now.timedOut()) {
-    look.word =
-        QStringLiteral("timeout %1").arg(durationText(telemetry::secondsOf(now.health->age)));
+    look.word = QStringLiteral("timeout %1").arg(durationText(telemetry::secondsOf(now.link->age)));
     look.opacity = 0.45;
-  } else if (now.penalty || (now.health && now.health->penalty)) {
+  } else if (now.penalty) {
     look.word = QStringLiteral("penalised");
   }
   robot.body.setLook(look);
@@ -226,12 +225,12 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
   robot.trail.append(now.pose.position, m_frame->snapshot.time);
   robot.trail.setVisible(now.poseKnown() && m_style.shows(FieldLayer::Trails) && isTrailShown(id));
   // Where a robot that is heard looks, it does not say.
-  robot.wedge.setVisible(!now.health && m_style.shows(FieldLayer::FieldOfView) &&
+  robot.wedge.setVisible(!now.link && m_style.shows(FieldLayer::FieldOfView) &&
                          (look.selected || m_style.wedgeForAll));
   robot.wedge.setCamera(now.fieldOfView, now.visionRange);
   robot.wedge.setHead(now.pose.position, now.headYaw);
-  robot.belief.setVisible(now.board && now.poseKnown());
-  if (now.board) robot.belief.setLook(beliefOf(now, m_style.field));
+  robot.belief.setVisible(now.boardKey || now.belief);
+  robot.belief.setLook(beliefOf(now, m_style.field));
   showOtherPose(robot, now);
 }
 

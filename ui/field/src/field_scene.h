@@ -27,7 +27,7 @@ class RobotItem;
 class RubberBandItem;
 class RulerItem;
 class SectorItem;
-class TeamBallItem;
+class TeamBallsItem;
 class TrailItem;
 class ViewWedgeItem;
 
@@ -108,7 +108,7 @@ class FieldScene : public QGraphicsScene {
   std::set<RobotKey> m_hiddenTrails;
   std::optional<RobotKey> m_followed;
   BallItem* m_ball;
-  TeamBallItem* m_teamBall;
+  TeamBallsItem* m_teamBalls;
   std::unique_ptr<DrawingItems> m_drawings;
   ComparedItem* m_compared;
   SectorItem* m_eopra;

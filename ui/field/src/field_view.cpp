@@ -292,7 +292,7 @@ FieldView::~FieldView() {
 }
 
 void FieldView::showFrame(const FramePtr& frame) {
-  const bool otherField = frame && !(d->scene->style().field == frame->field);
+  const bool otherField = frame && !(d->scene->style().field == frame->settings->field);
   const bool wasEmpty = !d->scene->frame() || d->scene->frame()->robots.empty();
   d->scene->showFrame(frame);
   d->pointer->hold();

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include <base/angles.h>
-#include <robotlink/frame/belief.h>
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/scenario/scenario.h>
 #include <ui/base/robot_words.h>
@@ -26,14 +25,13 @@ QString distanceText(double metres) {
 }
 
 QString beliefText(const link::MatchFrame& frame, const link::RobotFrame& robot) {
-  const double sigma = static_cast<double>(robot.board->belief) / 100.0;
-  const QString sure = QStringLiteral("σ %1").arg(distanceText(sigma));
-  if (!frame.truthKnown) return QStringLiteral("Belief: %1").arg(sure);
-  const auto believed = link::believedPose(frame.field, *robot.board);
-  if (!believed) return QStringLiteral("Belief: localization does not work");
-  const double turned = std::abs(wrapToPi(believed->yaw - robot.pose.yaw));
+  const QString sure =
+      robot.sigma ? QStringLiteral("σ %1").arg(distanceText(*robot.sigma)) : QString();
+  if (!frame.truthKnown) return sure.isEmpty() ? sure : QStringLiteral("Belief: %1").arg(sure);
+  if (!robot.belief) return QStringLiteral("Belief: localization does not work");
+  const double turned = std::abs(wrapToPi(robot.belief->yaw - robot.pose.yaw));
   return QStringLiteral("Belief: %1 and %2° off, %3")
-      .arg(distanceText(distance(believed->position, robot.pose.position)))
+      .arg(distanceText(distance(robot.belief->position, robot.pose.position)))
       .arg(std::lround(degreesFromRadians(turned)))
       .arg(sure);
 }
@@ -46,14 +44,13 @@ QString hoverText(const link::MatchFrame& frame, RobotKey id) {
   QStringList lines;
   QString head = robotName(robot->identity);
   if (!robot->ownName.empty()) head += QLatin1Char(' ') + QString::fromStdString(robot->ownName);
-  if (robot->board && !robot->board->behaviour.empty()) {
-    head += robot->board->behaviour == link::noBehaviour
+  if (!robot->behaviour.empty()) {
+    head += robot->behaviour == link::noBehaviour
                 ? QStringLiteral(" · your own process")
-                : QStringLiteral(" · ") + capitalised(robot->board->behaviour);
+                : QStringLiteral(" · ") + capitalised(robot->behaviour);
   }
   lines << head;
-  const int action = robot->board ? robot->board->actionA : robot->action;
-  lines << QStringLiteral("Action: %1").arg(actionText(action));
+  lines << QStringLiteral("Action: %1").arg(actionText(robot->decided.value_or(robot->action)));
   if (robot->thoughts && robot->thoughts->path && !robot->thoughts->path->points.empty()) {
     const link::PlannedPath& path = *robot->thoughts->path;
     lines << QStringLiteral("Target: %1%2")
@@ -65,25 +62,24 @@ QString hoverText(const link::MatchFrame& frame, RobotKey id) {
                  .arg(placeText(robot->pose.position),
                       fieldNumber(degreesFromRadians(robot->pose.yaw), 0));
   }
-  if (robot->board && robot->poseKnown()) lines << beliefText(frame, *robot);
-  if (const auto ball = link::perceivedBall(frame.field, *robot)) {
-    QString seen = QStringLiteral("Sees the ball at %1").arg(placeText(*ball));
+  if (robot->boardKey || robot->belief) lines << beliefText(frame, *robot);
+  if (robot->ball) {
+    const Point& ball = robot->ball->place;
+    QString seen = QStringLiteral("Sees the ball at %1").arg(placeText(ball));
     if (frame.ballKnown && frame.truthKnown) {
-      seen += QStringLiteral(", %1 off").arg(distanceText(distance(*ball, frame.snapshot.ball)));
+      seen += QStringLiteral(", %1 off").arg(distanceText(distance(ball, frame.snapshot.ball)));
     }
     lines << seen;
   }
   if (robot->timedOut()) {
     lines << QStringLiteral("Not heard for %1")
-                 .arg(durationText(telemetry::secondsOf(robot->health->age)));
+                 .arg(durationText(telemetry::secondsOf(robot->link->age)));
   }
-  const auto& penalty = robot->penalty  ? robot->penalty
-                        : robot->health ? robot->health->penalty
-                                        : robot->penalty;
-  if (penalty) {
+  if (const auto& penalty = robot->penalty) {
     lines << QStringLiteral("Penalised: %1, %2")
                  .arg(QString::fromStdString(penalty->words), durationText(penalty->secondsLeft));
   }
+  lines.removeAll(QString());
   return lines.join(QLatin1Char('\n'));
 }
 

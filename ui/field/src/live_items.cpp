@@ -9,50 +9,54 @@
 namespace pitchboard::ui {
 namespace {
 
+QString wordsOf(const link::TeamBall& ball) {
+  return QStringLiteral("%1 of %2 agree").arg(ball.agree).arg(ball.see);
+}
+
 QColor halo() {
   return theme().fieldBorder.darker(isDarkTheme() ? 130 : 190);
 }
 
 }  // namespace
 
-void TeamBallItem::setBall(const std::optional<link::TeamBall>& ball) {
-  setVisible(ball.has_value());
-  if (!ball) return;
+void TeamBallsItem::setBalls(std::vector<link::TeamBall> balls) {
+  setVisible(!balls.empty());
   prepareGeometryChange();
-  m_ball = *ball;
-  m_plate = plateSize(words());
-  setPos(toScene(ball->position));
+  m_balls = std::move(balls);
   update();
 }
 
-QString TeamBallItem::words() const {
-  return QStringLiteral("%1 of %2 agree").arg(m_ball.agree).arg(m_ball.see);
+double TeamBallsItem::radius(const link::TeamBall& ball) const {
+  return std::max(ball.spread, m_style->ballDrawRadius() + m_style->metres(5.0));
 }
 
-double TeamBallItem::radius() const {
-  return std::max(m_ball.spread, m_style->ballDrawRadius() + m_style->metres(5.0));
+QRectF TeamBallsItem::boundingRect() const {
+  QRectF bounds;
+  for (const link::TeamBall& ball : m_balls) {
+    const QSizeF plate = plateSize(wordsOf(ball));
+    const double reach = radius(ball) + m_style->metres(14.0 + plate.height());
+    const double wide = radius(ball) + m_style->metres(16.0 + plate.width());
+    const QPointF at = toScene(ball.position);
+    bounds |= QRectF(at.x() - wide, at.y() - reach, 2 * wide, 2 * reach);
+  }
+  return bounds;
 }
 
-QRectF TeamBallItem::boundingRect() const {
-  const double reach = radius() + m_style->metres(14.0 + m_plate.height());
-  const double wide = radius() + m_style->metres(16.0 + m_plate.width());
-  return {-wide, -reach, 2 * wide, 2 * reach};
-}
-
-void TeamBallItem::setRobots(std::vector<QPointF> robots, double radius) {
+void TeamBallsItem::setRobots(std::vector<QPointF> robots, double radius) {
   m_robots = std::move(robots);
   m_robotRadius = radius;
 }
 
 // Above the ring, else below, else beside it: the first place that no robot covers.
-QPointF TeamBallItem::wordsAt(const ScreenPainting& screen, double ring) const {
-  const double high = ring + 12.0, wide = ring + 6.0 + m_plate.width() / 2;
+QPointF TeamBallsItem::wordsAt(const ScreenPainting& screen, const link::TeamBall& ball,
+                               QSizeF plate, double ring) const {
+  const double high = ring + 12.0, wide = ring + 6.0 + plate.width() / 2;
   const double robot = m_robotRadius * screen.pixelsPerMetre();
   const QPointF places[] = {{0, -high}, {0, high}, {wide, 0}, {-wide, 0}};
   for (const QPointF& place : places) {
-    const QRectF box(place - QPointF(m_plate.width(), m_plate.height()) / 2, m_plate);
+    const QRectF box(place - QPointF(plate.width(), plate.height()) / 2, plate);
     const bool covered = std::ranges::any_of(m_robots, [&](const QPointF& each) {
-      const QPointF at = screen.pixels(each - pos());
+      const QPointF at = screen.pixels(each - toScene(ball.position));
       return box.adjusted(-robot, -robot, robot, robot).contains(at);
     });
     if (!covered) return place;
@@ -60,18 +64,21 @@ QPointF TeamBallItem::wordsAt(const ScreenPainting& screen, double ring) const {
   return places[0];
 }
 
-void TeamBallItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
-  const ScreenPainting screen(painter, QPointF(0, 0));
-  const double ring = radius() * screen.pixelsPerMetre();
-  const double arm = 4.0;
-  QPen pen(theme().ball, 1.8);
-  pen.setCapStyle(Qt::FlatCap);
-  painter->setPen(pen);
-  painter->setBrush(Qt::NoBrush);
-  painter->drawEllipse(QPointF(0, 0), ring, ring);
-  painter->drawLine(QPointF(-arm, 0), QPointF(arm, 0));
-  painter->drawLine(QPointF(0, -arm), QPointF(0, arm));
-  drawPlateText(painter, wordsAt(screen, ring), words());
+void TeamBallsItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
+  for (const link::TeamBall& ball : m_balls) {
+    const ScreenPainting screen(painter, toScene(ball.position));
+    const double ring = radius(ball) * screen.pixelsPerMetre();
+    const double arm = 4.0;
+    // Rings of two teams are told apart by the teams' colours.
+    QPen pen(m_balls.size() > 1 ? theme().team(ball.team) : theme().ball, 1.8);
+    pen.setCapStyle(Qt::FlatCap);
+    painter->setPen(pen);
+    painter->setBrush(Qt::NoBrush);
+    painter->drawEllipse(QPointF(0, 0), ring, ring);
+    painter->drawLine(QPointF(-arm, 0), QPointF(arm, 0));
+    painter->drawLine(QPointF(0, -arm), QPointF(0, arm));
+    drawPlateText(painter, wordsAt(screen, ball, plateSize(wordsOf(ball)), ring), wordsOf(ball));
+  }
 }
 
 void OtherPoseItem::setOther(const OtherPose& other) {

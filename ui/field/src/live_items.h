@@ -13,11 +13,11 @@
 
 namespace pitchboard::ui {
 
-/// A cross in a circle as wide as the robots' opinions, with how many of them agree.
-class TeamBallItem : public QGraphicsItem {
+/// For each team a cross in a circle as wide as its robots' opinions, with how many of them agree.
+class TeamBallsItem : public QGraphicsItem {
  public:
-  explicit TeamBallItem(const FieldStyle* style) : m_style(style) {}
-  void setBall(const std::optional<link::TeamBall>& ball);
+  explicit TeamBallsItem(const FieldStyle* style) : m_style(style) {}
+  void setBalls(std::vector<link::TeamBall> balls);
   /// Where robots are drawn, m: the words keep off them where they can.
   void setRobots(std::vector<QPointF> robots, double radius);
   void styleChanges() { prepareGeometryChange(); }
@@ -25,13 +25,12 @@ class TeamBallItem : public QGraphicsItem {
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
  private:
-  QString words() const;
-  double radius() const;  // metres
-  QPointF wordsAt(const ScreenPainting& screen, double ring) const;
+  double radius(const link::TeamBall& ball) const;  // metres
+  QPointF wordsAt(const ScreenPainting& screen, const link::TeamBall& ball, QSizeF plate,
+                  double ring) const;
 
   const FieldStyle* m_style;
-  link::TeamBall m_ball;
-  QSizeF m_plate;  // of its words, px
+  std::vector<link::TeamBall> m_balls;
   std::vector<QPointF> m_robots;
   double m_robotRadius = 0.0;
 };

@@ -25,13 +25,13 @@ QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* fram
   }
   if (frame == nullptr) return {};
   for (const link::RobotFrame& robot : frame->robots) {
-    if (!robot.health) continue;
-    if (robot.health->conflict) {
+    if (!robot.link) continue;
+    if (robot.link->conflict) {
       return QStringLiteral("Number %1 is sent by two programs").arg(robot.identity.number);
     }
     if (robot.timedOut()) {
       return QStringLiteral("%1 has not been heard for %2. Its card comes back by itself.")
-          .arg(robotName(robot.identity), durationText(telemetry::secondsOf(robot.health->age)));
+          .arg(robotName(robot.identity), durationText(telemetry::secondsOf(robot.link->age)));
     }
   }
   if (frame->referee && frame->referee->conflict) {

@@ -280,8 +280,8 @@ class NoiseDock : public QScrollArea {
 
   // The noise may have been changed elsewhere; our own changes arrive here a moment later.
   void follow(const link::MatchFrame& frame) {
-    if (frame.noise == m_shown) return;
-    m_shown = m_noise = frame.noise;
+    if (frame.settings->noise == m_shown) return;
+    m_shown = m_noise = frame.settings->noise;
     showNoise();
   }
 

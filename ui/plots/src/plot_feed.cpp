@@ -86,7 +86,7 @@ void PlotFeed::findKeepers() {
   if (!frame) return;
   QStringList now;
   for (const link::RobotFrame& robot : frame->robots) {
-    if (robot.board && robot.board->behaviour == keeperBehaviour) {
+    if (robot.behaviour == keeperBehaviour) {
       now << robotName(robot.identity);
     }
   }

@@ -93,8 +93,8 @@ class ProcessesDock : public QStackedWidget {
   }
 
   /// What the clicked row and the selected ones stand for.
-  std::vector<link::ProcessStatus> chosen(const QModelIndex& clicked) const {
-    std::vector<link::ProcessStatus> all;
+  std::vector<link::ProcessSummary> chosen(const QModelIndex& clicked) const {
+    std::vector<link::ProcessSummary> all;
     const QModelIndexList rows = m_table->selectionModel()->selectedRows();
     const bool among = std::any_of(rows.begin(), rows.end(), [&clicked](const QModelIndex& row) {
       return row.row() == clicked.row();
@@ -123,7 +123,8 @@ class ProcessesDock : public QStackedWidget {
       QAction* action =
           menu.addAction(themedIcon(QString::fromUtf8(icon)), text.arg(name), m_controller,
                          [edits = m_controller->edits(), order, processes] {
-                           for (const link::ProcessStatus& one : processes) (edits->*order)(one.id);
+                           for (const link::ProcessSummary& one : processes)
+                             (edits->*order)(one.id);
                          });
       action->setEnabled(enabled);
     };
@@ -133,10 +134,13 @@ class ProcessesDock : public QStackedWidget {
     offer("process-stop", QStringLiteral("Kill %1"), anyRuns, &MatchEdits::killProcess);
     menu.addSeparator();
     menu.addAction(QStringLiteral("Select all processes of %1").arg(robot), this, [this, index] {
-      const RobotId id = m_model->statusAt(index.row()).robot;
+      const auto robotAt = [this](int row) {
+        return m_model->index(row, ProcessesModel::Robot).data().toString();
+      };
+      const QString chosen = robotAt(index.row());
       m_table->clearSelection();
       for (int row = 0; row < m_model->rowCount(); ++row) {
-        if (m_model->statusAt(row).robot != id) continue;
+        if (robotAt(row) != chosen) continue;
         m_table->selectionModel()->select(m_model->index(row, 0),
                                           QItemSelectionModel::Select | QItemSelectionModel::Rows);
       }

@@ -10,9 +10,9 @@
 namespace pitchboard::ui {
 namespace {
 
-using State = link::ProcessState;
+using State = link::ProcessSummary::State;
 
-QString stateText(const link::ProcessStatus& status) {
+QString stateText(const link::ProcessSummary& status) {
   const QString detail = QString::fromStdString(status.detail);
   const auto with = [&detail](const QString& word) {
     return detail.isEmpty() ? word : word + QStringLiteral(" (") + detail + QLatin1Char(')');
@@ -41,13 +41,13 @@ QString stateText(const link::ProcessStatus& status) {
 void ProcessesModel::update(const link::MatchFrame& frame, Time now) {
   std::vector<Row> rows;
   for (const link::RobotFrame& robot : frame.robots) {
-    for (const link::ProcessStatus& one : robot.processes()) {
+    for (const link::ProcessSummary& one : robot.processes()) {
       const auto since = std::chrono::duration_cast<std::chrono::seconds>(now - one.started);
       rows.push_back({one, robotName(robot.identity), one.pid != 0 ? qint64{since.count()} : 0});
     }
   }
   const auto sameKey = [](const Row& a, const Row& b) {
-    return a.status.id == b.status.id && a.status.robot == b.status.robot;
+    return a.status.id == b.status.id && a.robot == b.robot;
   };
   if (!std::equal(rows.begin(), rows.end(), m_rows.begin(), m_rows.end(), sameKey)) {
     beginResetModel();
@@ -69,7 +69,7 @@ void ProcessesModel::clear() {
   endResetModel();
 }
 
-const link::ProcessStatus& ProcessesModel::statusAt(int row) const {
+const link::ProcessSummary& ProcessesModel::statusAt(int row) const {
   return m_rows[static_cast<std::size_t>(row)].status;
 }
 
@@ -82,7 +82,7 @@ int ProcessesModel::columnCount(const QModelIndex& parent) const {
 }
 
 QString ProcessesModel::text(const Row& row, int column) const {
-  const link::ProcessStatus& status = row.status;
+  const link::ProcessSummary& status = row.status;
   const bool runs = status.pid != 0;
   switch (column) {
     case Robot:

@@ -81,7 +81,7 @@ const std::vector<Formation>& formations() {
 
 FormationPlaces placesOf(std::size_t index, const link::MatchFrame& frame, bool leftAttacks) {
   const auto kind = static_cast<Kind>(std::min(index, formations().size() - 1));
-  const sim::FieldSpec& field = frame.field;
+  const sim::FieldSpec& field = frame.settings->field;
   std::vector<sim::RobotIdentity> robots;
   for (const link::RobotFrame& robot : frame.robots) robots.push_back(robot.identity);
   FormationPlaces places;

@@ -4,24 +4,18 @@
 #include <QStringList>
 #include <algorithm>
 
-#include <robotlink/frame/belief.h>
+#include <base/angles.h>
+#include <robotlink/scenario/scenario.h>
+#include <simcore/world/published_frame.h>
 #include <ui/base/robot_words.h>
 
 namespace pitchboard::ui {
 namespace {
 
-// A communication process sets no flag on its blackboard: its child process tells.
-bool communicationRuns(const link::RobotFrame& robot) {
-  const auto processes = robot.processes();
-  return std::any_of(processes.begin(), processes.end(), [](const link::ProcessStatus& one) {
-    return one.name == "communication" && one.state == link::ProcessState::Running;
-  });
-}
-
 /// Which processes run for it, on a line of its own.
 QString runsText(const link::RobotFrame& robot) {
   QStringList names;
-  for (const link::ProcessStatus& one : robot.processes()) {
+  for (const link::ProcessSummary& one : robot.processes()) {
     if (one.pid != 0) names << QString::fromStdString(one.name);
   }
   return names.isEmpty() ? QString()
@@ -30,21 +24,21 @@ QString runsText(const link::RobotFrame& robot) {
 
 /// What is wrong with the separate processes of the robot; the least of it is one that is slow.
 void tagProcesses(CardState& card, const link::RobotFrame& robot) {
-  for (const link::ProcessStatus& one : robot.processes()) {
+  for (const link::ProcessSummary& one : robot.processes()) {
     const QString name = QString::fromStdString(one.name);
-    if (one.state == link::ProcessState::GivenUp) {
+    if (one.state == link::ProcessSummary::State::GivenUp) {
       card.tagKind = TagKind::Error;
       card.tag = QStringLiteral("%1 given up").arg(name);
       return;
     }
-    if (one.state == link::ProcessState::Silent) {
+    if (one.state == link::ProcessSummary::State::Silent) {
       card.tagKind = TagKind::Warning;
       card.tag = QStringLiteral("%1 silent").arg(name);
     } else if (card.tag.isEmpty() && one.foreign && one.achieved > 0.0 &&
                one.achieved < 0.95 * one.speed) {
       card.tagKind = TagKind::Warning;
       card.tag = QStringLiteral("%1 reaches ×%2").arg(name).arg(one.achieved, 0, 'f', 1);
-      const QString why = QString::fromUtf8(link::whyRealTime(one.clock));
+      const QString why = QString::fromStdString(one.whyRealTime);
       if (!why.isEmpty()) {
         card.tagTip = QStringLiteral("%1 %2 keeps real time: %3").arg(card.name, name, why);
       }
@@ -52,42 +46,108 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
   }
 }
 
-void chooseTag(CardState& card, const sim::RobotStatistics& statistics, int action, bool fallen) {
-  for (std::size_t i = 0; i < card.lamps.size(); ++i) {
-    if (card.lamps[i].state != LampState::Silent) continue;
-    card.tagKind = TagKind::Error;
-    card.tag = QStringLiteral("%1 silent %2")
-                   .arg(QLatin1Char(CardState::letters[i]))
-                   .arg(durationText(card.lamps[i].seconds));
-    return;
+QString linkText(const telemetry::LinkHealth& link) {
+  // A small age would only flicker: robots speak about once a second.
+  QStringList parts{durationText(telemetry::secondsOf(link.age), 1),
+                    QStringLiteral("%1/s").arg(
+                        numberText(link.timedOut ? 0.0 : link.rate, link.timedOut ? 0 : 1))};
+  if (link.loss && !link.timedOut) {
+    parts << QStringLiteral("%1 %").arg(numberText(*link.loss * 100, 1));
   }
-  if (card.batteryLow()) {
-    card.tagKind = TagKind::Error;
-    card.tag = QStringLiteral("battery low");
+  if (link.errorCount > 0) parts << QStringLiteral("%1 bad").arg(countText(link.errorCount));
+  return parts.join(QStringLiteral(" · "));
+}
+
+QString linkTip(const link::RobotFrame& robot) {
+  const telemetry::LinkHealth& link = *robot.link;
+  QStringList tip{
+      QStringLiteral("Heard from %1").arg(QString::fromStdString(link.sender.text())),
+      QStringLiteral("Last message %1 ago, %2 per second, jitter %3 ms")
+          .arg(durationText(telemetry::secondsOf(link.age), 1), numberText(link.rate, 1),
+               numberText(link.jitter * 1000, 0)),
+      // A recording counts the bad ones only.
+      link.messages > 0
+          ? QStringLiteral("%1 messages, %2 bytes, %3 bad ones")
+                .arg(countText(link.messages), countText(link.bytes), countText(link.errorCount))
+          : QStringLiteral("%1 bad messages").arg(countText(link.errorCount)),
+      link.loss ? QStringLiteral("%1 % lost").arg(numberText(*link.loss * 100, 1))
+                : QStringLiteral("Loss is not known: the messages have no sequence number")};
+  if (link.recoveries > 0) tip << QStringLiteral("Came back %1 times").arg(link.recoveries);
+  if (!robot.poseKnown()) tip << QStringLiteral("Its messages have no position");
+  return tip.join(QLatin1Char('\n'));
+}
+
+void chooseTag(CardState& card, const link::RobotFrame& robot) {
+  const auto put = [&card](TagKind kind, const QString& text) {
+    card.tagKind = kind;
+    card.tag = text;
+  };
+  const auto silent = std::ranges::find(card.lamps, LampState::Silent, &Lamp::state);
+  const sim::RobotStatistics& statistics = robot.statistics;
+  if (robot.timedOut()) {
+    put(TagKind::Error,
+        QStringLiteral("TIMEOUT %1").arg(durationText(telemetry::secondsOf(robot.link->age))));
+  } else if (robot.link && robot.link->conflict) {
+    put(TagKind::Error, QStringLiteral("number sent twice"));
+  } else if (robot.penalty) {
+    // "pickup or incapable": the seconds must not be cut off.
+    const QString words =
+        QString::fromStdString(robot.penalty->words).section(QStringLiteral(" or "), 0, 0);
+    put(TagKind::Warning,
+        robot.penalty->secondsLeft > 0
+            ? QStringLiteral("%1 %2").arg(words, durationText(robot.penalty->secondsLeft))
+            : words);
+  } else if (silent != card.lamps.end()) {
+    put(TagKind::Error,
+        QStringLiteral("%1 silent %2")
+            .arg(QLatin1Char(
+                CardState::letters[static_cast<std::size_t>(silent - card.lamps.begin())]))
+            .arg(durationText(silent->seconds)));
+  } else if (card.batteryLow()) {
+    put(TagKind::Error, QStringLiteral("battery low"));
     card.tagIsBattery = true;
-  } else if (fallen) {
-    card.tagKind = TagKind::Warning;
-    card.tag = QStringLiteral("fallen");
-  } else if (statistics.unknownActions > 0 && statistics.lastUnknownAction == action) {
-    card.tagKind = TagKind::Warning;
-    card.tag = QStringLiteral("unknown action");
+  } else if (robot.fallen) {
+    put(TagKind::Warning, QStringLiteral("fallen"));
+  } else if (statistics.unknownActions > 0 &&
+             statistics.lastUnknownAction == robot.decided.value_or(robot.action)) {
+    put(TagKind::Warning, QStringLiteral("unknown action"));
+  } else {
+    tagProcesses(card, robot);
   }
 }
 
-std::vector<CardValue> boardValues(const sim::RobotSnapshot& robot,
-                                   const link::RobotBoardView& board) {
-  const auto whole = [](int value) { return numberText(value, 0); };
-  const auto real = [](double value, int decimals) { return numberText(value, decimals); };
-  const QString cm = QStringLiteral("cm"), degree = QStringLiteral("°");
-  return {{QStringLiteral("TRUE_X"), real(robot.pose.position.x, 2), QStringLiteral("m")},
-          {QStringLiteral("TRUE_Y"), real(robot.pose.position.y, 2), QStringLiteral("m")},
-          {QStringLiteral("LOCALIZATION_X"), whole(board.localizationX), cm},
-          {QStringLiteral("LOCALIZATION_Y"), whole(board.localizationY), cm},
-          {QStringLiteral("LOCALIZATION_THETA"), whole(board.localizationTheta), degree},
-          {QStringLiteral("LOCALIZATION_RBT01_X"), real(double(board.belief), 1), cm},
-          {QStringLiteral("VISION_BALL_DIST"), real(double(board.ballDistCm), 1), cm},
-          {QStringLiteral("VISION_PAN_DEG"), real(double(board.panDeg), 1), degree},
-          {QStringLiteral("DECISION_ACTION_A"), whole(board.actionA), {}}};
+/// Under the names of the blackboard's variables; a dash for what the robot does not know.
+std::vector<CardValue> boardValues(const link::RobotFrame& robot, const sim::FieldSpec& field) {
+  std::vector<CardValue> values;
+  const auto put = [&values](const char* name, std::optional<double> value, int decimals,
+                             const char* unit) {
+    values.push_back({QString::fromLatin1(name),
+                      value ? numberText(*value, decimals) : QStringLiteral("\u2013"),
+                      QString::fromUtf8(unit)});
+  };
+  std::optional<double> x, y, theta, sigma, distance, bearing, action;
+  if (robot.belief) {
+    const auto written = sim::published_frame::localizationFromStudio(field, *robot.belief);
+    x = written.x;
+    y = written.y;
+    theta = written.degrees;
+  }
+  if (robot.sigma) sigma = sim::published_frame::cmFromMetres(*robot.sigma);
+  if (robot.ball) {
+    distance = sim::published_frame::cmFromMetres(robot.ball->distance);
+    bearing = degreesFromRadians(robot.ball->bearing);
+  }
+  if (robot.decided) action = *robot.decided;
+  put("TRUE_X", robot.pose.position.x, 2, "m");
+  put("TRUE_Y", robot.pose.position.y, 2, "m");
+  put("LOCALIZATION_X", x, 0, "cm");
+  put("LOCALIZATION_Y", y, 0, "cm");
+  put("LOCALIZATION_THETA", theta, 0, "°");
+  put("LOCALIZATION_RBT01_X", sigma, 1, "cm");
+  put("VISION_BALL_DIST", distance, 1, "cm");
+  put("VISION_PAN_DEG", bearing, 1, "°");
+  put("DECISION_ACTION_A", action, 0, "");
+  return values;
 }
 
 QString ageText(double milliseconds) {
@@ -101,86 +161,72 @@ QString CardState::process(std::size_t lamp) const {
   return lamp == 0 && live ? QStringLiteral("control") : QLatin1String(processes[lamp]);
 }
 
-void CardTracker::updateLamps(History& history, const link::RobotFrame& robot, bool still) {
-  const link::RobotBoardView& board = *robot.board;
-  const std::array<bool, CardState::lampCount> working{
-      communicationRuns(robot), board.visionWorking, board.localizationWorking,
-      board.decisionWorking, board.imuWorking};
-  for (std::size_t i = 0; i < working.size(); ++i) {
-    Lamp& lamp = history.lamps[i];
-    if (working[i]) {
-      history.seen[i] = true;
-      lamp = {LampState::Working, 0};
-    } else if (history.seen[i] && !still) {
-      if (lamp.state != LampState::Silent) history.silentSince[i] = m_playing;
-      lamp = {LampState::Silent, static_cast<int>((m_playing - history.silentSince[i]) / 1000)};
-    }
-  }
-}
-
 QString subtitleOf(const link::RobotFrame& robot) {
   QStringList parts;
   if (!robot.ownName.empty()) parts << QString::fromStdString(robot.ownName);
-  if (robot.board && !robot.board->behaviour.empty()) {
-    parts << (robot.board->behaviour == link::noBehaviour ? QStringLiteral("own process")
-                                                          : capitalised(robot.board->behaviour));
+  if (!robot.behaviour.empty()) {
+    parts << (robot.behaviour == link::noBehaviour ? QStringLiteral("own process")
+                                                   : capitalised(robot.behaviour));
   }
   return parts.join(QStringLiteral(" · "));
 }
 
+CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
+                 const QString& detail) {
+  CardState card;
+  card.id = robot.key;
+  card.team = robot.identity.team;
+  card.number = robot.identity.number;
+  card.name = QString::fromStdString(robot.name);
+  card.subtitle = subtitleOf(robot);
+  card.runtime = QString::fromStdString(robot.runtime);
+  card.live = robot.link.has_value();
+  card.timedOut = robot.timedOut();
+  card.battery = robot.battery;
+  for (std::size_t i = 0; i < card.lamps.size(); ++i) {
+    const telemetry::ProcessStatus& lamp = robot.lamps[i];
+    const double seconds = std::min(telemetry::secondsOf(lamp.since), 1e6);
+    card.lamps[i] = {lamp.state, lamp.state == LampState::Silent ? static_cast<int>(seconds) : 0};
+  }
+  if (robot.decided || !robot.link) card.action = actionText(robot.decided.value_or(robot.action));
+  if (card.timedOut && !card.action.isEmpty()) {
+    card.action = QStringLiteral("last: %1").arg(card.action);
+  }
+  if (robot.link) {
+    card.detail = linkText(*robot.link);
+    card.detailTip = linkTip(robot);
+    for (const link::HeardValue& value : robot.values) {
+      card.values.push_back({QString::fromStdString(value.name), QString::fromStdString(value.text),
+                             QString::fromStdString(value.unit)});
+    }
+  } else {
+    card.detail =
+        detail + QStringLiteral(" · %1 m").arg(numberText(robot.statistics.distanceWalked, 1));
+    card.detailTip = QStringLiteral("Age of the tick shown; distance walked") + runsText(robot);
+    card.values = boardValues(robot, field);
+  }
+  chooseTag(card, robot);
+  return card;
+}
+
 std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64 now) {
-  const bool heard = std::any_of(frame.robots.begin(), frame.robots.end(),
-                                 [](const auto& robot) { return robot.health.has_value(); });
-  if (heard || frame.origin == link::FrameOrigin::Live) return liveCards(frame);
-  const qint64 passed = m_last >= 0 ? now - m_last : 0;
-  // Processes rest while the match does, and are not to blame for it.
-  const bool still = frame.paused || frame.finished;
-  if (!still) m_playing += passed;
-  m_last = now;
   if (frame.serial != m_serial) {
     m_changed = now;
     m_serial = frame.serial;
   }
   constexpr double smoothing = 0.1;
-  const double age = static_cast<double>(now - m_changed) + 500.0 / std::max(1.0, frame.tickRate);
+  const double age =
+      static_cast<double>(now - m_changed) + 500.0 / std::max(1.0, frame.settings->tickRate);
   m_age += smoothing * (age - m_age);
-
+  // Age only matters when it grows; a small one would flicker.
+  const QString detail = frame.finished ? QStringLiteral("finished")
+                         : frame.paused ? QStringLiteral("paused")
+                                        : ageText(m_age);
   std::vector<CardState> cards;
   cards.reserve(frame.robots.size());
   for (const link::RobotFrame& robot : frame.robots) {
-    CardState card;
-    card.id = robot.key;
-    card.team = robot.identity.team;
-    card.number = robot.identity.number;
-    card.name = robotName(robot.identity);
-    card.subtitle = subtitleOf(robot);
-    card.runtime = QString::fromStdString(robot.runtime);
-    int action = robot.action;
-    History& history = m_robots[card.id];
-    card.battery = link::batteryOf(robot);
-    if (robot.board) {
-      updateLamps(history, robot, still);
-      action = robot.board->actionA;
-    }
-    card.lamps = history.lamps;
-    card.action = actionText(action);
-    // Age only matters when it grows; a small one would flicker.
-    card.detail = (frame.finished ? QStringLiteral("finished")
-                   : frame.paused ? QStringLiteral("paused")
-                                  : ageText(m_age)) +
-                  QStringLiteral(" · %1 m").arg(numberText(robot.statistics.distanceWalked, 1));
-    card.detailTip = QStringLiteral("Age of the tick shown; distance walked") + runsText(robot);
-    if (robot.board) card.values = boardValues(robot, *robot.board);
-    chooseTag(card, robot.statistics, action, robot.fallen);
-    if (card.tagKind == TagKind::None && robot.penalty) {
-      card.tagKind = TagKind::Warning;
-      card.tag = QStringLiteral("penalised %1").arg(durationText(robot.penalty->secondsLeft));
-    }
-    if (card.tagKind == TagKind::None) tagProcesses(card, robot);
-    cards.push_back(std::move(card));
+    cards.push_back(cardOf(robot, frame.settings->field, detail));
   }
-  std::erase_if(m_robots,
-                [&frame](const auto& entry) { return frame.robot(entry.first) == nullptr; });
   return cards;
 }
 

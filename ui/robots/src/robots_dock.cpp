@@ -133,7 +133,6 @@ void RobotsDock::showCards(const std::vector<CardState>& states) {
 }
 
 void RobotsDock::rename(const std::vector<Renaming>& renamings) {
-  m_tracker.rename(renamings);
   pitchboard::rename(m_cards, renamings);
   pitchboard::rename(m_floating, renamings);
   pitchboard::rename(m_byHand, renamings);

@@ -23,7 +23,7 @@ struct VideoExport::Reader {
         return nullptr;
       }
       session.emplace(std::move(*opened));
-      frames.emplace(link::backdropOf(*session, robots));
+      frames.emplace(link::backdropOf(*session), robots);
     }
     return std::make_shared<link::MatchFrame>(frames->frameAt(*session, time));
   }

@@ -132,7 +132,7 @@ void LiveController::keepRows() {
   m_watch->observe(m_rows);
   m_memory = std::make_shared<link::LiveMemory>(m_options.refereePort);
   m_moments = std::make_unique<link::LiveMoments>();
-  link::FrameBackdrop backdrop;
+  link::FrameSettings backdrop;
   backdrop.field = m_options.field;
   m_boardFrames = std::make_unique<link::RecordedFrames>(backdrop);
   m_watch->observe(m_memory);

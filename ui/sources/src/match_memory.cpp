@@ -68,13 +68,7 @@ FramePtr MatchMemory::frameAt(double time) const {
   const FramePtr newest = m_match->frame();
   if (!rows || !newest || !rows->range()) return nullptr;
   if (!m_past) {
-    link::FrameBackdrop backdrop;
-    backdrop.field = newest->field;
-    backdrop.noise = newest->noise;
-    backdrop.physics = newest->physics;
-    backdrop.seed = newest->seed;
-    backdrop.tickRate = newest->tickRate;
-    m_past = std::make_unique<link::RecordedFrames>(std::move(backdrop));
+    m_past = std::make_unique<link::RecordedFrames>(*newest->settings);
   }
   auto past = std::make_shared<link::MatchFrame>(m_past->frameAt(*rows, time));
   if (past->robots.empty() && !newest->robots.empty() && time < rows->range()->begin) {
@@ -83,11 +77,13 @@ FramePtr MatchMemory::frameAt(double time) const {
   past->drawings = m_drawn.at(*m_drawings, time);
   link::keyDrawings(*past);
   // Rows do not tell what was changed by hand while the match ran.
-  const auto tick =
-      static_cast<std::uint64_t>(std::llround(std::max(past->snapshot.time, 0.0) * past->tickRate));
+  const auto tick = static_cast<std::uint64_t>(
+      std::llround(std::max(past->snapshot.time, 0.0) * past->settings->tickRate));
   if (const auto settings = m_archive->settings(tick)) {
-    past->noise = settings->noise;
-    past->physics = settings->physics;
+    auto then = std::make_shared<link::FrameSettings>(*past->settings);
+    then->noise = settings->noise;
+    then->physics = settings->physics;
+    past->settings = std::move(then);
     past->refereeRules = settings->referee ? settings->referee->name : std::string();
   }
   return past;
@@ -102,7 +98,7 @@ void MatchMemory::continueFrom(double time) {
   const FramePtr newest = m_match->frame();
   if (!m_match->isOpen() || !m_archive || !rows || !newest) return;
   const auto tick =
-      static_cast<std::uint64_t>(std::llround(std::max(time, 0.0) * newest->tickRate));
+      static_cast<std::uint64_t>(std::llround(std::max(time, 0.0) * newest->settings->tickRate));
   auto moment = link::momentFromMemory(*m_archive, *rows, tick, m_match->catalog());
   if (!moment) {
     emit failed(QStringLiteral("The match cannot be continued from this moment: %1")
@@ -120,7 +116,7 @@ void MatchMemory::continueFrom(double time) {
                              "they begin again with the belief that they had then.")
                   .arg(clockText(time)));
   }
-  const double from = static_cast<double>(tick) / newest->tickRate;
+  const double from = static_cast<double>(tick) / newest->settings->tickRate;
   m_match->post({QStringLiteral("The match cannot be continued from this moment"),
                  [moment = std::move(*moment), rows = m_rows, from](link::SimulatedMatch& match) {
                    auto entered = match.reenter(moment);

@@ -22,18 +22,28 @@ QDateTime dateTimeOf(telemetry::WallTime time) {
       std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count());
 }
 
-/// The first moment that has a robot; the beginning when none has.
+/// The first moment that shows all the robots that come within some seconds, and the referee if
+/// it does: of a live match its first datagram is that of one robot.
 double firstMomentOf(const telemetry::SessionReader& session, telemetry::TimeRange range,
                      link::RecordedFrames& frames) {
-  if (!frames.frameAt(session, range.begin).robots.empty()) return range.begin;
+  constexpr double soon = 3.0, step = 0.1;  // s
   double first = range.begin;
-  session.rows(range, {}, [&](telemetry::GroupId group, const telemetry::RowView& row) {
-    const auto& attributes = session.groups()[group].info.attributes;
-    if (!attributes.contains("robot") && !attributes.contains("number")) return true;
-    first = row.time;
-    return false;
-  });
-  return first;
+  if (frames.frameAt(session, first).robots.empty()) {
+    session.rows(range, {}, [&](telemetry::GroupId group, const telemetry::RowView& row) {
+      const auto& attributes = session.groups()[group].info.attributes;
+      if (!attributes.contains("robot") && !attributes.contains("number")) return true;
+      first = row.time;
+      return false;
+    });
+  }
+  const double last = std::min(first + soon, range.end);
+  const link::MatchFrame all = frames.frameAt(session, last);
+  for (double time = first; time < last; time += step) {
+    const link::MatchFrame now = frames.frameAt(session, time);
+    const bool hasReferee = now.referee || !all.referee;
+    if (now.robots.size() >= all.robots.size() && hasReferee) return time;
+  }
+  return last;
 }
 
 /// Rows on their way into memory; looks now and then whether anybody still wants them. Up to

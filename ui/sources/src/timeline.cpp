@@ -135,7 +135,7 @@ void Timeline::show(double time) {
     goLive();
     return;
   }
-  if (const FramePtr newest = m_source->newest()) m_past->setTickRate(newest->tickRate);
+  if (const FramePtr newest = m_source->newest()) m_past->setTickRate(newest->settings->tickRate);
   m_past->setRange(range);
   const double kept = std::clamp(time, range->begin, range->end);
   m_past->seek(kept);
@@ -153,7 +153,7 @@ void Timeline::goLive() {
 void Timeline::step(int ticks) {
   if (!isRecording() && !isLookingBack()) {
     if (ticks > 0) return;
-    seek(now() - 1.0 / (m_source->newest() ? m_source->newest()->tickRate : 60.0));
+    seek(now() - 1.0 / (m_source->newest() ? m_source->newest()->settings->tickRate : 60.0));
     return;
   }
   playback()->step(ticks);

@@ -252,22 +252,22 @@ class VariablesDock : public QWidget {
     m_changed->setChecked(false);
     // With the slash B1 is not B11, too.
     m_words->setText(robotName(robot->identity) + QLatin1Char('/'));
-    if (robot->board) m_message->say(InPlaceMessage::Tone::Note, whereText(*robot->board));
+    if (robot->boardKey) m_message->say(InPlaceMessage::Tone::Note, whereText(*robot->boardKey));
     if (auto* dock = qobject_cast<QDockWidget*>(parentWidget())) {
       dock->show();
       dock->raise();
     }
   }
 
-  static QString whereText(const link::RobotBoardView& board) {
-    return board.key == 0
+  static QString whereText(int key) {
+    return key == 0
                ? QStringLiteral(
                      "This blackboard is in the studio's own memory: other programs cannot reach "
                      "it. Simulation > Robots decide shares it.")
                : QStringLiteral(
                      "System V shared memory, key %1, 2048 bytes. In a terminal: "
                      "pitchboard-cli blackboard watch --key %1")
-                     .arg(board.key);
+                     .arg(key);
   }
 
   void applyChanged() {

@@ -232,7 +232,7 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
       QStringLiteral("%1, tick %2, seed %3")
           .arg(robots == 1 ? QStringLiteral("1 robot") : QStringLiteral("%1 robots").arg(robots),
                countText(frame.snapshot.tick))
-          .arg(frame.seed));
+          .arg(frame.settings->seed));
   switch (m_context.controller->cognition()) {
     case link::Cognition::External:
       m_processes->setText(frame.inLockStep

@@ -12,8 +12,7 @@ namespace pitchboard::link {
 
 /// In the studio's frame. `robot` may be null: it is not on the field. Nothing for what nobody
 /// knows.
-std::optional<Pose> drawingOrigin(telemetry::DrawingFrame frame, const RobotFrame* robot,
-                                  const sim::FieldSpec& field);
+std::optional<Pose> drawingOrigin(telemetry::DrawingFrame frame, const RobotFrame* robot);
 
 /// Programs of a simulated match name themselves by their slots: the frame's drawings get the keys
 /// of those robots.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <base/geometry.h>
+#include <base/ids.h>
 #include <telemetry/wire/link_health.h>
 
 namespace pitchboard::link {
@@ -28,16 +29,6 @@ struct HeardValue {
   std::string text;  ///< as sent
   std::string unit;
   bool operator==(const HeardValue&) const = default;
-};
-
-/// How well one robot is heard, and what it says of itself. (Its number and id are those of the
-/// frame's robot.)
-struct RobotHealth : telemetry::LinkHealth {
-  bool poseKnown = false;  ///< false: its messages have no usable X, Y
-  std::optional<int> action;
-  std::optional<Point> ball;  ///< perceived, on the field
-  std::optional<Penalty> penalty;
-  std::vector<HeardValue> values;  ///< all, in the order of the message
 };
 
 /// One player of a team's list; substitutes that wait are not in it.
@@ -103,8 +94,9 @@ struct RefereeView {
   int ourTeam = 0;  ///< chosen number; 0 when none was chosen or it does not play
 };
 
-/// Where the robots of a team think the ball is, taken together.
+/// Where the robots of a team think that the ball is, taken together.
 struct TeamBall {
+  TeamColor team = TeamColor::Blue;
   Point position;                        ///< mean of those that agree
   double spread = 0.0;                   ///< m, root mean square distance from the mean
   int agree = 0;                         ///< robots within `reach` of each other's ball; at least 2

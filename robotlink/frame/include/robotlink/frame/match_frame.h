@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,16 @@ namespace pitchboard::link {
 /// Where a frame comes from. The same values everywhere; what is not known says so.
 enum class FrameOrigin : std::uint8_t { Simulated, Live, Recorded };
 
+/// What hardly ever changes while a match goes on: its frames share one value.
+struct FrameSettings {
+  sim::FieldSpec field;
+  sim::NoiseParameters noise;
+  std::string physics;
+  std::uint64_t seed = 0;
+  double tickRate = 60.0;
+  bool operator==(const FrameSettings&) const = default;
+};
+
 struct MatchFrame {
   FrameOrigin origin = FrameOrigin::Simulated;
   /// False: nobody knows the true poses. The robots' poses are then what they believe.
@@ -36,19 +47,16 @@ struct MatchFrame {
   std::vector<telemetry::RobotDrawings> drawings;  ///< of the robots' programs (docs/DRAWINGS.md)
   std::string drawingProblem;                      ///< why the last one was not drawn; or empty
   std::optional<RefereeView> referee;              ///< once one was heard
-  std::string refereeRules;          ///< of a simulated match; empty: without a referee
-  bool refereeAutomatic = false;     ///< its referee calls by itself
-  std::optional<TeamBall> teamBall;  ///< while at least two robots agree
-  double speed = 0.0;             ///< simulated seconds per second, measured over the last second
-  double ticksPerSecond = 0.0;    ///< measured
-  double tickMicroseconds = 0.0;  ///< mean time of a tick, measured
+  std::string refereeRules;         ///< of a simulated match; empty: without a referee
+  bool refereeAutomatic = false;    ///< its referee calls by itself
+  std::vector<TeamBall> teamBalls;  ///< of teams of which at least two robots agree
+  double speed = 0.0;               ///< simulated seconds per second, measured over the last second
+  double ticksPerSecond = 0.0;      ///< measured
+  double tickMicroseconds = 0.0;    ///< mean time of a tick, measured
   bool paused = false;
   bool finished = false;  ///< a stop condition of the scenario is met; it stands still
-  sim::FieldSpec field;
-  sim::NoiseParameters noise;
-  std::string physics;
-  std::uint64_t seed = 0;
-  double tickRate = 60.0;
+  std::shared_ptr<const FrameSettings> settings =
+      std::make_shared<const FrameSettings>();  ///< never null
   /// Of a match that shares blackboards with other programs of this computer.
   std::optional<int> matchNumber;
   /// What the slowest of a team's own programs manages, times real time; nothing: all keep up.

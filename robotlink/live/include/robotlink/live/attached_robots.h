@@ -44,6 +44,9 @@ Result<void> validate(const std::vector<AttachedBoard>& boards);
 /// name the second one has its key behind it.
 std::vector<std::string> boardNames(const std::vector<AttachedBoard>& boards);
 
+/// How a robot is heard whose blackboard is read `rate` times a second; `gone`: it was removed.
+telemetry::LinkHealth boardLink(double age, double rate, bool gone);
+
 struct BoardRow {
   double time = 0.0;  ///< s, as AttachedRobots was told
   std::vector<std::uint32_t> words;

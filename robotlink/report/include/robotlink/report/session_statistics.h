@@ -6,7 +6,6 @@
 // truth, live ones by what the robots believed and sent.
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,21 +61,8 @@ struct SessionStatistics {
   std::vector<TeamSummary> teams;    ///< those that have robots
 };
 
-/// Takes rows in order of time.
-class StatisticsBuilder {
- public:
-  /// Curves have this many parts.
-  static constexpr std::size_t parts = 120;
-
-  explicit StatisticsBuilder(telemetry::TimeRange range);
-  ~StatisticsBuilder();
-  void add(telemetry::GroupId id, const telemetry::GroupInfo& group, const telemetry::RowView& row);
-  SessionStatistics finish();
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> m_impl;
-};
+/// Curves have this many parts.
+inline constexpr std::size_t statisticsParts = 120;
 
 /// Both walk through every row of the range once; of a session of live robots through moments, at
 /// most 36 000.

@@ -11,6 +11,7 @@
 
 #include <base/ids.h>
 #include <telemetry/series/series_types.h>
+#include <telemetry/wire/meanings.h>
 
 namespace pitchboard::link {
 
@@ -54,6 +55,12 @@ inline RowSlot findSlot(const telemetry::GroupInfo& group,
     }
   }
   return {};
+}
+
+/// Of what a blackboard or the published message says.
+inline RowSlot findSlot(const telemetry::GroupInfo& group, telemetry::FieldMeaning meaning) {
+  const telemetry::MeaningInfo& known = telemetry::info(meaning);
+  return findSlot(group, {known.variable, known.sent});
 }
 
 inline std::string_view attribute(const telemetry::GroupInfo& group, std::string_view name) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How well one robot is heard, and which of its processes work: one value, made by the TeamMonitor
-// (or from a recording) and carried as it is to frames and screens. It may cross threads.
+// How well one robot is heard, and whether its processes work: values that the TeamMonitor makes,
+// and that are carried as they are to frames and screens. They may cross threads.
 
 #include <array>
 #include <cstdint>
@@ -44,8 +44,6 @@ struct LinkHealth {
   std::uint64_t lost = 0;
   std::uint64_t duplicates = 0;  ///< that came twice
   std::uint64_t late = 0;        ///< older than one that came before; they change no value
-  std::array<ProcessStatus, processCount> processes{};
-  std::optional<Battery> battery;
 };
 
 /// Of two senders that use the same number: they are in conflict while both are heard.

@@ -54,6 +54,8 @@ constexpr bool hasOwnPlace(const RobotKey& robot) {
 /// One robot at one moment: a value that may cross threads.
 struct RobotStatus : LinkHealth {
   RobotKey key;
+  std::array<ProcessStatus, processCount> processes{};
+  std::optional<Battery> battery;
   WallTime lastMessage{};
   ErrorTally errors;
   std::shared_ptr<const TextDecoder> decoder;  ///< names and types of the values

@@ -5,15 +5,14 @@
 
 #include <QString>
 #include <array>
-#include <map>
 #include <optional>
 #include <vector>
 
-#include <robotlink/match/match_runner.h>
+#include <robotlink/frame/match_frame.h>
 
 namespace pitchboard::ui {
 
-enum class LampState { Unknown, Working, Silent };
+using LampState = telemetry::ProcessState;
 
 struct Lamp {
   LampState state = LampState::Unknown;
@@ -64,33 +63,18 @@ struct CardState {
 /// What stands behind the name on a card: what its team calls it, its behaviour.
 QString subtitleOf(const link::RobotFrame& robot);
 
-/// The cards of robots that are heard: everything they say is in the frame.
-std::vector<CardState> liveCards(const link::MatchFrame& frame);
+/// `detail`: of a robot that is not heard, the age of what is shown.
+CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field, const QString& detail);
 
-/// Remembers since when each process has been silent. A process that was never seen working is
-/// unknown, not silent. Time stands still while the match is paused or over.
+/// Remembers how old frames are when they are shown.
 class CardTracker {
  public:
   /// `milliseconds`: any monotonic real time. One entry per robot of the frame, in its order.
   std::vector<CardState> update(const link::MatchFrame& frame, qint64 milliseconds);
-  void rename(const std::vector<Renaming>& renamings) { pitchboard::rename(m_robots, renamings); }
   /// Forgets everything: another match.
-  void reset() {
-    m_robots.clear();
-    m_age = 0.0;
-    m_serial = 0;
-  }
+  void reset() { *this = {}; }
 
  private:
-  struct History {
-    std::array<bool, CardState::lampCount> seen{};
-    std::array<qint64, CardState::lampCount> silentSince{};
-    std::array<Lamp, CardState::lampCount> lamps{};
-  };
-  void updateLamps(History& history, const link::RobotFrame& robot, bool still);
-  std::map<RobotKey, History> m_robots;
-  qint64 m_playing = 0;  // ms in which the match went on
-  qint64 m_last = -1;
   qint64 m_changed = 0;  // when the frame's serial last changed, real ms
   std::uint64_t m_serial = 0;
   double m_age = 0.0;  // ms, smoothed
