@@ -59,7 +59,7 @@ class TestCliSimulate : public QObject {
     runner->runTo(600);
     QVERIFY(runner->waitUntilStill(20s));
     std::uint64_t hash = 0;
-    runner->execute([&](link::SimulatedMatch& match) { hash = match.simulation().hash(); });
+    runner->read([&](const link::SimulatedMatch& match) { hash = match.simulation().hash(); });
     QCOMPARE(out["state_hash"].toString(), QString("0x%1").arg(hash, 16, 16, QChar('0')));
     const Run paced = simulate({"--duration", "0:10", "--seed", "5", "--json", "--speed", "20"});
     QCOMPARE(QJsonDocument::fromJson(paced.out).object()["state_hash"], out["state_hash"]);

@@ -115,7 +115,7 @@ struct Played {
   }
   std::uint64_t tick() const {
     std::uint64_t now = 0;
-    runner->execute([&now](SimulatedMatch& match) { now = match.simulation().state().tick; });
+    runner->read([&now](const SimulatedMatch& match) { now = match.simulation().state().tick; });
     return now;
   }
   void playTo(std::uint64_t tick) {
@@ -139,7 +139,10 @@ struct Played {
     const auto moment = momentFromMemory(*archive, rows, to, VariableCatalog::published());
     if (!moment) qFatal("%s", moment.error().text().c_str());
     Result<void> entered;
-    runner->execute([&](SimulatedMatch& match) { entered = match.reenter(*moment); });
+    runner->execute([&](SimulatedMatch& match) {
+      entered = match.reenter(*moment);
+      return Changed::Yes;
+    });
     if (!entered) qFatal("%s", entered.error().text().c_str());
     return to;
   }

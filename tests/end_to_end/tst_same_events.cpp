@@ -77,6 +77,7 @@ class TestSameEvents : public QObject {
         process.restart.policy = RestartPolicy::Never;
         (void)match.processes().add(process, *match.blackboard(RobotId{2}),
                                     std::chrono::steady_clock::now());
+        return Changed::No;
       });
     }
     QTRY_VERIFY_WITH_TIMEOUT(has(*take(), Kind::ProcessEnded) && has(events, Kind::ProcessDied),

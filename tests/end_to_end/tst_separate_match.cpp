@@ -105,7 +105,7 @@ class TestSeparateMatch : public QObject {
     auto runner = MatchRunner::start(soccer(), separate(), true).value();
     const auto tickAndHash = [&runner] {
       std::pair<std::uint64_t, std::uint64_t> now;
-      runner->execute([&now](SimulatedMatch& match) {
+      runner->read([&now](const SimulatedMatch& match) {
         now = {match.simulation().state().tick, match.simulation().hash()};
       });
       return now;
@@ -240,7 +240,7 @@ class TestSeparateMatch : public QObject {
     QVERIFY(runner->waitUntilStill(10s));
     std::uint64_t serial = 0;
     double before = 0.0;
-    runner->execute([&](SimulatedMatch& match) { before = beliefError(match); });
+    runner->read([&](const SimulatedMatch& match) { before = beliefError(match); });
     // Frames go on while it stands still; so many of them take some seconds.
     int frames = 0;
     QTRY_VERIFY_WITH_TIMEOUT(
@@ -253,13 +253,13 @@ class TestSeparateMatch : public QObject {
         }(),
         60'000);
     double after = 0.0;
-    runner->execute([&](SimulatedMatch& match) { after = beliefError(match); });
+    runner->read([&](const SimulatedMatch& match) { after = beliefError(match); });
     QCOMPARE(after, before);
     runner->setPaused(false);
     QTRY_VERIFY_WITH_TIMEOUT(reached(end), 60'000);
     runner->setPaused(true);
     QVERIFY(runner->waitUntilStill(10s));
-    runner->execute([&](SimulatedMatch& match) { after = beliefError(match); });
+    runner->read([&](const SimulatedMatch& match) { after = beliefError(match); });
     QVERIFY2(after < 0.5, qPrintable(QString::number(after)));
   }
 };

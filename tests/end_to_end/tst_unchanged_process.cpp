@@ -270,9 +270,15 @@ class TestUnchangedProcess : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(isTold(), 30'000);
     QTRY_COMPARE_WITH_TIMEOUT(runner->latest()->slowestOwnProgram, std::optional(1.0), 30'000);
     // A match that waits for its programs does not leave it behind.
-    runner->execute([](SimulatedMatch& match) { match.setWaitForOwnPrograms(true); });
+    runner->execute([](SimulatedMatch& match) {
+      match.setWaitForOwnPrograms(true);
+      return Changed::No;
+    });
     QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).speed, 1.0, 30'000);
-    runner->execute([](SimulatedMatch& match) { match.setWaitForOwnPrograms(false); });
+    runner->execute([](SimulatedMatch& match) {
+      match.setWaitForOwnPrograms(false);
+      return Changed::No;
+    });
     runner->setSpeed(4.0);
     QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).speed, 4.0, 30'000);
     (void)isTold();
@@ -281,6 +287,7 @@ class TestUnchangedProcess : public QObject {
     runner->execute([](SimulatedMatch& match) {
       ProcessManager& processes = match.processes();
       processes.restart(processes.statuses().front().id, std::chrono::steady_clock::now());
+      return Changed::No;
     });
     QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).restarts, 1, 30'000);
     QCOMPARE(timeVariables(*runner).contains("libpitchboard_time"), startedAt == 1.0);
@@ -313,12 +320,18 @@ class TestUnchangedProcess : public QObject {
     runner->setSpeed(wanted);
     QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->slowestOwnProgram.has_value(), 60'000);
     QCOMPARE(program().speed, wanted);
-    runner->execute([](SimulatedMatch& match) { match.setWaitForOwnPrograms(true); });
+    runner->execute([](SimulatedMatch& match) {
+      match.setWaitForOwnPrograms(true);
+      return Changed::No;
+    });
     QTRY_VERIFY_WITH_TIMEOUT(program().speed < 0.9 * wanted, 60'000);
     // Both: the program's time and the match's.
     const double slowed = program().speed;
     QVERIFY2(slowed >= 0.1, qPrintable(QString::number(slowed)));
-    runner->execute([](SimulatedMatch& match) { match.setWaitForOwnPrograms(false); });
+    runner->execute([](SimulatedMatch& match) {
+      match.setWaitForOwnPrograms(false);
+      return Changed::No;
+    });
     QTRY_COMPARE_WITH_TIMEOUT(program().speed, wanted, 60'000);
     runner.reset();
     QVERIFY(!SystemVSegments::info(m_base + 100));

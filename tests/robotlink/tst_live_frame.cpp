@@ -454,12 +454,15 @@ class TestLiveFrame : public QObject {
     QStringList countdowns;
     const auto check = [&](const sim::RefereeCall& call) {
       bool done = false;
-      runner->execute([&](SimulatedMatch& match) { done = match.call(call).has_value(); });
+      runner->execute([&](SimulatedMatch& match) {
+        done = match.call(call).has_value();
+        return Changed::Yes;
+      });
       runner->runTo(tick += 30);
       QVERIFY(runner->waitUntilStill(60s));
       QVERIFY(done);
       std::string bytes;
-      runner->execute([&](SimulatedMatch& match) {
+      runner->read([&](const SimulatedMatch& match) {
         bytes =
             telemetry::encodeReferee(refereePacket(match.simulation().state(), 1, true)).value();
       });

@@ -26,7 +26,7 @@ Scenario builtIn(const char* name) {
 
 std::uint64_t hashOf(MatchRunner& runner) {
   std::uint64_t hash = 0;
-  runner.execute([&](SimulatedMatch& match) { hash = match.simulation().hash(); });
+  runner.read([&](const SimulatedMatch& match) { hash = match.simulation().hash(); });
   return hash;
 }
 
@@ -39,10 +39,11 @@ class Notes : public TickObserver {
     ball = match.simulation().snapshot().ball;
   }
   void happened(std::span<const MatchEvent> events) override { happenings += events.size(); }
+  void worldChanged(const SimulatedMatch& /*match*/) override { ++changes; }
   void logged(const LogLine& line) override { lines.push_back(line.text); }
 
   std::vector<std::uint64_t> ticks;
-  std::size_t timed = 0, happenings = 0;
+  std::size_t timed = 0, happenings = 0, changes = 0;
   std::vector<std::string> lines;
   Point ball;
 };
@@ -96,8 +97,16 @@ class TestMatchRunner : public QObject {
   void commandsAreCarriedOutInOrderWhilePaused() {
     auto runner = start(builtIn("one-robot"), true);
     std::vector<int> order;
-    for (int i = 0; i < 5; ++i) runner->post([&order, i](SimulatedMatch&) { order.push_back(i); });
-    runner->execute([](SimulatedMatch& match) { (void)match.simulation().placeBall({1, 1}); });
+    for (int i = 0; i < 5; ++i) {
+      runner->post([&order, i](SimulatedMatch&) {
+        order.push_back(i);
+        return Changed::No;
+      });
+    }
+    runner->execute([](SimulatedMatch& match) {
+      (void)match.simulation().placeBall({1, 1});
+      return Changed::Yes;
+    });
     QCOMPARE(order, (std::vector<int>{0, 1, 2, 3, 4}));
     QTRY_COMPARE(runner->latest()->snapshot.ball, (Point{1, 1}));
   }
@@ -140,7 +149,10 @@ class TestMatchRunner : public QObject {
     runner->runTo(1200);
     QVERIFY(runner->waitUntilStill(20s));
     runner->stopObserving(late);
-    runner->execute([](SimulatedMatch& match) { (void)match.simulation().placeBall({1, 1}); });
+    runner->execute([](SimulatedMatch& match) {
+      (void)match.simulation().placeBall({1, 1});
+      return Changed::Yes;
+    });
     runner->stepOnce();
     QVERIFY(runner->waitUntilStill(20s));
     runner->stopObserving(first);
@@ -162,10 +174,25 @@ class TestMatchRunner : public QObject {
     auto runner = std::move(
         *MatchRunner::start(builtIn("one-robot"), {}, true, VariableCatalog::published(), {notes}));
     QVERIFY(runner->waitUntilStill(10s));
-    runner->execute([](SimulatedMatch& match) { (void)match.simulation().placeBall({1, 1}); });
+    runner->execute([](SimulatedMatch& match) {
+      (void)match.simulation().placeBall({1, 1});
+      return Changed::Yes;
+    });
     runner->stopObserving(notes);
     QCOMPARE(notes->ball, (Point{1, 1}));
     QCOMPARE(notes->timed, std::size_t{0});
+  }
+
+  /// Nobody looks at the world to find out.
+  void aCommandSaysWhetherItChangedTheWorld() {
+    auto runner = start(builtIn("one-robot"), true);
+    const auto notes = std::make_shared<Notes>();
+    runner->observe(notes);
+    runner->execute([](SimulatedMatch&) { return Changed::Yes; });
+    runner->execute([](SimulatedMatch&) { return Changed::No; });
+    runner->read([](const SimulatedMatch&) {});
+    runner->stopObserving(notes);
+    QCOMPARE(notes->changes, std::size_t{1});
   }
 
   void standingStillCostsNothing() {
@@ -174,7 +201,7 @@ class TestMatchRunner : public QObject {
     // Its thread sleeps in the kernel until somebody wakes it: a wait on a futex (argument 3 is the
     // time limit) without a limit.
     pid_t thread = 0;
-    runner->execute([&thread](SimulatedMatch&) { thread = gettid(); });
+    runner->read([&thread](const SimulatedMatch&) { thread = gettid(); });
     QFile call(QStringLiteral("/proc/self/task/%1/syscall").arg(thread));
     if (!call.open(QIODevice::ReadOnly)) QSKIP("this kernel does not say what threads wait for");
     const auto waitsForEver = [&call] {
@@ -196,6 +223,7 @@ class TestMatchRunner : public QObject {
           if (const auto frame = runner->latest(known)) known = frame->serial;
           runner->execute([](SimulatedMatch& match) {
             (void)match.simulation().placeBall({0.5, 0.5});
+            return Changed::Yes;
           });
           runner->setPaused(i % 2 == 0);
           (void)runner->takeEvents();

@@ -71,10 +71,14 @@ struct Played {
       (void)m.simulation().placeBall({0.5, -1}, {1, 0.3});
       (void)m.addRobot({{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker", {}});
       (void)m.removeRobot(RobotId{2});
+      return Changed::Yes;
     });
     runner->runTo(700);
     if (!runner->waitUntilStill(60s)) qFatal("still playing");
-    runner->execute([](SimulatedMatch& m) { (void)m.simulation().setPhysics("published"); });
+    runner->execute([](SimulatedMatch& m) {
+      (void)m.simulation().setPhysics("published");
+      return Changed::Yes;
+    });
     runner->runTo(1200);
     if (!runner->waitUntilStill(60s)) qFatal("still playing");
   }

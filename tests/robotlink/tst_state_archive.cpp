@@ -252,12 +252,16 @@ class TestStateArchive : public QObject {
       return runner->waitUntilStill(60s);
     };
     QVERIFY(play(200));
-    runner->execute([](SimulatedMatch& m) { (void)m.simulation().placeBall({0.5, -1}, {1, 0.3}); });
+    runner->execute([](SimulatedMatch& m) {
+      (void)m.simulation().placeBall({0.5, -1}, {1, 0.3});
+      return Changed::Yes;
+    });
     QVERIFY(play(333));
     runner->execute([](SimulatedMatch& m) {
       (void)m.addRobot({{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker", {}});
       (void)m.removeRobot(RobotId{2});
       (void)m.simulation().placeRobot(RobotId{1}, {{1, 1}, 3.0});
+      return Changed::Yes;
     });
     QVERIFY(play(900));
     // Changed while it plays: nothing is shown between the change and the next tick.
@@ -265,7 +269,7 @@ class TestStateArchive : public QObject {
     runner->setPaused(false);
     const auto nowTick = [&runner] {
       std::uint64_t tick = 0;
-      runner->execute([&tick](SimulatedMatch& m) { tick = m.simulation().state().tick; });
+      runner->read([&tick](const SimulatedMatch& m) { tick = m.simulation().state().tick; });
       return tick;
     };
     for (int i = 0; i < 20; ++i) {
@@ -274,6 +278,7 @@ class TestStateArchive : public QObject {
         if (i % 3 == 1) m.simulation().setScore({i, 1});
         if (i == 10) m.blackboard(RobotId{9})->write(m.variables().decisionActionA, 1);
         if (i == 11) (void)m.setBehaviour(RobotId{9}, std::string(noBehaviour));
+        return Changed::Yes;
       });
       const std::uint64_t changed = nowTick();
       QTRY_VERIFY(nowTick() > changed);
@@ -306,9 +311,17 @@ class TestStateArchive : public QObject {
     runner->runTo(700);
     QVERIFY(runner->waitUntilStill(60s));
     const auto moment = archive->reenter(250).value();
-    runner->execute([&](SimulatedMatch& m) { QVERIFY(m.simulation().restore(moment)); });
+    bool restored = false;
+    runner->execute([&](SimulatedMatch& m) {
+      restored = m.simulation().restore(moment).has_value();
+      return Changed::Yes;
+    });
+    QVERIFY(restored);
     QTRY_COMPARE(archive->range()->last, std::uint64_t{250});
-    runner->execute([](SimulatedMatch& m) { (void)m.simulation().placeBall({1, 1}); });
+    runner->execute([](SimulatedMatch& m) {
+      (void)m.simulation().placeBall({1, 1});
+      return Changed::Yes;
+    });
     runner->runTo(400);
     QVERIFY(runner->waitUntilStill(60s));
     QCOMPARE(archive->range()->last, std::uint64_t{400});

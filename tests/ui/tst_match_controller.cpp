@@ -230,7 +230,10 @@ class TestMatchController : public QObject {
     const int known = c.edits()->undoStack()->count();
     const auto ordered = std::make_shared<std::atomic<int>>(0);
     const auto change = [&] {
-      c.edits()->order([ordered](link::SimulatedMatch&) { ++*ordered; });
+      c.edits()->order([ordered](link::SimulatedMatch&) {
+        ++*ordered;
+        return link::Changed::No;
+      });
       c.edits()->order(MatchOrder{QString(), [ordered](link::SimulatedMatch&) -> Result<void> {
                                     ++*ordered;
                                     return {};

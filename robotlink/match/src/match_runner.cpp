@@ -182,9 +182,9 @@ bool MatchLoop::carryOutCommands() {
     commands.swap(m_shared.commands);
   }
   if (commands.empty()) return false;
-  const std::uint64_t before = m_match.simulation().hash();
-  for (const auto& command : commands) command(m_match);
-  if (m_match.simulation().hash() != before) m_player.worldChanged();
+  bool changed = false;
+  for (const auto& command : commands) changed = command(m_match) == Changed::Yes || changed;
+  if (changed) m_player.worldChanged();
   m_player.tellEvents();
   // Otherwise the next tick shows what they did.
   if (m_still) m_player.showMoment();
@@ -397,18 +397,30 @@ void MatchRunner::post(Command command) {
 }
 
 void MatchRunner::execute(const Command& command) {
-  const auto task = std::make_shared<std::packaged_task<void(SimulatedMatch&)>>(command);
-  const auto done = task->get_future();
-  post([task](SimulatedMatch& match) { (*task)(match); });
-  done.wait();
+  // Broken, and so no longer waited for, when the runner ends first.
+  auto done = std::make_shared<std::promise<void>>();
+  const auto waited = done->get_future();
+  post([&command, done = std::move(done)](SimulatedMatch& match) {
+    const Changed changed = command(match);
+    done->set_value();
+    return changed;
+  });
+  waited.wait();
+}
+
+void MatchRunner::read(const std::function<void(const SimulatedMatch&)>& look) {
+  execute([&look](SimulatedMatch& match) {
+    look(match);
+    return Changed::No;
+  });
 }
 
 void MatchRunner::observe(const std::shared_ptr<TickObserver>& observer) {
-  execute([this, &observer](SimulatedMatch&) { m_shared->player->observe(observer); });
+  read([this, &observer](const SimulatedMatch&) { m_shared->player->observe(observer); });
 }
 
 void MatchRunner::stopObserving(const std::shared_ptr<TickObserver>& observer) {
-  execute([this, &observer](SimulatedMatch&) { m_shared->player->stopObserving(observer); });
+  read([this, &observer](const SimulatedMatch&) { m_shared->player->stopObserving(observer); });
 }
 
 std::shared_ptr<const MatchFrame> MatchRunner::latest(std::uint64_t knownSerial) const {

@@ -235,19 +235,25 @@ void MatchController::poll() {
 
 void MatchController::settle() {
   if (!m_runner) return;
-  m_runner->execute([](link::SimulatedMatch&) {});
+  m_runner->read([](const link::SimulatedMatch&) {});
   poll();
 }
 
 void MatchController::setPace(link::RobotsPace pace) {
   m_options.pace = pace;
-  post([pace](link::SimulatedMatch& match) { match.setPace(pace); });
+  post([pace](link::SimulatedMatch& match) {
+    match.setPace(pace);
+    return link::Changed::No;
+  });
   emit transportChanged();
 }
 
 void MatchController::setWaitForOwnPrograms(bool on) {
   m_options.waitForOwnPrograms = on;
-  post([on](link::SimulatedMatch& match) { match.setWaitForOwnPrograms(on); });
+  post([on](link::SimulatedMatch& match) {
+    match.setWaitForOwnPrograms(on);
+    return link::Changed::No;
+  });
   emit transportChanged();
 }
 
@@ -319,7 +325,7 @@ void MatchController::setSpeed(double timesRealTime) {
 link::Scenario MatchController::currentMoment() {
   link::Scenario moment = m_scenario;
   if (m_runner) {
-    m_runner->execute([&moment](link::SimulatedMatch& match) { moment = match.toScenario(); });
+    m_runner->read([&moment](const link::SimulatedMatch& match) { moment = match.toScenario(); });
   }
   return moment;
 }
@@ -327,7 +333,8 @@ link::Scenario MatchController::currentMoment() {
 std::uint64_t MatchController::stateHash() {
   std::uint64_t hash = 0;
   if (m_runner) {
-    m_runner->execute([&hash](link::SimulatedMatch& match) { hash = match.simulation().hash(); });
+    m_runner->read(
+        [&hash](const link::SimulatedMatch& match) { hash = match.simulation().hash(); });
   }
   return hash;
 }
@@ -336,7 +343,8 @@ void MatchController::post(MatchOrder order) {
   post([this, order = std::move(order),
         generation = m_generation.load()](link::SimulatedMatch& match) {
     const Result<void> done = order.carryOut(match);
-    if (done && !order.onSuccess && !m_refused) return;
+    const link::Changed changed = done ? order.changes : link::Changed::No;
+    if (done && !order.onSuccess && !m_refused) return changed;
     const QString sentence = done ? QString()
                                   : order.whatFailed + QStringLiteral(": ") +
                                         QString::fromStdString(done.error().text());
@@ -351,6 +359,7 @@ void MatchController::post(MatchOrder order) {
           if (onFailure) onFailure();
           refuse(sentence);
         });
+    return changed;
   });
 }
 

@@ -26,6 +26,7 @@ struct MatchEdits::Field {
   Value link::ScenarioRobot::*member;
   Result<void> (*carryOut)(link::SimulatedMatch& match, RobotId id, const Value& value);
   const char* whatFailed;
+  link::Changed changes;
 };
 
 const MatchEdits::Field<sim::RobotIdentity> MatchEdits::identityField{
@@ -33,25 +34,25 @@ const MatchEdits::Field<sim::RobotIdentity> MatchEdits::identityField{
     [](link::SimulatedMatch& match, RobotId, const sim::RobotIdentity& identity) {
       return match.setIdentity(identity);
     },
-    "Could not change the team or number of %1"};
+    "Could not change the team or number of %1", link::Changed::Yes};
 const MatchEdits::Field<std::string> MatchEdits::behaviourField{
     &link::ScenarioRobot::behaviour,
     [](link::SimulatedMatch& match, RobotId id, const std::string& behaviour) {
       return match.setBehaviour(id, behaviour);
     },
-    "Could not change the behaviour of %1"};
+    "Could not change the behaviour of %1", link::Changed::No};
 const MatchEdits::Field<sim::RobotModel> MatchEdits::modelField{
     &link::ScenarioRobot::model,
     [](link::SimulatedMatch& match, RobotId id, const sim::RobotModel& model) {
       return match.setRobotModel(id, model);
     },
-    "Could not change the model of %1"};
+    "Could not change the model of %1", link::Changed::Yes};
 const MatchEdits::Field<link::RuntimeChoice> MatchEdits::runtimeField{
     &link::ScenarioRobot::runtime,
     [](link::SimulatedMatch& match, RobotId id, const link::RuntimeChoice& choice) {
       return match.setRuntime(id, choice);
     },
-    "Could not change the runtime of %1"};
+    "Could not change the runtime of %1", link::Changed::No};
 
 MatchEdits::MatchEdits(MatchController* match)
     : QObject(match), m_match(match), m_undoStack(new QUndoStack(this)) {
@@ -145,7 +146,9 @@ void MatchEdits::set(const Field<Value>& field, const Values<Value>& values) {
                      const auto still = m_robots.find(id);
                      if (still != m_robots.end()) still->second.*member = before;
                      emit robotsChanged();
-                   }});
+                   },
+                   {},
+                   field.changes});
   }
   emit robotsChanged();
 }
@@ -176,6 +179,7 @@ void MatchEdits::placeRobots(const std::vector<RobotPlacement>& placements,
     for (const RobotPlacement& placement : placements) {
       (void)match.simulation().placeRobot(placement.id, placement.*where);
     }
+    return link::Changed::Yes;
   });
 }
 
@@ -381,10 +385,11 @@ void MatchEdits::reopen(const link::Scenario& scenario, const link::Scenario& be
 void MatchEdits::commandAction(RobotId id, int actionA, std::optional<int> actionB) {
   order([id, actionA, actionB](link::SimulatedMatch& match) {
     link::Blackboard* board = match.blackboard(id);
-    if (board == nullptr) return;
+    if (board == nullptr) return link::Changed::No;
     // B first: control reads it in the moment it sees a new A.
     if (actionB) board->write(match.variables().decisionActionB, *actionB);
     board->write(match.variables().decisionActionA, actionA);
+    return link::Changed::No;
   });
 }
 
@@ -393,6 +398,7 @@ void MatchEdits::commandSearch(RobotId id, bool on) {
     if (link::Blackboard* board = match.blackboard(id)) {
       board->write(match.variables().decisionSearchOn, on ? 1 : 0);
     }
+    return link::Changed::No;
   });
 }
 
@@ -421,7 +427,8 @@ void MatchEdits::writeVariable(RobotId id, const QString& name, double value) {
            return {};
          },
          {},
-         [this, id, name, time] { emit variableWritten(id, name, *time); }});
+         [this, id, name, time] { emit variableWritten(id, name, *time); },
+         link::Changed::No});
 }
 
 void MatchEdits::setNoise(const sim::NoiseParameters& noise) {
@@ -435,34 +442,45 @@ void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
          }});
 }
 
+void MatchEdits::orderProcesses(const std::function<void(link::ProcessManager&)>& what) {
+  order([what](link::SimulatedMatch& match) {
+    what(match.processes());
+    return link::Changed::No;
+  });
+}
+
 void MatchEdits::startProcess(int process) {
-  order([process](link::SimulatedMatch& match) {
-    match.processes().start(process, std::chrono::steady_clock::now());
+  orderProcesses([process](link::ProcessManager& all) {
+    all.start(process, std::chrono::steady_clock::now());
   });
 }
 
 void MatchEdits::stopProcess(int process) {
-  order([process](link::SimulatedMatch& match) { match.processes().stop(process); });
+  orderProcesses([process](link::ProcessManager& all) { all.stop(process); });
 }
 
 void MatchEdits::restartProcess(int process) {
-  order([process](link::SimulatedMatch& match) {
-    match.processes().restart(process, std::chrono::steady_clock::now());
+  orderProcesses([process](link::ProcessManager& all) {
+    all.restart(process, std::chrono::steady_clock::now());
   });
 }
 
 void MatchEdits::killProcess(int process) {
-  order([process](link::SimulatedMatch& match) { match.processes().kill(process); });
+  orderProcesses([process](link::ProcessManager& all) { all.kill(process); });
 }
 
 void MatchEdits::setClockRunning(bool running) {
-  order([running](link::SimulatedMatch& match) { match.simulation().setClockRunning(running); });
+  order([running](link::SimulatedMatch& match) {
+    match.simulation().setClockRunning(running);
+    return link::Changed::Yes;
+  });
 }
 
 void MatchEdits::resetScore() {
   order([](link::SimulatedMatch& match) {
     match.simulation().setScore({});
     match.simulation().editState().clockTicks = 0;
+    return link::Changed::Yes;
   });
 }
 

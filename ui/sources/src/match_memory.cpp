@@ -59,8 +59,10 @@ void MatchMemory::setSampling(int everyNth) {
   if (everyNth == m_everyNth || everyNth < 1) return;
   m_everyNth = everyNth;
   if (!m_sampler) return;
-  m_match->post(
-      [sampler = m_sampler, everyNth](link::SimulatedMatch&) { sampler->setEveryNth(everyNth); });
+  m_match->post([sampler = m_sampler, everyNth](link::SimulatedMatch&) {
+    sampler->setEveryNth(everyNth);
+    return link::Changed::No;
+  });
 }
 
 FramePtr MatchMemory::frameAt(double time) const {

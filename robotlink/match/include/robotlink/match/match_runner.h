@@ -23,6 +23,10 @@
 
 namespace pitchboard::link {
 
+/// Whether a command changed the world (not only blackboards and processes): then the next tick
+/// does not go on from what observers have seen.
+enum class Changed { No, Yes };
+
 class MatchRunner {
  public:
   static constexpr double unlimitedSpeed = MatchPlayer::unlimitedSpeed;
@@ -47,10 +51,12 @@ class MatchRunner {
   bool waitUntilStill(std::chrono::milliseconds timeout) const;
 
   /// Carried out on the runner's thread between two ticks, also while paused.
-  using Command = std::function<void(SimulatedMatch&)>;
+  using Command = std::function<Changed(SimulatedMatch&)>;
   void post(Command command);
   /// The same, and waits for it. Not from within a command.
   void execute(const Command& command);
+  /// Waits for it as well; it changes nothing.
+  void read(const std::function<void(const SimulatedMatch&)>& look);
 
   /// Shows it the present moment and every tick from now on, until stopObserving(). Waits for the
   /// tick in progress; so does stopObserving(). Neither from within a command.

@@ -35,6 +35,7 @@ struct MatchOrder {
   std::function<Result<void>(link::SimulatedMatch&)> carryOut;
   std::function<void()> onFailure = {};
   std::function<void()> onSuccess = {};
+  link::Changed changes = link::Changed::Yes;  ///< when it is carried out
 };
 
 enum class Trouble {

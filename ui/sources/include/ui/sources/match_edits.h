@@ -133,6 +133,7 @@ class MatchEdits : public QObject {
   static const Field<sim::RobotModel> modelField;
   static const Field<link::RuntimeChoice> runtimeField;
 
+  void orderProcesses(const std::function<void(link::ProcessManager&)>& what);
   /// Gives known robots these values, here and in the match.
   template <class Value>
   void set(const Field<Value>& field, const Values<Value>& values);
