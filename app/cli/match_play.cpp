@@ -55,7 +55,7 @@ class Playing {
   Playing(link::MatchPlayer& player, double speed)
       : m_player(player), m_match(player.match()), m_begin(Clock::now()) {
     m_player.setSpeed(speed, m_begin);
-    m_match.setPlaying(speed, false, m_begin);
+    m_match.pace().setPlaying(speed, false, m_begin);
   }
 
   Outcome play(const std::function<bool()>& goOn) {
@@ -87,7 +87,7 @@ class Playing {
   }
 
   void pollProcesses() {
-    m_match.lookAfterProcesses(Clock::now());
+    m_match.pace().lookAfterProcesses(Clock::now());
     (void)m_match.processes().takeLines();
     m_player.tellEvents();
   }

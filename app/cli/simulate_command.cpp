@@ -160,7 +160,7 @@ Result<void> simulate(const Arguments& arguments) {
   const InterruptGuard signals;
   auto match = TRY(createMatch(scenario, arguments.play, cognition));
   if (recorded) {
-    TRY(match.reenter(recorded->moment));
+    TRY(match.restore(recorded->moment));
   }
 
   link::MatchPlayer player(std::move(match));

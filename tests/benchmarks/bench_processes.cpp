@@ -78,7 +78,7 @@ void measure(const char* title, const char* scenario, const char* behaviour, boo
     std::fprintf(stderr, "error: %s\n", match.error().text().c_str());
     std::exit(2);
   }
-  match->setPlaying(lockStep ? 0.0 : 1.0, false, Steady::now());
+  match->pace().setPlaying(lockStep ? 0.0 : 1.0, false, Steady::now());
   const auto tick = std::chrono::duration_cast<Steady::duration>(Seconds(1.0 / tickRate));
   double fastest = 0.0, leastCpu = 1e9, leastPerTick = 1e9;
   for (int i = -1; i < measurements; ++i) {  // the first one starts the processes
@@ -91,7 +91,7 @@ void measure(const char* title, const char* scenario, const char* behaviour, boo
       ++ticks;
       const auto now = Steady::now();
       if (now - looked > std::chrono::milliseconds(50)) {
-        match->lookAfterProcesses(now);
+        match->pace().lookAfterProcesses(now);
         looked = now;
       }
       if (!lockStep) std::this_thread::sleep_until(next += tick);

@@ -129,8 +129,8 @@ class TestManyMatches : public QObject {
       numbers.insert(match.number()->value);
       keys.insert(match.blackboard(RobotId{3})->key());
       QCOMPARE(match.publishedHolder().empty(), match.number()->value == 0);
-      match.setPace(RobotsPace::Free);
-      match.setPlaying(1.0, false, std::chrono::steady_clock::now());
+      match.pace().setRobotsPace(RobotsPace::Free);
+      match.pace().setPlaying(1.0, false, std::chrono::steady_clock::now());
     }
     QCOMPARE(numbers.size(), static_cast<std::size_t>(matches));
     QCOMPARE(keys.size(), static_cast<std::size_t>(matches));
@@ -144,7 +144,7 @@ class TestManyMatches : public QObject {
       bool open = board(matches - 1).read(second) == 1;
       for (SimulatedMatch& match : all) {
         match.tick();
-        match.lookAfterProcesses(std::chrono::steady_clock::now());
+        match.pace().lookAfterProcesses(std::chrono::steady_clock::now());
         open = open && match.blackboard(RobotId{3})->read(first) == 1;
       }
       return open;

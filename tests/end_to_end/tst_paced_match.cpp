@@ -140,7 +140,7 @@ struct Played {
     if (!moment) qFatal("%s", moment.error().text().c_str());
     Result<void> entered;
     runner->execute([&](SimulatedMatch& match) {
-      entered = match.reenter(*moment);
+      entered = match.restore(*moment);
       return Changed::Yes;
     });
     if (!entered) qFatal("%s", entered.error().text().c_str());

@@ -165,12 +165,13 @@ class TestSeparateMatch : public QObject {
     for (int i = 0; i < 8 * tickRate; ++i) {
       if (i == 200) {
         for (auto* match : {&inside, &outside}) {
-          QVERIFY(match->restartProcess(RobotId{1}, "decision"));
-          QVERIFY(match->restartProcess(RobotId{4}, "localization"));
+          QVERIFY(match->robots().restartProcess(RobotId{1}, "decision"));
+          QVERIFY(match->robots().restartProcess(RobotId{4}, "localization"));
         }
       }
       if (i == 300) {
-        for (auto* match : {&inside, &outside}) QVERIFY(match->setBehaviour(RobotId{2}, "striker"));
+        for (auto* match : {&inside, &outside})
+          QVERIFY(match->robots().setBehaviour(RobotId{2}, "striker"));
       }
       inside.tick();
       outside.tick();
@@ -183,11 +184,11 @@ class TestSeparateMatch : public QObject {
     for (int i = 0; i < 2 * tickRate; ++i) match.tick();
     const pid_t localization = pidOf(match, RobotId{1}, "localization");
     const pid_t decision = pidOf(match, RobotId{1}, "decision");
-    QVERIFY(match.setBehaviour(RobotId{1}, "keeper"));
+    QVERIFY(match.robots().setBehaviour(RobotId{1}, "keeper"));
     match.tick();
     QCOMPARE(pidOf(match, RobotId{1}, "localization"), localization);
     QVERIFY(pidOf(match, RobotId{1}, "decision") != decision);
-    QVERIFY(match.setBehaviour(RobotId{1}, std::string(noBehaviour)));
+    QVERIFY(match.robots().setBehaviour(RobotId{1}, std::string(noBehaviour)));
     QCOMPARE(pidOf(match, RobotId{1}, "localization"), 0);
     match.tick();
   }

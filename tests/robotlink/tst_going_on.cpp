@@ -92,7 +92,7 @@ struct Played {
     return std::move(*moment);
   }
   void goBackTo(std::uint64_t tick) {
-    change([this, tick](SimulatedMatch& it) { return it.reenter(momentAt(tick)); });
+    change([this, tick](SimulatedMatch& it) { return it.restore(momentAt(tick)); });
   }
   /// The first tick up to `tick` at which the match is not what it was the first time; 0: it is.
   std::uint64_t differsUntil(std::uint64_t tick) {
@@ -157,14 +157,15 @@ class TestGoingOn : public QObject {
     match.playTo(16 * second);
     match.change([](SimulatedMatch& it) { return it.simulation().placeBall({0.5, 0.5}); });
     match.playTo(18 * second);
-    match.change([](SimulatedMatch& it) { return it.setBehaviour(RobotId{2}, "striker"); });
-    match.change([](SimulatedMatch& it) { return it.removeRobot(RobotId{3}); });
+    match.change(
+        [](SimulatedMatch& it) { return it.robots().setBehaviour(RobotId{2}, "striker"); });
+    match.change([](SimulatedMatch& it) { return it.robots().remove(RobotId{3}); });
     match.playTo(22 * second);
     ScenarioRobot come;
     come.identity = {RobotId{9}, TeamColor::Blue, 9, false};
     come.pose = {{-2.0, -2.0}, 0.0};
     come.behaviour = "supporter";
-    match.change([&](SimulatedMatch& it) { return it.addRobot(come); });
+    match.change([&](SimulatedMatch& it) { return it.robots().add(come); });
     match.playTo(36 * second);
     for (const std::uint64_t seconds : {35U, 26U, 21U, 17U, 15U, 11U}) {
       const std::uint64_t tick = seconds * second + 5;
@@ -208,7 +209,7 @@ class TestGoingOn : public QObject {
     QVERIFY2(moment, moment ? "" : moment.error().text().c_str());
     QVERIFY(moment->state.settings.field.surface == (sim::Surface{0.2, 0.97}));
     auto match = SimulatedMatch::create(loadScenario("empty").value(), {}).value();
-    const auto put = match.reenter(*moment);
+    const auto put = match.restore(*moment);
     QVERIFY2(put, put ? "" : put.error().text().c_str());
     while (match.simulation().state().tick < 312) match.tick();
     QCOMPARE(match.simulation().hash(), std::uint64_t{0x5ac57837bce433e4});
@@ -253,7 +254,7 @@ class TestGoingOn : public QObject {
       before += match.meanError(50 * second, 60 * second);
       // A match that knows nothing of it, as the command line makes one.
       Played later(scenarioOf(seed));
-      later.change([&](SimulatedMatch& it) { return it.reenter(moment); });
+      later.change([&](SimulatedMatch& it) { return it.restore(moment); });
       later.playTo(60 * second);
       after += later.meanError(50 * second, 60 * second);
     }

@@ -455,7 +455,7 @@ class TestLiveFrame : public QObject {
     const auto check = [&](const sim::RefereeCall& call) {
       bool done = false;
       runner->execute([&](SimulatedMatch& match) {
-        done = match.call(call).has_value();
+        done = match.simulation().call(call).has_value();
         return Changed::Yes;
       });
       runner->runTo(tick += 30);

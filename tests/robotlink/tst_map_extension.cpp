@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include <robotlink/cognition/process_registry.h>
+#include <robotlink/match/blackboard_bridge.h>
 #include <robotlink/match/simulated_match.h>
 #include <simcore/world/published_frame.h>
 

@@ -152,7 +152,7 @@ class TestMatchEvents : public QObject {
       last = *id;
       return QTest::qWaitFor(
           [&] {
-            match.lookAfterProcesses(Clock::now());
+            match.pace().lookAfterProcesses(Clock::now());
             match.takeEvents(events);
             return find(events, until) != nullptr;
           },

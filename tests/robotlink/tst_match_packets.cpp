@@ -113,12 +113,14 @@ class TestMatchPackets : public QObject {
     QCOMPARE(heard.size(), wanted.size());
     if (!humanoidSoccer(version)) return;
     // When play is stopped they say so at once, and then five times a second for a second.
-    QVERIFY(match.call({.kind = sim::CallKind::State, .state = sim::PlayState::Ready}));
-    QVERIFY(match.call({.kind = sim::CallKind::State, .state = sim::PlayState::Set}));
-    QVERIFY(match.call({.kind = sim::CallKind::State, .state = sim::PlayState::Playing}));
+    QVERIFY(
+        match.simulation().call({.kind = sim::CallKind::State, .state = sim::PlayState::Ready}));
+    QVERIFY(match.simulation().call({.kind = sim::CallKind::State, .state = sim::PlayState::Set}));
+    QVERIFY(
+        match.simulation().call({.kind = sim::CallKind::State, .state = sim::PlayState::Playing}));
     play(match, 20.0);
     (void)heardBy(ear);
-    QVERIFY(match.call({.kind = sim::CallKind::Stop}));
+    QVERIFY(match.simulation().call({.kind = sim::CallKind::Stop}));
     match.tick();
     QVERIFY(heardBy(ear)[version] >= 1);
     play(match, 1.1);
@@ -162,7 +164,7 @@ class TestMatchPackets : public QObject {
                                   world.game->teams[1].slotOf(shirt));
     };
     const auto call = [&](const sim::RefereeCall& one) {
-      QVERIFY(match.call(one));
+      QVERIFY(match.simulation().call(one));
       play(match, 0.6);
       QCOMPARE(heard().value_or(-1), word());
     };
@@ -206,7 +208,7 @@ class TestMatchPackets : public QObject {
       return same();
     };
     const auto call = [&](const sim::RefereeCall& one) {
-      const auto done = match.call(one);
+      const auto done = match.simulation().call(one);
       if (!done) qFatal("%s", done.error().text().c_str());
     };
     const auto becomes = [&](sim::PlayState state) {

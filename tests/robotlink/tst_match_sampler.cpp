@@ -92,7 +92,7 @@ class TestMatchSampler : public QObject {
     early->rows.clear();
     late->rows.clear();
     rig.play(5);
-    (void)rig.match.removeRobot(RobotId{2});
+    (void)rig.match.robots().remove(RobotId{2});
     rig.play(5);
     QCOMPARE(late->rows.size(), std::size_t{7 * 5 + 6 * 5});
     QVERIFY(early->rows == late->rows);  // not equal values: the same memory
@@ -293,15 +293,15 @@ class TestMatchSampler : public QObject {
     rig.play(10);
     const auto revision = rig.store->groupsRevision();
     ScenarioRobot robot;
-    robot.identity = {rig.match.freeRobotId(), TeamColor::Red, 7, true};
+    robot.identity = {rig.match.robots().freeId(), TeamColor::Red, 7, true};
     robot.pose = {{2.0, 1.0}, 0.0};
-    QVERIFY(rig.match.addRobot(robot));
+    QVERIFY(rig.match.robots().add(robot));
     rig.play(10);
     QVERIFY(rig.store->groupsRevision() > revision);
     const auto red = rig.store->findGroup("R7");
     QVERIFY(red);
     QCOMPARE(rig.store->view(*red)->rows(), std::size_t{10});
-    QVERIFY(rig.match.removeRobot(robot.identity.id));
+    QVERIFY(rig.match.robots().remove(robot.identity.id));
     rig.play(10);
     QCOMPARE(rig.store->view(*red)->rows(), std::size_t{10});  // its past stays
     QCOMPARE(rig.latest("match", "TICK"), 30.0);

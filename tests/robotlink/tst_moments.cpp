@@ -69,8 +69,9 @@ struct Played {
     if (!runner->waitUntilStill(60s)) qFatal("still playing");
     runner->execute([](SimulatedMatch& m) {
       (void)m.simulation().placeBall({0.5, -1}, {1, 0.3});
-      (void)m.addRobot({{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker", {}});
-      (void)m.removeRobot(RobotId{2});
+      (void)m.robots().add(
+          {{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker", {}});
+      (void)m.robots().remove(RobotId{2});
       return Changed::Yes;
     });
     runner->runTo(700);
@@ -196,7 +197,7 @@ class TestMoments : public QObject {
     const auto moment = momentFromSession(session, 15.0, VariableCatalog::published()).value();
     auto match = SimulatedMatch::create(m_match->scenario, {}).value();
     for (int i = 0; i < 50; ++i) match.tick();
-    const auto entered = match.reenter(moment);
+    const auto entered = match.restore(moment);
     QVERIFY2(entered, entered ? "" : entered.error().text().c_str());
     QCOMPARE(match.simulation().hash(), m_match->witness->seen.at(900).hash);
     QVERIFY(match.blackboard(RobotId{9}) && !match.blackboard(RobotId{2}));
@@ -209,7 +210,7 @@ class TestMoments : public QObject {
     QCOMPARE(match.simulation().state().tick, std::uint64_t{1000});
     Scenario other = m_match->scenario;
     other.settings.tickRate = 120;
-    QVERIFY(!SimulatedMatch::create(other, {}).value().reenter(moment));
+    QVERIFY(!SimulatedMatch::create(other, {}).value().restore(moment));
   }
 
   void theRecentPastIsSaved() {

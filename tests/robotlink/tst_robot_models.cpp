@@ -153,7 +153,7 @@ class TestRobotModels : public QObject {
     QVERIFY(again && *again == *scenario);
     // The match hands each robot its model, and gives it back with the moment.
     const auto match = SimulatedMatch::create(*scenario, {}).value();
-    QCOMPARE(match.robotModel({2})->name, std::string("adult-size"));
+    QCOMPARE(match.robots().model({2})->name, std::string("adult-size"));
     QVERIFY(match.toScenario().robots[2].model == scenario->robots[2].model);
   }
 
@@ -249,10 +249,10 @@ class TestRobotModels : public QObject {
   void anotherModelWhileTheMatchPlays() {
     auto match = SimulatedMatch::create(loadScenario("one-robot").value(), {}).value();
     for (int i = 0; i < 60; ++i) match.tick();
-    QVERIFY(match.setRobotModel({1}, loadRobotModel("adult-size").value()));
+    QVERIFY(match.robots().setModel({1}, loadRobotModel("adult-size").value()));
     for (int i = 0; i < 60; ++i) match.tick();
     QCOMPARE(match.simulation().snapshot().robots[0].radius, 0.26);
-    QVERIFY(!match.setRobotModel({5}, {}));
+    QVERIFY(!match.robots().setModel({5}, {}));
   }
 };
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include <resources/resources.h>
+#include <robotlink/match/moment.h>
 #include <robotlink/match/simulated_match.h>
 
 #include "../support/segment_keys.h"
@@ -239,7 +240,7 @@ class TestRuntimeProfile : public QObject {
         write("DECISION_LOCALIZATION", (i / 100) % 2);
         write("IMU_RESET", i % 50 == 0 ? 1 : 0);
         match.tick();
-        match.lookAfterProcesses(std::chrono::steady_clock::now());
+        match.pace().lookAfterProcesses(std::chrono::steady_clock::now());
       }
       QVERIFY(match.processes().statuses().empty());
       std::array<std::uint32_t, Blackboard::words> words{};
@@ -275,7 +276,7 @@ class TestRuntimeProfile : public QObject {
     QCOMPARE(match.robotsOfOthers().size(), std::size_t{1});
     QCOMPARE(match.robotsOfOthers().front().name(), std::string("B2"));
     // And back again.
-    QVERIFY(match.setRuntime(RobotId{2}, {}));
+    QVERIFY(match.robots().setRuntime(RobotId{2}, {}));
     QCOMPARE(namesOf(match, 2).size(), std::size_t{5});
     QVERIFY(match.robotsOfOthers().empty());
     match.tick();
@@ -304,7 +305,7 @@ class TestRuntimeProfile : public QObject {
                                     .team = 1,
                                     .setPlay = sim::SetPlay::ThrowIn,
                                     .place = Point{0.0, 3.0}};
-        QVERIFY(inside.call(call) && match.call(call));
+        QVERIFY(inside.simulation().call(call) && match.simulation().call(call));
       }
       inside.tick();
       match.tick();
@@ -346,6 +347,74 @@ class TestRuntimeProfile : public QObject {
     QCOMPARE(namesOf(outside, 1), std::vector<std::string>{"team"});
   }
 
+  void aChangeThatFailsLeavesTheSlotAsItWas_data() {
+    using Call = std::function<Result<void>(SimulatedMatch&)>;
+    QTest::addColumn<Call>("call");
+    QTest::newRow("add") << Call([](SimulatedMatch& match) {
+      ScenarioRobot robot = match.scenario().robots[0];
+      robot.identity = {RobotId{2}, TeamColor::Red, 4, true};
+      return match.robots().add(robot);
+    });
+    QTest::newRow("behaviour") << Call(
+        [](SimulatedMatch& match) { return match.robots().setBehaviour(RobotId{1}, "naive"); });
+    QTest::newRow("runtime") << Call([](SimulatedMatch& match) {
+      return match.robots().setRuntime(RobotId{1}, match.scenario().robots[0].runtime);
+    });
+    QTest::newRow("identity") << Call([](SimulatedMatch& match) {
+      return match.robots().setIdentity({RobotId{1}, TeamColor::Red, 4, true});
+    });
+    QTest::newRow("model") << Call([](SimulatedMatch& match) {
+      sim::RobotModel other = *match.robots().model(RobotId{1});
+      other.radius = 0.1;
+      return match.robots().setModel(RobotId{1}, other);
+    });
+    QTest::newRow("restore") << Call([](SimulatedMatch& match) {
+      Moment moment{match.simulation().state(), {{RobotId{1}, "naive", {}}}, nullptr};
+      moment.state.tick += 60;
+      return match.restore(moment);
+    });
+  }
+  void aChangeThatFailsLeavesTheSlotAsItWas() {
+    QFETCH(std::function<Result<void>(SimulatedMatch&)>, call);
+    QTemporaryDir folder;
+    const QString program = folder.filePath("program");
+    const auto write = [](const QString& path, const QByteArray& text) {
+      QFile file(path);
+      QVERIFY(file.open(QIODevice::WriteOnly));
+      file.write(text);
+      file.setPermissions(file.permissions() | QFile::ExeOwner);
+    };
+    write(program, "#!/bin/sh\nexec sleep 600\n");
+    write(folder.filePath("two.json"), QByteArray(R"({"version": 1, "name": "two", "processes": [
+            {"name": "stays", "command": ["/bin/sleep", "600"], "only_for": "behaviour"},
+            {"name": "goes", "command": ["%1"], "only_for": "behaviour"}]})")
+                                           .replace("%1", program.toUtf8()));
+    Scenario scenario = loadScenario("one-robot").value();
+    scenario.robots[0].runtime.profile = folder.filePath("two.json").toStdString();
+    auto match = SimulatedMatch::create(scenario, separate()).value();
+    match.tick();
+    QVERIFY(QFile::remove(program));  // from now on it cannot be started
+
+    const sim::WorldState world = match.simulation().state();
+    const RobotSetup before = *match.robots().find(RobotId{1});
+    const auto result = call(match);
+    QVERIFY(!result);
+    QVERIFY2(result.error().text().find("program") != std::string::npos,
+             result.error().text().c_str());
+    QVERIFY(match.simulation().state() == world);
+    QCOMPARE(match.robots().all().size(), std::size_t{1});
+    QVERIFY(!SystemVSegments::info(m_base + 200));
+    const RobotSetup after = *match.robots().find(RobotId{1});
+    QCOMPARE(after.behaviour, before.behaviour);
+    QVERIFY(after.choice == before.choice);
+    QCOMPARE(after.runtime.name, before.runtime.name);
+    QVERIFY(after.processes == before.processes);
+    QCOMPARE(namesOf(match, 1), (std::vector<std::string>{"stays", "goes"}));
+    QCOMPARE(namesOf(match, 2).size(), std::size_t{0});
+    QCOMPARE(match.processes().status(after.processes[0]->id)->state, ProcessState::Running);
+    match.tick();
+  }
+
   void aProgramRunsAsDecision() {
     QTemporaryDir folder;
     QFile file(folder.filePath("decide"));
@@ -360,7 +429,7 @@ class TestRuntimeProfile : public QObject {
              (std::vector<std::string>{"localization", "team", "decision", "communication"}));
     const std::string wanted = "key " + std::to_string(m_base + 100);
     const auto said = [&] {
-      match.lookAfterProcesses(std::chrono::steady_clock::now());
+      match.pace().lookAfterProcesses(std::chrono::steady_clock::now());
       for (const ProcessStatus& one : match.processes().statuses()) {
         if (one.name == "decision" && !one.lastLines.empty()) return one.lastLines.back() == wanted;
       }
@@ -410,7 +479,7 @@ class TestRuntimeProfile : public QObject {
     auto match = SimulatedMatch::create(scenario, options);
     QVERIFY2(match, match ? "" : match.error().text().c_str());
     const auto lines = [&match] {
-      match->lookAfterProcesses(std::chrono::steady_clock::now());
+      match->pace().lookAfterProcesses(std::chrono::steady_clock::now());
       std::set<std::string> all;
       for (const ProcessStatus& one : match->processes().statuses()) {
         if (!one.lastLines.empty()) all.insert(one.lastLines.back());

@@ -137,23 +137,23 @@ class TestSimulatedMatch : public QObject {
   void robotsComeAndGo() {
     auto match = make(builtIn("match-3v3"));
     for (int i = 0; i < 60; ++i) match.tick();
-    QCOMPARE(match.freeRobotId().value, 7);
-    QVERIFY(match.removeRobot(RobotId{2}));
-    QCOMPARE(match.freeRobotId().value, 2);
+    QCOMPARE(match.robots().freeId().value, 7);
+    QVERIFY(match.robots().remove(RobotId{2}));
+    QCOMPARE(match.robots().freeId().value, 2);
     QVERIFY(!match.blackboard(RobotId{2}));
-    QCOMPARE(match.removeRobot(RobotId{2}).error().code, ErrorCode::NotFound);
+    QCOMPARE(match.robots().remove(RobotId{2}).error().code, ErrorCode::NotFound);
 
     ScenarioRobot robot;
     robot.identity = {RobotId{2}, TeamColor::Red, 1, true};
     const auto before = match.simulation().state();
-    QCOMPARE(match.addRobot(robot).error().code, ErrorCode::Conflict);  // R1 is there
+    QCOMPARE(match.robots().add(robot).error().code, ErrorCode::Conflict);  // R1 is there
     QVERIFY(match.simulation().state() == before);
     robot.identity.number = 9;
     robot.behaviour = "nobody";
-    QVERIFY(!match.addRobot(robot));
+    QVERIFY(!match.robots().add(robot));
     QVERIFY(match.simulation().state() == before);
     robot.behaviour = "naive";
-    QVERIFY(match.addRobot(robot));
+    QVERIFY(match.robots().add(robot));
     // The referee's "play" of time 0 holds for it, too.
     QCOMPARE(match.blackboard(RobotId{2})->read(match.variables().comReferee), 2);
     match.tick();
@@ -161,12 +161,12 @@ class TestSimulatedMatch : public QObject {
 
   void behaviourCanBeChanged() {
     auto match = make(builtIn("one-robot"));
-    QVERIFY(match.setBehaviour(RobotId{1}, std::string(noBehaviour)));
+    QVERIFY(match.robots().setBehaviour(RobotId{1}, std::string(noBehaviour)));
     for (int i = 0; i < 60; ++i) match.tick();
     QCOMPARE(match.blackboard(RobotId{1})->read(match.variables().decisionActionA), 0);
-    QCOMPARE(match.setBehaviour(RobotId{1}, "naiv").error().message,
+    QCOMPARE(match.robots().setBehaviour(RobotId{1}, "naiv").error().message,
              std::string("there is no behaviour \"naiv\"; did you mean \"naive\"?"));
-    QVERIFY(match.setBehaviour(RobotId{1}, "naive"));
+    QVERIFY(match.robots().setBehaviour(RobotId{1}, "naive"));
     for (int i = 0; i < 60; ++i) match.tick();
     QVERIFY(match.blackboard(RobotId{1})->read(match.variables().decisionActionA) != 0);
   }

@@ -258,8 +258,9 @@ class TestStateArchive : public QObject {
     });
     QVERIFY(play(333));
     runner->execute([](SimulatedMatch& m) {
-      (void)m.addRobot({{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker", {}});
-      (void)m.removeRobot(RobotId{2});
+      (void)m.robots().add(
+          {{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker", {}});
+      (void)m.robots().remove(RobotId{2});
       (void)m.simulation().placeRobot(RobotId{1}, {{1, 1}, 3.0});
       return Changed::Yes;
     });
@@ -277,7 +278,7 @@ class TestStateArchive : public QObject {
         if (i % 3 == 0) (void)m.simulation().placeBall({0.1 * i, 0.2}, {0, -1});
         if (i % 3 == 1) m.simulation().setScore({i, 1});
         if (i == 10) m.blackboard(RobotId{9})->write(m.variables().decisionActionA, 1);
-        if (i == 11) (void)m.setBehaviour(RobotId{9}, std::string(noBehaviour));
+        if (i == 11) (void)m.robots().setBehaviour(RobotId{9}, std::string(noBehaviour));
         return Changed::Yes;
       });
       const std::uint64_t changed = nowTick();

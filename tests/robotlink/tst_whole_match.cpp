@@ -119,9 +119,9 @@ class TestWholeMatch : public QObject {
     wait(sim::PlayState::Playing);
     QCOMPARE(word(1), refereePlay);
     QCOMPARE(word(4), refereeSet);  // blue has the kick-off
-    QVERIFY(match.call({.kind = sim::CallKind::Penalise,
-                        .robot = RobotId{1},
-                        .penalty = sim::PenaltyKind::Manual}));
+    QVERIFY(match.simulation().call({.kind = sim::CallKind::Penalise,
+                                     .robot = RobotId{1},
+                                     .penalty = sim::PenaltyKind::Manual}));
     for (int i = 0; i < 31; ++i) match.tick();
     QCOMPARE(word(1), refereeStop);
   }
@@ -138,10 +138,10 @@ class TestWholeMatch : public QObject {
     while (game.state != sim::PlayState::Playing) match.tick();
     for (int i = 0; i < 60 * 11; ++i) match.tick();
     QCOMPARE(game.kickOff, 0);
-    QVERIFY(match.call({.kind = sim::CallKind::SetPlay,
-                        .team = 1,
-                        .setPlay = sim::SetPlay::ThrowIn,
-                        .place = Point{0.0, 3.0}}));
+    QVERIFY(match.simulation().call({.kind = sim::CallKind::SetPlay,
+                                     .team = 1,
+                                     .setPlay = sim::SetPlay::ThrowIn,
+                                     .place = Point{0.0, 3.0}}));
     const auto word = [&](int robot) {
       return match.blackboard(RobotId{robot})->read(match.variables().comReferee);
     };

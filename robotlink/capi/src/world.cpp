@@ -167,7 +167,7 @@ Result<void> World::restore(const WorldSnapshot& snapshot) {
                    "this snapshot is of a world of another scenario; restore it into worlds of its "
                    "own");
   }
-  TRY(m_match.reenter(snapshot.moment));
+  TRY(m_match.restore(snapshot.moment));
   findBoards();
   const auto& reasons = columns::finishReasons;
   const auto found = std::ranges::find(reasons, snapshot.finishedBy);
@@ -180,7 +180,7 @@ Result<void> World::restore(const WorldSnapshot& snapshot) {
 bool World::beginAgain(const Moment& beginning, std::uint64_t seed) {
   Moment seeded = beginning;
   seeded.state.settings.seed = seed;
-  if (!m_match.reenter(seeded)) return false;
+  if (!m_match.restore(seeded)) return false;
   m_finishedBy = m_match.finishedBy();
   m_sensed = false;
   m_beginsQuickly = true;

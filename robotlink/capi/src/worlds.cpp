@@ -180,7 +180,7 @@ std::span<const RobotId> Worlds::robotIds() const {
 Result<void> Worlds::setBehaviour(RobotId robot, const std::string& behaviour) {
   TRY(m_parts->checkRobot(robot));
   auto changed = m_parts->changeEach(all, [&](World& world, std::size_t /*index*/) {
-    return world.match().setBehaviour(robot, behaviour);
+    return world.match().robots().setBehaviour(robot, behaviour);
   });
   if (!changed) return changed;
   for (ScenarioRobot& one : m_parts->scenario.robots) {

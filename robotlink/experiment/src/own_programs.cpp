@@ -21,7 +21,7 @@ Result<void> OwnPrograms::missing() const {
   for (const ProcessStatus& one : match.processes().statuses()) {
     // One that runs and attaches nothing may have another way to see its robot.
     if (!one.foreign || (one.state == ProcessState::Running && one.restarts == 0) ||
-        match.hasAttached(one)) {
+        match.pace().hasAttached(one)) {
       continue;
     }
     const auto index = match.simulation().indexOf(one.robot);
@@ -36,36 +36,36 @@ Result<void> OwnPrograms::missing() const {
 
 Result<void> OwnPrograms::begin(const std::atomic<bool>* cancelled) {
   SimulatedMatch& match = m_player.match();
-  match.setPlaying(m_speed, false, Clock::now());
+  match.pace().setPlaying(m_speed, false, Clock::now());
   while (m_player.awaitPrograms(Clock::now())) {
     if (cancelled && *cancelled) return {};
-    match.lookAfterProcesses(Clock::now());
+    match.pace().lookAfterProcesses(Clock::now());
     std::this_thread::sleep_for(glance);
   }
   TRY(missing());
   m_looked = m_followed = Clock::now();
-  setSpeed(match.ownPace(m_speed, m_speed), m_looked);
+  setSpeed(match.pace().ownPace(m_speed, m_speed), m_looked);
   return {};
 }
 
 void OwnPrograms::setSpeed(double speed, Clock::time_point now) {
   m_now = speed;
   SimulatedMatch& match = m_player.match();
-  match.slowTo(speed, now);
+  match.pace().slowTo(speed, now);
   m_pacer.start(now, m_player.currentTick(), speed * match.simulation().state().settings.tickRate);
 }
 
 void OwnPrograms::look(Clock::time_point now) {
   SimulatedMatch& match = m_player.match();
   m_looked = now;
-  match.lookAfterProcesses(now);
+  match.pace().lookAfterProcesses(now);
   (void)match.processes().takeLines();
   const auto slowest = match.slowestOwnProgram();
   m_kept += slowest ? std::min(1.0, *slowest / m_now) : 1.0;
   m_looks += 1.0;
   if (now - m_followed < ownPaceInterval) return;
   m_followed = now;
-  const double speed = match.ownPace(m_speed, m_now);
+  const double speed = match.pace().ownPace(m_speed, m_now);
   if (speed != m_now) setSpeed(speed, now);
 }
 

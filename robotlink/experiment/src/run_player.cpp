@@ -102,7 +102,7 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
 
   const auto begin = WallClock::now();
   MatchPlayer player(std::move(match));
-  player.match().setPlaying(MatchPlayer::unlimitedSpeed, false, begin);
+  player.match().pace().setPlaying(MatchPlayer::unlimitedSpeed, false, begin);
   std::shared_ptr<MatchRecorder> recorder;
   if (recording) {
     telemetry::SessionWriterOptions writing;
@@ -168,7 +168,7 @@ Result<void> RunPlayer::loop(MatchPlayer& player, const RunMeasure& measure, std
     if (own || !e.separateProcesses) continue;
     if (const auto now = WallClock::now(); now - looked >= lookInterval) {
       looked = now;
-      player.match().lookAfterProcesses(now);
+      player.match().pace().lookAfterProcesses(now);
       (void)player.match().processes().takeLines();
     }
   }

@@ -56,7 +56,7 @@ MatchPlayer::Played MatchPlayer::play(Clock::time_point now, std::uint64_t lastT
 }
 
 bool MatchPlayer::awaitPrograms(Clock::time_point now) {
-  const bool awaits = m_match.awaitsPrograms(now);
+  const bool awaits = m_match.pace().awaitsPrograms(now);
   if (awaits && !m_awaits) tick();
   m_awaits = awaits;
   return awaits;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <base/angles.h>
+#include <base/try.h>
 #include <robotlink/match/referee_packet.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
 #include <telemetry/wire/socket_address.h>
@@ -35,9 +36,7 @@ Result<void> MatchReferee::sendTo(int port) {
     return failure(ErrorCode::InvalidArgument,
                    "the referee's port " + std::to_string(port) + " does not lie in 1..65535");
   }
-  auto sender = telemetry::UdpSender::to(loopbackBroadcast);
-  if (!sender) return tl::unexpected(sender.error());
-  m_sender = std::move(*sender);
+  m_sender = TRY(telemetry::UdpSender::to(loopbackBroadcast));
   m_port = static_cast<std::uint16_t>(port);
   return {};
 }
@@ -49,9 +48,7 @@ Result<void> MatchReferee::obey(int port, sim::Simulation& simulation) {
   }
   telemetry::ReceiverOptions options;
   options.ports = {static_cast<std::uint16_t>(port)};
-  auto receiver = telemetry::UdpReceiver::start(options);
-  if (!receiver) return tl::unexpected(receiver.error());
-  m_receiver = std::move(*receiver);
+  m_receiver = TRY(telemetry::UdpReceiver::start(options));
   if (simulation.state().game) simulation.editState().settings.referee->automatic = false;
   return {};
 }

@@ -205,7 +205,7 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
   const bool still = finished || (m_shared.paused && !runTo);
   if (std::exchange(m_shared.paceChanged, false) || still != m_still) {
     m_player.setSpeed(speed, now);
-    m_match.setPlaying(speed, still, now);
+    m_match.pace().setPlaying(speed, still, now);
     m_wantedSpeed = m_speed = speed;
     m_lastFollow = now;
     m_builder.resetSpeed(now, tick);
@@ -219,7 +219,7 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
                                                  m_match.simulation().state().settings.tickRate);
     for (int i = 0; i < singleSteps && !m_match.finished(); ++i) {
       m_player.tick();
-      m_match.letOwnProgramsRun(tickTime);
+      m_match.pace().letOwnProgramsRun(tickTime);
     }
     lock.lock();
     m_shared.singleSteps -= singleSteps;
@@ -251,12 +251,13 @@ void MatchLoop::followOwnPrograms(Clock::time_point now) {
     return;
   }
   m_lastFollow = now;
-  const double speed =
-      m_match.waitsForOwnPrograms() ? m_match.ownPace(m_wantedSpeed, m_speed) : m_wantedSpeed;
+  const double speed = m_match.pace().waitsForOwnPrograms()
+                           ? m_match.pace().ownPace(m_wantedSpeed, m_speed)
+                           : m_wantedSpeed;
   if (speed == m_speed) return;
   m_speed = speed;
   m_player.setSpeed(speed, now);
-  m_match.slowTo(speed, now);
+  m_match.pace().slowTo(speed, now);
 }
 
 bool MatchLoop::refreshesWhileStill() const {
@@ -272,7 +273,7 @@ void MatchLoop::pollProcesses() {
   // What a process says in its first moments is for those who look for it.
   constexpr auto startingUp = 1s;
   const auto now = Clock::now();
-  m_match.lookAfterProcesses(now);
+  m_match.pace().lookAfterProcesses(now);
   const sim::Simulation& simulation = m_match.simulation();
   const auto& all = m_match.processes().statuses();
   for (const ProcessLine& line : m_match.processes().takeLines()) {

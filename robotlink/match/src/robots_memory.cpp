@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the processes inside a match remember: taken, given back, and played through what came after
-// it, up to a moment.
+// A recorded moment is put back, and what the processes inside a match remember: taken, given back,
+// and played through what came after it, up to a moment.
 #include <robotlink/match/robots_memory.h>
 
 #include <algorithm>
 #include <bit>
 #include <utility>
 
+#include <base/try.h>
 #include <robotlink/match/moment.h>
-#include <robotlink/match/simulated_match.h>
 
-#include "match_referee.h"
-#include "match_seat.h"
+#include "match_parts.h"
 
 namespace pitchboard::link {
 
 std::shared_ptr<const RobotsMemory> SimulatedMatch::robotsMemory() const {
-  if (m_options.cognition != Cognition::Inline) return nullptr;
+  if (m_parts->base.options.cognition != Cognition::Inline) return nullptr;
   auto all = std::make_shared<RobotsMemory>();
-  all->tick = m_simulation.state().tick;
-  all->referee = m_referee->rhythm();
-  for (std::size_t i = 0; i < m_teamChannels.size(); ++i) {
-    if (m_teamChannels[i]) all->channels[i] = *m_teamChannels[i];
+  all->tick = m_parts->base.tick();
+  all->referee = m_parts->referee.rhythm();
+  const auto& channels = m_parts->slots.teamChannels();
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (channels[i]) all->channels[i] = *channels[i];
   }
-  for (const auto& seat : m_seats) {
+  for (const auto& slot : robots().all()) {
     RobotsMemory::Robot& robot = all->robots.emplace_back();
-    robot.id = seat->id;
-    robot.behaviour = seat->behaviour;
-    robot.orders = seat->orders;
-    seat->board.copyWords(robot.board);
+    robot.id = slot->id;
+    robot.behaviour = slot->behaviour;
+    robot.orders = slot->orders;
+    slot->board.copyWords(robot.board);
     all->bytes += sizeof robot;
-    for (const auto& process : seat->processes) {
+    for (const auto& process : slot->processes) {
       if (!process->inside) continue;
       robot.processes.push_back({process->profile.name, process->inside->remembered()});
       all->bytes += process->inside->memoryBytes();
@@ -39,29 +39,57 @@ std::shared_ptr<const RobotsMemory> SimulatedMatch::robotsMemory() const {
   return all;
 }
 
+Result<void> SimulatedMatch::Parts::restore(const Moment& moment) {
+  if (moment.state.settings.tickRate != base.tickRate()) {
+    return failure(ErrorCode::InvalidArgument,
+                   "this moment was played at another tick rate than this match; start a match of "
+                   "its own scenario");
+  }
+  // Everything that can fail comes before anything of the present match is given up.
+  TRY(slots.become(moment));
+  base.commands.assign(slots.all().size(), {});
+  base.scenario.settings = moment.state.settings;
+  const auto writeBoards = [&] {
+    for (const auto& slot : slots.all()) {
+      if (const MomentRobot* known = moment.robot(slot->id)) known->writeTo(slot->board);
+    }
+  };
+  writeBoards();
+  startAnew();
+  if (moment.past && moment.past->memory) {
+    playThrough(*moment.past);
+    (void)base.simulation.restore(moment.state);
+    base.scenario.settings = moment.state.settings;
+    writeBoards();
+  }
+  followJump();
+  expectedTick = moment.state.tick;
+  return {};
+}
+
 /// The processes inside begin with what stands on their blackboards.
-void SimulatedMatch::startAnew() {
-  for (const auto& channel : m_teamChannels) {
+void SimulatedMatch::Parts::startAnew() {
+  for (const auto& channel : slots.teamChannels()) {
     if (channel) channel->clear();
   }
-  for (const auto& seat : m_seats) {
-    seat->orders = {};
-    for (const auto& process : seat->processes) {
+  for (const auto& slot : slots.all()) {
+    slot->orders = {};
+    for (const auto& process : slot->processes) {
       if (!process->inside) continue;
-      seat->facesLeft = identityOf(seat->id).imuStartsAt180;
-      process->startTick = m_simulation.state().tick;
-      if (startInside(*seat, *process)) process->inside->resume(seat->board);
+      slot->facesLeft = slots.identityOf(slot->id).imuStartsAt180;
+      process->startTick = base.simulation.state().tick;
+      if (slots.startInside(*slot, *process)) process->inside->resume(slot->board);
     }
   }
 }
 
-void SimulatedMatch::recall(const RobotsMemory& memory) {
-  m_referee->setRhythm(memory.referee);
-  for (std::size_t i = 0; i < m_teamChannels.size(); ++i) {
-    if (m_teamChannels[i]) *m_teamChannels[i] = memory.channels[i];
+void SimulatedMatch::Parts::recall(const RobotsMemory& memory) {
+  referee.setRhythm(memory.referee);
+  for (std::size_t i = 0; i < slots.teamChannels().size(); ++i) {
+    if (slots.teamChannels()[i]) *slots.teamChannels()[i] = memory.channels[i];
   }
   for (const RobotsMemory::Robot& robot : memory.robots) {
-    Seat* known = seat(robot.id);
+    RobotSlot* known = slots.find(robot.id);
     if (!known) continue;
     known->orders = robot.orders;
     for (int word = 0; word < Blackboard::words; ++word) {
@@ -82,25 +110,25 @@ void SimulatedMatch::recall(const RobotsMemory& memory) {
 
 /// The world goes as it went, whatever the processes say now: changes by hand, other programs and a
 /// GameController are in the states and commands. Ends at the moment to which this is the past.
-void SimulatedMatch::playThrough(const MomentPast& past) {
+void SimulatedMatch::Parts::playThrough(const MomentPast& past) {
   const auto sameRobots = [&](const PlayedStretch& stretch) {
-    return std::ranges::equal(stretch.from.robots, m_seats, [](const auto& robot, const auto& one) {
-      return robot.id == one->id;
-    });
+    return std::ranges::equal(
+        stretch.from.robots, slots.all(),
+        [](const auto& robot, const auto& one) { return robot.id == one->id; });
   };
   if (!std::ranges::all_of(past.played, sameRobots)) return;
   bool begun = false;
   for (const PlayedStretch& stretch : past.played) {
-    if (!m_simulation.restore(stretch.from)) return;
-    m_scenario.settings = stretch.from.settings;
+    if (!base.simulation.restore(stretch.from)) return;
+    base.scenario.settings = stretch.from.settings;
     followJump();
     if (!std::exchange(begun, true)) {
       startAnew();
       recall(*past.memory);
     }
     for (const std::vector<sim::RobotCommand>& told : stretch.commands) {
-      applyDueWrites();
-      m_commands = told;
+      base.writes.applyDue(base.tick(), slots);
+      base.commands = told;
       advance(true);
     }
   }

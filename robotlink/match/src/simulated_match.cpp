@@ -2,104 +2,66 @@
 #include <robotlink/match/simulated_match.h>
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
+#include <cstdio>
 
-#include <robotlink/match/match_drawings.h>
+#include <base/try.h>
+#include <robotlink/match/moment.h>
+#include <robotlink/scenario/moment_writes.h>
 
-#include "match_events.h"
-#include "match_referee.h"
-#include "match_seat.h"
+#include "match_parts.h"
 
 namespace pitchboard::link {
-namespace {
 
-// A time that is a whole number of ticks but for rounding belongs to that tick.
-constexpr double tickTolerance = 1e-6;
-
-std::uint64_t firstTickAtOrAfter(double seconds, double rate) {
-  return static_cast<std::uint64_t>(std::max(0.0, std::ceil(seconds * rate - tickTolerance)));
-}
-
-}  // namespace
-
-SimulatedMatch::SimulatedMatch(const Scenario& scenario, const MatchOptions& options,
-                               sim::Simulation simulation, const VariableCatalog& catalog)
-    : m_scenario(scenario),
-      m_options(options),
-      m_simulation(std::move(simulation)),
-      m_catalog(&catalog),
-      m_variables(catalog),
-      m_bridge(m_variables),
-      m_extendedBridge(RobotVariables(catalog.withExtension())),
-      m_events(std::make_unique<MatchEvents>()),
-      m_referee(std::make_unique<MatchReferee>()),
-      m_processes(std::make_unique<ProcessManager>(options.robotProgram)) {}
-
+SimulatedMatch::SimulatedMatch(std::unique_ptr<Parts> parts) : m_parts(std::move(parts)) {}
 SimulatedMatch::SimulatedMatch(SimulatedMatch&&) noexcept = default;
-
-SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
-  if (this != &other) {
-    std::destroy_at(this);  // in its order: processes end before their blackboards go
-    std::construct_at(this, std::move(other));
-  }
-  return *this;
-}
-
-SimulatedMatch::~SimulatedMatch() {
-  m_processes.reset();
-  m_seats.clear();  // its robots before its number: whoever gets that takes them at once
-}
+SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&&) noexcept = default;
+SimulatedMatch::~SimulatedMatch() = default;
 
 Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const MatchOptions& options,
                                               const VariableCatalog& catalog) {
-  auto simulation = sim::Simulation::create(scenario.settings);
-  if (!simulation) return tl::unexpected(simulation.error());
-  SimulatedMatch match(scenario, options, std::move(*simulation), catalog);
-  if (auto placed = match.m_simulation.placeBall(scenario.ball, scenario.ballVelocity); !placed) {
-    return tl::unexpected(placed.error());
-  }
-  match.m_simulation.setClockRunning(scenario.clockRunning);
-  match.m_processes->setClocksFollow(options.speed != 1.0);
-  if (options.speed > 0.0) {
-    match.m_processes->setSpeed(options.speed, std::chrono::steady_clock::now());
-  }
+  auto simulation = TRY(sim::Simulation::create(scenario.settings));
+  auto writes = TRY(TimedWrites::create(scenario, catalog));
+  auto parts = std::make_unique<Parts>(MatchBase{scenario, options, std::move(simulation), &catalog,
+                                                 RobotVariables(catalog), std::move(writes)});
+  MatchBase& base = parts->base;
+  TRY(base.simulation.placeBall(scenario.ball, scenario.ballVelocity));
+  base.simulation.setClockRunning(scenario.clockRunning);
+  ProcessManager& processes = parts->slots.processes();
+  processes.setClocksFollow(options.speed != 1.0);
+  if (options.speed > 0.0) processes.setSpeed(options.speed, std::chrono::steady_clock::now());
   if (options.thoughts && options.cognition == Cognition::External) {
-    auto receiver = ThoughtsReceiver::listen();
-    if (!receiver) return tl::unexpected(receiver.error());
-    match.m_thoughts = std::move(*receiver);
+    base.thoughts = TRY(ThoughtsReceiver::listen());
   }
-  match.m_simulation.setScore(scenario.score);
-  match.m_simulation.editState().clockTicks =
+  base.simulation.setScore(scenario.score);
+  base.simulation.editState().clockTicks =
       firstTickAtOrAfter(scenario.clock, scenario.settings.tickRate);
-  if (auto resolved = match.resolveWrites(); !resolved) return tl::unexpected(resolved.error());
   for (const ScenarioRobot& robot : scenario.robots) {
-    if (auto added = match.addRobot(robot); !added) return tl::unexpected(added.error());
+    TRY(parts->slots.add(robot));
   }
-  if (auto begun = match.beginGame(); !begun) return tl::unexpected(begun.error());
-  match.applyDueWrites();
-  return match;
+  TRY(parts->beginGame());
+  base.writes.applyDue(base.tick(), parts->slots);
+  return SimulatedMatch(std::move(parts));
 }
 
 /// Once everybody is there: who keeps which goal, and how the referee is heard.
-Result<void> SimulatedMatch::beginGame() {
-  const auto& rules = m_scenario.settings.referee;
-  if (m_options.obeyReferee && !rules) {
+Result<void> SimulatedMatch::Parts::beginGame() {
+  const auto& rules = base.scenario.settings.referee;
+  if (base.options.obeyReferee && !rules) {
     return failure(ErrorCode::InvalidArgument,
                    "this scenario has no referee; a match that obeys a GameController needs rules: "
                    "set \"referee\" in the scenario, for example to \"humanoid-2021\"");
   }
   if (!rules) return {};
-  if (auto begun = m_simulation.setReferee(rules); !begun) return begun;
-  sim::WorldState& world = m_simulation.editState();
+  TRY(base.simulation.setReferee(rules));
+  sim::WorldState& world = base.simulation.editState();
   const std::size_t left = world.game->leftTeam();
-  world.game->teams[left].score = m_scenario.score.left;
-  world.game->teams[1 - left].score = m_scenario.score.right;
-  world.score = m_scenario.score;
-  if (m_options.obeyReferee) {
-    if (auto obeyed = m_referee->obey(*m_options.obeyReferee, m_simulation); !obeyed) return obeyed;
-  } else if (m_options.sendReferee || m_options.cognition != Cognition::Inline) {
-    if (auto sent = m_referee->sendTo(m_options.process.refereePort); !sent) return sent;
+  world.game->teams[left].score = base.scenario.score.left;
+  world.game->teams[1 - left].score = base.scenario.score.right;
+  world.score = base.scenario.score;
+  if (base.options.obeyReferee) {
+    TRY(referee.obey(*base.options.obeyReferee, base.simulation));
+  } else if (base.options.sendReferee || base.options.cognition != Cognition::Inline) {
+    TRY(referee.sendTo(base.options.process.refereePort));
   }
   hearReferee();
   return {};
@@ -107,157 +69,111 @@ Result<void> SimulatedMatch::beginGame() {
 
 /// Our communication process would hear the packets at a time of its own, and many a program hears
 /// none: the match writes what they mean.
-void SimulatedMatch::hearReferee(bool again) {
-  if (!m_referee->tick(m_simulation, again)) return;
-  const sim::WorldState& world = m_simulation.state();
-  for (std::size_t i = 0; i < m_seats.size(); ++i) {
+void SimulatedMatch::Parts::hearReferee(bool again) {
+  if (!referee.tick(base.simulation, again)) return;
+  const sim::WorldState& world = base.simulation.state();
+  for (std::size_t i = 0; i < slots.all().size(); ++i) {
     const sim::RobotIdentity& robot = world.robots[i];
     const int team = world.game->teamOf(robot.team);
-    if (team < 0 || m_seats[i]->runtime.hearsReferee) continue;
+    if (team < 0 || slots.all()[i]->runtime.hearsReferee) continue;
     const sim::GameTeam& own = world.game->teams[static_cast<std::size_t>(team)];
     if (const auto word =
-            m_seats[i]->orders.take(m_referee->packet(), own.number, own.slotOf(robot.number))) {
-      m_seats[i]->board.write(m_variables.comReferee, *word);
+            slots.all()[i]->orders.take(referee.packet(), own.number, own.slotOf(robot.number))) {
+      slots.all()[i]->board.write(base.variables.comReferee, *word);
     }
   }
 }
 
 /// Teams that have changed sides start their processes again, told where they attack.
-void SimulatedMatch::followSides() {
-  const auto& robots = m_simulation.state().robots;
-  for (std::size_t i = 0; i < m_seats.size(); ++i) {
-    if (m_seats[i]->facesLeft == robots[i].imuStartsAt180) continue;
-    (void)restartProcesses(*m_seats[i]);
-  }
-}
-
-Result<void> SimulatedMatch::resolveWrites() {
-  for (const BlackboardWrite& write : m_scenario.writes) {
-    const Variable* variable = m_catalog->find(write.variable);
-    if (!variable) {
-      return failure(ErrorCode::NotFound, "the scenario writes \"" + write.variable +
-                                              "\", which is not in this variable catalog");
-    }
-    ResolvedWrite resolved;
-    resolved.tick = firstTickAtOrAfter(write.time, m_scenario.settings.tickRate);
-    resolved.robot = write.robot;
-    if (variable->type == VariableType::Int) {
-      resolved.variable = IntVar{variable->index};
-    } else {
-      resolved.variable = FloatVar{variable->index};
-    }
-    resolved.value = write.value;
-    m_writes.push_back(resolved);
-  }
-  std::stable_sort(m_writes.begin(), m_writes.end(),
-                   [](const auto& a, const auto& b) { return a.tick < b.tick; });
-  return {};
-}
-
-void SimulatedMatch::apply(const ResolvedWrite& write) {
-  for (const auto& seat : m_seats) {
-    if (write.robot.value == 0 || write.robot == seat->id) seat->write(write.variable, write.value);
-  }
-}
-
-void SimulatedMatch::applyDueWrites() {
-  const std::uint64_t now = m_simulation.state().tick;
-  for (; m_nextWrite < m_writes.size() && m_writes[m_nextWrite].tick <= now; ++m_nextWrite) {
-    apply(m_writes[m_nextWrite]);
+void SimulatedMatch::Parts::followSides() {
+  for (std::size_t i = 0; i < slots.all().size(); ++i) {
+    const bool facesLeft = base.simulation.state().robots[i].imuStartsAt180;
+    RobotSlot& slot = *slots.all()[i];
+    if (slot.facesLeft == facesLeft) continue;
+    (void)slots.change(slot.id, [](RobotSlot& changed) -> Result<void> {
+      changed.processes.clear();
+      return {};
+    });
+    slot.facesLeft = facesLeft;  // also when it has none, or they do not start
   }
 }
 
 /// After a saved moment was put back: what is due follows the simulation's time.
-void SimulatedMatch::followJump() {
-  const std::uint64_t now = m_simulation.state().tick;
-  const auto next = std::lower_bound(
-      m_writes.begin(), m_writes.end(), now,
-      [](const ResolvedWrite& write, std::uint64_t tick) { return write.tick < tick; });
-  m_nextWrite = static_cast<std::size_t>(next - m_writes.begin());
-  for (const auto& seat : m_seats) {
-    for (const auto& process : seat->processes) {
-      if (process->known) process->nextTick = nextDueTick(process->period, now);
-    }
-  }
-  m_goalSeen = m_outSeen = false;
-}
-
-const BlackboardBridge& SimulatedMatch::bridgeOf(const Seat& seat) const {
-  return seat.extended ? m_extendedBridge : m_bridge;
+void SimulatedMatch::Parts::followJump() {
+  base.writes.jumpTo(base.tick());
+  lockStep.jump();
+  goalSeen = outSeen = false;
 }
 
 void SimulatedMatch::tick() {
-  if (m_simulation.state().tick != m_expectedTick) followJump();
-  applyDueWrites();
-  for (std::size_t i = 0; i < m_seats.size(); ++i) m_commands[i] = m_bridge.read(m_seats[i]->board);
-  advance(false);
+  MatchBase& base = m_parts->base;
+  if (base.tick() != m_parts->expectedTick) m_parts->followJump();
+  base.writes.applyDue(base.tick(), robots());
+  for (std::size_t i = 0; i < base.commands.size(); ++i) {
+    base.commands[i] = m_parts->bridge.read(robots().all()[i]->board);
+  }
+  m_parts->advance(false);
 }
 
 /// One tick with the commands that were read. One that is played `again` was told of already.
-void SimulatedMatch::advance(bool again) {
-  m_simulation.step(m_commands, m_percepts);
-  if (!again) m_events->stepped(m_simulation);
-  for (const sim::Event& event : m_simulation.events()) {
-    m_goalSeen = m_goalSeen || event.kind == sim::EventKind::Goal;
-    m_outSeen = m_outSeen || event.kind == sim::EventKind::BallOut;
+void SimulatedMatch::Parts::advance(bool again) {
+  base.simulation.step(base.commands, base.percepts);
+  if (!again) events.stepped(base.simulation);
+  for (const sim::Event& event : base.simulation.events()) {
+    goalSeen = goalSeen || event.kind == sim::EventKind::Goal;
+    outSeen = outSeen || event.kind == sim::EventKind::BallOut;
   }
-  for (std::size_t i = 0; i < m_seats.size(); ++i) {
-    bridgeOf(*m_seats[i]).publish(m_percepts[i], m_seats[i]->board);
+  for (std::size_t i = 0; i < slots.all().size(); ++i) {
+    RobotSlot& slot = *slots.all()[i];
+    (slot.extended ? extendedBridge : bridge).publish(base.percepts[i], slot.board);
   }
-  m_expectedTick = m_simulation.state().tick;
-  if (m_simulation.state().game) {
+  expectedTick = base.simulation.state().tick;
+  if (base.simulation.state().game) {
     followSides();
     hearReferee(again);
   }
-  runProcesses();
-}
-
-/// The first tick after `after` at which a multiple of `period` seconds has passed.
-std::uint64_t SimulatedMatch::nextDueTick(double period, std::uint64_t after) const {
-  const double rate = m_scenario.settings.tickRate;
-  const double ticksPerCycle = period * rate;
-  if (!(ticksPerCycle > 1.0)) return after + 1;
-  const double cycle = std::floor((static_cast<double>(after) + tickTolerance) / ticksPerCycle) + 1;
-  return std::max(after + 1, firstTickAtOrAfter(cycle * period, rate));
+  lockStep.run();
 }
 
 std::string_view SimulatedMatch::finishedBy() const {
-  const StopConditions& stop = m_scenario.stop;
-  if (stop.goal && m_goalSeen) return "goal";
-  if (stop.ballOut && m_outSeen) return "ball_out";
-  if (stop.duration && m_simulation.state().tick >=
-                           firstTickAtOrAfter(*stop.duration, m_scenario.settings.tickRate)) {
+  const sim::WorldState& state = simulation().state();
+  const StopConditions& stop = scenario().stop;
+  if (stop.goal && m_parts->goalSeen) return "goal";
+  if (stop.ballOut && m_parts->outSeen) return "ball_out";
+  if (stop.duration && state.tick >= firstTickAtOrAfter(*stop.duration, m_parts->base.tickRate())) {
     return "duration";
   }
-  if (m_simulation.state().game && m_simulation.state().game->over) return "full_time";
-  return {};
+  return state.game && state.game->over ? "full_time" : "";
 }
 
 void SimulatedMatch::takeEvents(std::vector<MatchEvent>& out) {
-  m_events->look(m_simulation.state(), finishedBy());
-  m_events->takeNews(m_simulation.state(), m_processes->takeNews());
-  m_events->take(out);
+  MatchEvents& events = m_parts->events;
+  events.look(simulation().state(), finishedBy());
+  events.takeNews(simulation().state(), processes().takeNews());
+  events.take(out);
 }
 
 void SimulatedMatch::takeDrawings(std::vector<HeardDrawing>& out) {
-  if (!m_claim) return;
-  if (!m_drawings) m_drawings = std::make_unique<MatchDrawings>(number()->drawingPort());
-  const sim::WorldState& state = m_simulation.state();
-  m_drawings->hear(static_cast<double>(state.tick) / state.settings.tickRate, out);
+  const auto shared = number();
+  if (!shared) return;
+  auto& drawings = m_parts->drawings;
+  if (!drawings) drawings = std::make_unique<MatchDrawings>(shared->drawingPort());
+  const sim::WorldState& state = simulation().state();
+  drawings->hear(static_cast<double>(state.tick) / state.settings.tickRate, out);
 }
 
 std::vector<RobotThoughts> SimulatedMatch::thoughts() {
-  if (m_thoughts) {
+  if (auto& heard = m_parts->base.thoughts) {
     const auto now = std::chrono::steady_clock::now();
-    m_thoughts->poll(now);
-    return m_thoughts->thoughts(now);
+    heard->poll(now);
+    return heard->thoughts(now);
   }
   std::vector<RobotThoughts> all;
-  if (!m_options.thoughts) return all;
-  for (const auto& seat : m_seats) {
+  if (!m_parts->base.options.thoughts) return all;
+  for (const auto& slot : robots().all()) {
     RobotThoughts one;
-    one.robot = seat->id;
-    for (const auto& process : seat->processes) {
+    one.robot = slot->id;
+    for (const auto& process : slot->processes) {
       if (process->inside) process->inside->tellThoughts(one);
     }
     if (one.cloud || one.path) all.push_back(std::move(one));
@@ -266,31 +182,135 @@ std::vector<RobotThoughts> SimulatedMatch::thoughts() {
   return all;
 }
 
-SimulatedMatch::Seat* SimulatedMatch::seat(RobotId id) const {
-  const auto found = std::find_if(m_seats.begin(), m_seats.end(),
-                                  [id](const auto& seat) { return seat->id == id; });
-  return found == m_seats.end() ? nullptr : found->get();
+Result<void> SimulatedMatch::restore(const Moment& moment) {
+  return m_parts->restore(moment);
+}
+
+const MatchDrawings* SimulatedMatch::drawings() const {
+  return m_parts->drawings.get();
+}
+
+const Scenario& SimulatedMatch::scenario() const {
+  return m_parts->base.scenario;
+}
+
+sim::Simulation& SimulatedMatch::simulation() {
+  return m_parts->base.simulation;
+}
+
+const sim::Simulation& SimulatedMatch::simulation() const {
+  return m_parts->base.simulation;
+}
+
+RobotSlots& SimulatedMatch::robots() {
+  return m_parts->slots;
+}
+
+const RobotSlots& SimulatedMatch::robots() const {
+  return m_parts->slots;
 }
 
 Blackboard* SimulatedMatch::blackboard(RobotId id) {
-  Seat* found = seat(id);
+  RobotSlot* found = robots().find(id);
   return found ? &found->board : nullptr;
 }
 
 const Blackboard* SimulatedMatch::blackboard(RobotId id) const {
-  const Seat* found = seat(id);
+  const RobotSlot* found = robots().find(id);
   return found ? &found->board : nullptr;
 }
 
 std::string_view SimulatedMatch::behaviour(RobotId id) const {
-  const Seat* found = seat(id);
+  const RobotSlot* found = robots().find(id);
   return found ? std::string_view(found->behaviour) : std::string_view();
 }
 
-RobotId SimulatedMatch::freeRobotId() const {
-  RobotId id{1};
-  while (seat(id)) ++id.value;
-  return id;
+RuntimeChoice SimulatedMatch::runtime(RobotId id) const {
+  const RobotSlot* found = robots().find(id);
+  return found ? found->choice : RuntimeChoice{};
+}
+
+const RobotVariables& SimulatedMatch::variables() const {
+  return m_parts->base.variables;
+}
+
+const VariableCatalog& SimulatedMatch::catalog() const {
+  return *m_parts->base.catalog;
+}
+
+std::span<const sim::RobotCommand> SimulatedMatch::commands() const {
+  return m_parts->base.commands;
+}
+
+std::span<const sim::Percepts> SimulatedMatch::percepts() const {
+  return m_parts->base.percepts;
+}
+
+ProcessManager& SimulatedMatch::processes() {
+  return m_parts->slots.processes();
+}
+
+const ProcessManager& SimulatedMatch::processes() const {
+  return m_parts->slots.processes();
+}
+
+ProcessPace& SimulatedMatch::pace() {
+  return m_parts->pace;
+}
+
+const ProcessPace& SimulatedMatch::pace() const {
+  return m_parts->pace;
+}
+
+std::optional<MatchNumber> SimulatedMatch::number() const {
+  const auto& claim = robots().claim();
+  return claim ? std::optional(claim->number()) : std::nullopt;
+}
+
+std::string SimulatedMatch::publishedHolder() const {
+  const auto& claim = robots().claim();
+  return claim ? claim->publishedHolder() : std::string();
+}
+
+Scenario SimulatedMatch::toScenario() const {
+  const sim::WorldState& state = m_parts->base.simulation.state();
+  const sim::Snapshot now = m_parts->base.simulation.snapshot();
+  const sim::FieldSpec& field = state.settings.field;
+  const auto inside = [&](const Point& point) {
+    const double x = field.halfLength() + field.border;
+    const double y = field.halfWidth() + field.border;
+    return Point{std::clamp(point.x, -x, x), std::clamp(point.y, -y, y)};
+  };
+
+  const auto& slots = robots().all();
+  Scenario moment = m_parts->base.scenario;
+  char clock[32];
+  std::snprintf(clock, sizeof clock, "%.1f", now.time);
+  if (state.tick > 0) {
+    const std::string& title = m_parts->base.scenario.title.empty() ? m_parts->base.scenario.name
+                                                                    : m_parts->base.scenario.title;
+    moment.title = title + ", at " + clock + " s";
+  }
+  moment.settings = state.settings;
+  moment.ball = inside(now.ball);
+  moment.ballVelocity = now.ballVelocity;
+  moment.clockRunning = state.clockRunning;
+  moment.clock = now.clock;
+  moment.score = now.score;
+  moment.robots.clear();
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const sim::RobotSnapshot& robot = now.robots[i];
+    moment.robots.push_back({robot.identity,
+                             {inside(robot.pose.position), robot.pose.yaw},
+                             slots[i]->behaviour,
+                             slots[i]->choice,
+                             state.models[i],
+                             slots[i]->parameters});
+  }
+
+  moment.writes = writesFrom(m_parts->base.scenario.writes, now.time,
+                             [this](RobotId id) { return robots().find(id) != nullptr; });
+  return moment;
 }
 
 }  // namespace pitchboard::link

@@ -90,7 +90,7 @@ void performDecision(MatchEdits* edits, const QString& text, const QString& what
 
 void callReferee(MatchEdits* edits, const sim::RefereeCall& call, const QString& words) {
   performDecision(edits, words, QStringLiteral("The referee's call was not carried out"),
-                  [call](link::SimulatedMatch& match) { return match.call(call); });
+                  [call](link::SimulatedMatch& match) { return match.simulation().call(call); });
 }
 
 void chooseReferee(MatchEdits* edits, const std::string& ruleSet, const QString& title) {

@@ -242,7 +242,7 @@ void MatchController::settle() {
 void MatchController::setPace(link::RobotsPace pace) {
   m_options.pace = pace;
   post([pace](link::SimulatedMatch& match) {
-    match.setPace(pace);
+    match.pace().setRobotsPace(pace);
     return link::Changed::No;
   });
   emit transportChanged();
@@ -251,7 +251,7 @@ void MatchController::setPace(link::RobotsPace pace) {
 void MatchController::setWaitForOwnPrograms(bool on) {
   m_options.waitForOwnPrograms = on;
   post([on](link::SimulatedMatch& match) {
-    match.setWaitForOwnPrograms(on);
+    match.pace().setWaitForOwnPrograms(on);
     return link::Changed::No;
   });
   emit transportChanged();

@@ -32,25 +32,25 @@ struct MatchEdits::Field {
 const MatchEdits::Field<sim::RobotIdentity> MatchEdits::identityField{
     &link::ScenarioRobot::identity,
     [](link::SimulatedMatch& match, RobotId, const sim::RobotIdentity& identity) {
-      return match.setIdentity(identity);
+      return match.robots().setIdentity(identity);
     },
     "Could not change the team or number of %1", link::Changed::Yes};
 const MatchEdits::Field<std::string> MatchEdits::behaviourField{
     &link::ScenarioRobot::behaviour,
     [](link::SimulatedMatch& match, RobotId id, const std::string& behaviour) {
-      return match.setBehaviour(id, behaviour);
+      return match.robots().setBehaviour(id, behaviour);
     },
     "Could not change the behaviour of %1", link::Changed::No};
 const MatchEdits::Field<sim::RobotModel> MatchEdits::modelField{
     &link::ScenarioRobot::model,
     [](link::SimulatedMatch& match, RobotId id, const sim::RobotModel& model) {
-      return match.setRobotModel(id, model);
+      return match.robots().setModel(id, model);
     },
     "Could not change the model of %1", link::Changed::Yes};
 const MatchEdits::Field<link::RuntimeChoice> MatchEdits::runtimeField{
     &link::ScenarioRobot::runtime,
     [](link::SimulatedMatch& match, RobotId id, const link::RuntimeChoice& choice) {
-      return match.setRuntime(id, choice);
+      return match.robots().setRuntime(id, choice);
     },
     "Could not change the runtime of %1", link::Changed::No};
 
@@ -225,7 +225,7 @@ void MatchEdits::previewBall(Point position) {
 void MatchEdits::insert(const link::ScenarioRobot& entry) {
   m_robots.insert_or_assign(entry.identity.id, entry);
   m_match->post({QStringLiteral("%1 cannot be added").arg(robotName(entry.identity)),
-                 [entry](link::SimulatedMatch& match) { return match.addRobot(entry); },
+                 [entry](link::SimulatedMatch& match) { return match.robots().add(entry); },
                  [this, id = entry.identity.id] { m_robots.erase(id); }});
 }
 
@@ -234,7 +234,7 @@ void MatchEdits::erase(RobotId id) {
   const QString name = known ? robotName(known->identity) : QStringLiteral("The robot");
   m_robots.erase(id);
   m_match->post({QStringLiteral("%1 cannot be removed").arg(name),
-                 [id](link::SimulatedMatch& match) { return match.removeRobot(id); }});
+                 [id](link::SimulatedMatch& match) { return match.robots().remove(id); }});
 }
 
 int MatchEdits::freeNumber(TeamColor team, const std::vector<int>& taken) const {

@@ -121,7 +121,7 @@ void MatchMemory::continueFrom(double time) {
   const double from = static_cast<double>(tick) / newest->settings->tickRate;
   m_match->post({QStringLiteral("The match cannot be continued from this moment"),
                  [moment = std::move(*moment), rows = m_rows, from](link::SimulatedMatch& match) {
-                   auto entered = match.reenter(moment);
+                   auto entered = match.restore(moment);
                    if (entered) rows->rewind(from);
                    return entered;
                  },

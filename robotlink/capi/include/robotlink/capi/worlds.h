@@ -47,7 +47,7 @@ struct WorldsOptions {
   std::optional<int> particles;       ///< at most, of each robot that localizes itself
 };
 
-/// A world as it was; see SimulatedMatch::reenter() for what belongs to a moment.
+/// A world as it was; see SimulatedMatch::restore() for what belongs to a moment.
 struct WorldSnapshot {
   Moment moment;
   std::string finishedBy;

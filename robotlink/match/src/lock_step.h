@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The robots' reference processes in time: whose turn it is after a tick, in lock-step and running
+// freely. Private to the room.
+
+#include <cstdint>
+#include <optional>
+
+#include <robotlink/match/process_pace.h>
+#include <robotlink/match/robot_slots.h>
+
+namespace pitchboard::link {
+
+class LockStep {
+ public:
+  /// All outlive it.
+  LockStep(const MatchBase& base, RobotSlots& slots, ProcessPace& pace)
+      : m_base(base), m_slots(slots), m_pace(pace) {}
+
+  /// After a tick, in the order of the robots: each reference process whose period has passed.
+  /// Waits for separate ones in lock-step, but not for ever.
+  void run();
+  /// Another moment was put back: what is due follows the simulation's time.
+  void jump();
+
+ private:
+  void takeTurns();
+  void giveIfReady(RobotSlot& slot, SlotProcess& process);
+  void runSeparate(RobotSlot& slot, SlotProcess& process);
+  void runFreely(RobotSlot& slot, SlotProcess& process);
+  bool dueNow(SlotProcess& process, std::optional<double> period) const;
+  void planNext(SlotProcess& process) const;
+  void giveTurn(RobotSlot& slot, SlotProcess& process, bool lockStep);
+
+  const MatchBase& m_base;
+  RobotSlots& m_slots;
+  ProcessPace& m_pace;
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,558 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/match/robot_slots.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <base/lined_json.h>
+#include <base/try.h>
+#include <robotlink/match/moment.h>
+#include <robotlink/models/robot_models.h>
+#include <robotlink/processes/robot_config.h>
+#include <simcore/world/field_text.h>
+
+#include "match_base.h"
+
+namespace pitchboard::link {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+using OnlyFor = ProfileProcess::OnlyFor;
+
+/// Whether the robot's processes were told something else: how it walks, kicks and how wide it is.
+bool isToldOtherwise(const sim::RobotModel& a, const sim::RobotModel& b) {
+  const auto told = [](const sim::RobotModel& m) {
+    return std::array{m.forwardFast, m.forwardSlow,    m.backwardFast, m.backwardSlow, m.sideways,
+                      m.turn,        m.aroundSideways, m.aroundTurn,   m.kickReach,    m.radius};
+  };
+  return told(a) != told(b) || a.kickLaw != b.kickLaw;
+}
+
+tl::unexpected<Error> noSuchRobot(RobotId id) {
+  return failure(ErrorCode::NotFound,
+                 "there is no robot " + std::to_string(id.value) + " on the field");
+}
+
+/// Refuses a name that is neither one of our behaviours nor "none of ours".
+Result<void> checkBehaviour(const std::string& behaviour) {
+  const auto known = behaviours();
+  if (behaviour != noBehaviour && std::none_of(known.begin(), known.end(), [&](const auto& b) {
+        return b.name == behaviour;
+      })) {
+    std::vector<std::string_view> names;
+    for (const BehaviourInfo& b : known) names.push_back(b.name);
+    names.push_back(noBehaviour);
+    return failure(ErrorCode::NotFound, unknownName("behaviour", behaviour, names));
+  }
+  return {};
+}
+
+/// A folder of the published robots: the number that its file gives must lead to the blackboard of
+/// the robot that it is to play.
+Result<void> checkPublishedTree(const std::map<std::string, std::string>& values, int key) {
+  const std::string file =
+      values.at("folder") + "/AI" + values.at("n") + "/Control/Data/config.ini";
+  const auto ini = TRY(readIniFile(file));
+  const RobotId number = TRY(robotFromIni(ini));
+  if (blackboardKey(number) == key) return {};
+  return failure(ErrorCode::Conflict,
+                 "says robot " + std::to_string(number.value) + ", whose blackboard is " +
+                     std::to_string(blackboardKey(number)) + ", but this robot has " +
+                     std::to_string(key) +
+                     "; write its number into the file, and play the match as number 0",
+                 file);
+}
+
+}  // namespace
+
+RobotSlots::RobotSlots(MatchBase& base)
+    : m_base(base), m_processes(std::make_unique<ProcessManager>(base.options.robotProgram)) {}
+
+RobotSlots::~RobotSlots() {
+  m_processes.reset();
+  m_slots.clear();  // its robots before its number: whoever gets that takes them at once
+}
+
+RobotSlot* RobotSlots::find(RobotId id) const {
+  const auto found = std::ranges::find(m_slots, id, [](const auto& slot) { return slot->id; });
+  return found == m_slots.end() ? nullptr : found->get();
+}
+
+const sim::RobotIdentity& RobotSlots::identityOf(RobotId id) const {
+  return m_base.simulation.state().robots[m_base.simulation.indexOf(id).value()];
+}
+
+const sim::RobotModel* RobotSlots::model(RobotId id) const {
+  const auto index = m_base.simulation.indexOf(id);
+  return index ? &m_base.simulation.state().models[*index] : nullptr;
+}
+
+RobotId RobotSlots::freeId() const {
+  RobotId id{1};
+  while (find(id)) ++id.value;
+  return id;
+}
+
+std::vector<sim::RobotIdentity> RobotSlots::ofOthers() const {
+  std::vector<sim::RobotIdentity> others;
+  for (const auto& slot : m_slots) {
+    if (slot->board.key() == 0 || !slot->runtime.processes.empty()) continue;
+    // Nobody else at its blackboard: an obstacle, or one that is steered by hand.
+    const auto segment = SystemVSegments::info(slot->board.key());
+    if (segment && segment->attached > 1) others.push_back(identityOf(slot->id));
+  }
+  return others;
+}
+
+Result<void> RobotSlots::changeAll(const std::function<Result<void>()>& f) {
+  const sim::WorldState world = m_base.simulation.state();
+  const auto slots = m_slots;
+  const std::vector<RobotSetup> setups = [&] {
+    std::vector<RobotSetup> all;
+    for (const auto& slot : slots) all.push_back(*slot);
+    return all;
+  }();
+  const auto has = [](const RobotSetup& setup, const auto& process) {
+    return std::ranges::count(setup.processes, process) > 0;
+  };
+  Result<void> done = f();
+  std::vector<int> stopped;
+  if (done) {
+    // Separate ones end first: two of a kind would fight over the blackboard.
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      if (!find(slots[i]->id)) continue;
+      for (const auto& process : setups[i].processes) {
+        const ProcessStatus* status = m_processes->status(process->id);
+        if (has(*slots[i], process) || !status) continue;
+        const ProcessState state = status->state;
+        if (state < ProcessState::Ended) stopped.push_back(process->id);
+        m_processes->stop(process->id);
+      }
+    }
+  }
+  std::vector<SlotProcess*> started;
+  for (std::size_t i = 0; done && i < m_slots.size(); ++i) {
+    done = startMissing(*m_slots[i], started);
+  }
+  if (!done) {
+    for (SlotProcess* process : started) forget(*process);
+    m_slots = slots;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      static_cast<RobotSetup&>(*slots[i]) = setups[i];
+    }
+    if (m_base.simulation.state() != world) (void)m_base.simulation.restore(world);
+    for (const int id : stopped) m_processes->start(id, SteadyClock::now());
+    return done;
+  }
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const bool left = !find(slots[i]->id);
+    for (const auto& process : setups[i].processes) {
+      if (left || !has(*slots[i], process)) forget(*process);
+    }
+  }
+  m_base.commands.resize(m_slots.size());
+  m_base.percepts.resize(m_slots.size());
+  return {};
+}
+
+Result<void> RobotSlots::change(RobotId id, const std::function<Result<void>(RobotSlot&)>& f) {
+  return changeAll([&]() -> Result<void> {
+    RobotSlot* slot = find(id);
+    return slot ? f(*slot) : noSuchRobot(id);
+  });
+}
+
+Result<void> RobotSlots::add(const ScenarioRobot& robot) {
+  TRY(checkShirt(robot.identity));
+  TRY(checkBehaviour(robot.behaviour));
+  return changeAll([&]() -> Result<void> {
+    TRY(m_base.simulation.addRobot(robot.identity, robot.pose, robot.model));
+    auto slot = TRY(make(robot.identity.id, robot.behaviour, m_base.scenario.runtimeOf(robot)));
+    slot->parameters = robot.parameters;
+    m_base.writes.catchUp(slot->board);
+    m_slots.push_back(std::move(slot));
+    return {};
+  });
+}
+
+Result<void> RobotSlots::remove(RobotId id) {
+  return changeAll([&]() -> Result<void> {
+    TRY(m_base.simulation.removeRobot(id));
+    std::erase_if(m_slots, [id](const auto& slot) { return slot->id == id; });
+    return {};
+  });
+}
+
+Result<void> RobotSlots::become(const Moment& moment) {
+  return changeAll([&]() -> Result<void> {
+    std::vector<std::shared_ptr<RobotSlot>> slots;
+    for (const sim::RobotIdentity& identity : moment.state.robots) {
+      const MomentRobot* known = moment.robot(identity.id);
+      const auto here =
+          std::ranges::find(m_slots, identity.id, [](const auto& slot) { return slot->id; });
+      if (here != m_slots.end()) {
+        slots.push_back(*here);
+        if (known && known->behaviour != slots.back()->behaviour) {
+          TRY(setBehaviour(*slots.back(), known->behaviour));
+        }
+        continue;
+      }
+      slots.push_back(TRY(make(identity.id, known ? known->behaviour : std::string(noBehaviour),
+                               m_base.scenario.runtimeOf(identity.team, {}))));
+      for (const ScenarioRobot& one : m_base.scenario.robots) {
+        if (one.identity.id == identity.id) slots.back()->parameters = one.parameters;
+      }
+    }
+    TRY(m_base.simulation.restore(moment.state));
+    m_slots = std::move(slots);
+    return {};
+  });
+}
+
+Result<void> RobotSlots::setBehaviour(RobotId id, const std::string& behaviour) {
+  return change(id, [&](RobotSlot& slot) { return setBehaviour(slot, behaviour); });
+}
+
+Result<void> RobotSlots::setBehaviour(RobotSlot& slot, const std::string& behaviour) const {
+  TRY(checkBehaviour(behaviour));
+  slot.behaviour = behaviour;
+  // Nobody said who runs, so the behaviour does: without one the robot is somebody else's.
+  slot.runtime = TRY(runtimeFor(behaviour, slot.choice));
+  // What hangs on the behaviour starts anew, the rest goes on.
+  std::erase_if(slot.processes,
+                [](const auto& process) { return process->profile.onlyFor == OnlyFor::Behaviour; });
+  return {};
+}
+
+Result<void> RobotSlots::setRuntime(RobotId id, const RuntimeChoice& choice) {
+  return change(id, [&](RobotSlot& slot) -> Result<void> {
+    slot.runtime =
+        TRY(runtimeFor(slot.behaviour, m_base.scenario.runtimeOf(identityOf(id).team, choice)));
+    if (slot.board.key() == 0 && slot.runtime.hasOwn() && choice.isChosen()) {
+      return failure(
+          ErrorCode::Unsupported,
+          "this match runs inside one program, where no other one reaches its blackboards; "
+          "start it with separate processes");
+    }
+    slot.choice = choice;
+    slot.processes.clear();
+    return {};
+  });
+}
+
+Result<void> RobotSlots::setIdentity(const sim::RobotIdentity& identity) {
+  return change(identity.id, [&](RobotSlot& slot) -> Result<void> {
+    TRY(checkShirt(identity));
+    m_base.simulation.editState().robots[*m_base.simulation.indexOf(identity.id)] = identity;
+    slot.processes.clear();
+    return {};
+  });
+}
+
+Result<void> RobotSlots::setModel(RobotId id, const sim::RobotModel& model) {
+  return change(id, [&](RobotSlot& slot) -> Result<void> {
+    const sim::RobotModel before = *this->model(id);
+    if (before == model) return {};
+    TRY(m_base.simulation.setRobotModel(id, model));
+    if (isToldOtherwise(before, model)) slot.processes.clear();
+    return {};
+  });
+}
+
+Result<void> RobotSlots::restartProcess(RobotId id, const std::string& process) {
+  if (const RobotSlot* slot = find(id)) {
+    for (const auto& one : slot->processes) {
+      if (one->profile.name != process) continue;
+      if (one->inside) return startInside(*slot, *one);
+      m_processes->restart(one->id, SteadyClock::now());
+      return {};
+    }
+  }
+  return failure(ErrorCode::NotFound, "robot " + std::to_string(id.value) +
+                                          " has no process called \"" + process + "\"");
+}
+
+Result<std::shared_ptr<RobotSlot>> RobotSlots::make(RobotId id, const std::string& behaviour,
+                                                    const RuntimeChoice& choice) {
+  auto slot = std::make_shared<RobotSlot>();
+  slot->id = id;
+  slot->behaviour = behaviour;
+  slot->choice = choice;
+  slot->runtime = TRY(runtimeFor(behaviour, choice));
+  bool fresh = true;
+  if (sharesBoard(*slot)) {
+    TRY(identify());
+    const MatchOptions& options = m_base.options;
+    const int base = options.keyBase ? *options.keyBase : m_claim->number().keyBase();
+    const int key = blackboardKey(id, base);
+    slot->claim = TRY(BridgeClaim::take(key));
+    // The guard is there before the segment, so that not even a kill between the two leaves it. A
+    // match without processes goes on without it; one with processes says why it cannot.
+    if (!options.robotProgram.empty()) (void)m_processes->keepGuard();
+    slot->board = TRY(SystemVSegments::open(key, AttachMode::AttachOrCreate));
+    m_processes->guardSegment(slot->board);
+    fresh = slot->board.created();
+  }
+  // A segment that was there belongs to processes that may be running: it is left as it is.
+  if (fresh && m_base.variables.decisionSearchOn.index >= 0) {
+    slot->board.write(m_base.variables.decisionSearchOn, 1);
+  }
+  return slot;
+}
+
+Result<void> RobotSlots::checkShirt(const sim::RobotIdentity& identity) const {
+  for (const sim::RobotIdentity& other : m_base.simulation.state().robots) {
+    if (other.id != identity.id && other.team == identity.team && other.number == identity.number) {
+      return failure(ErrorCode::Conflict,
+                     "there is already a robot " + identity.name() + "; choose another number");
+    }
+  }
+  return {};
+}
+
+Result<RuntimeProfile> RobotSlots::runtimeFor(const std::string& behaviour,
+                                              RuntimeChoice choice) const {
+  if (m_base.options.cognition == Cognition::None) {
+    return loadRuntime({std::string(ownRuntime), {}, {}});
+  }
+  // Without a behaviour of ours the robot is an obstacle, or somebody else's.
+  if (!choice.isChosen() && behaviour == noBehaviour) choice.profile = ownRuntime;
+  return loadRuntime(choice.isChosen() ? choice : m_base.options.runtime);
+}
+
+/// Whether other programs are to see its blackboard.
+bool RobotSlots::sharesBoard(const RobotSlot& slot) const {
+  const MatchOptions& options = m_base.options;
+  return options.cognition != Cognition::Inline || options.systemV ||
+         (slot.choice.isChosen() && slot.runtime.hasOwn()) ||
+         (options.runtime.isChosen() && slot.runtime.hasOwn() && slot.behaviour != noBehaviour);
+}
+
+Result<void> RobotSlots::identify() {
+  if (m_claim) return {};
+  m_claim =
+      TRY(m_base.options.match ? MatchClaim::take(*m_base.options.match) : MatchClaim::takeFree());
+  m_base.options.process.setMatch(m_claim->number());
+  return {};
+}
+
+bool RobotSlots::wants(const RobotSlot& slot, const ProfileProcess& process) const {
+  const BehaviourInfo* behaviour = findBehaviour(slot.behaviour);
+  const bool decides = !slot.choice.decision.empty();
+  switch (process.onlyFor) {
+    case OnlyFor::Everyone:
+      return true;
+    case OnlyFor::Behaviour:
+      return behaviour != nullptr;
+    case OnlyFor::Pose:
+      // A program in place of decision may use it, too.
+      return behaviour ? behaviour->usesPose || decides : decides;
+    case OnlyFor::Separate:
+      return m_base.options.cognition != Cognition::Inline;
+    case OnlyFor::Target:
+      return behaviour && behaviour->usesPose && slot.runtime.usesExtension();
+  }
+  return true;
+}
+
+/// Puts the processes in the order of the profile; adds to `started` what it has to start.
+Result<void> RobotSlots::startMissing(RobotSlot& slot, std::vector<SlotProcess*>& started) {
+  slot.extended = slot.runtime.usesExtension();
+  auto running = std::exchange(slot.processes, {});
+  for (const ProfileProcess& profile : slot.runtime.processes) {
+    if (!wants(slot, profile)) continue;
+    const auto found = std::ranges::find_if(
+        running, [&profile](const auto& one) { return one && one->profile == profile; });
+    if (found != running.end()) {
+      slot.processes.push_back(std::move(*found));
+      continue;
+    }
+    const auto& process = slot.processes.emplace_back(std::make_shared<SlotProcess>());
+    process->profile = profile;
+    started.push_back(process.get());
+    TRY(start(slot, *process));
+  }
+  return {};
+}
+
+void RobotSlots::forget(SlotProcess& process) {
+  if (process.id != 0) m_processes->removeOne(process.id);
+  if (process.place >= 0) m_turns->giveBack(process.place);
+}
+
+Result<void> RobotSlots::start(RobotSlot& slot, SlotProcess& process) {
+  const ProfileProcess& profile = process.profile;
+  slot.facesLeft = identityOf(slot.id).imuStartsAt180;
+  process.startTick = m_base.tick();
+  if (profile.isReference() && findProcess(profile.reference) == nullptr) {
+    std::vector<std::string_view> known;
+    for (const ProcessInfo& info : cognitiveProcesses()) known.push_back(info.name);
+    return failure(ErrorCode::NotFound, unknownName("reference process", profile.reference, known),
+                   "the runtime profile " + slot.runtime.name);
+  }
+  if (!profile.isReference()) return startForeign(slot, process);
+  return m_base.options.cognition == Cognition::Inline ? startInside(slot, process)
+                                                       : startReference(slot, process);
+}
+
+Result<void> RobotSlots::startInside(const RobotSlot& slot, SlotProcess& process) {
+  process.inside = TRY(findProcess(process.profile.reference)->make(inlineOptions(slot)));
+  process.known = true;
+  process.period = process.inside->period();
+  process.nextTick = nextDueTick(process.period, m_base.tick(), m_base.tickRate());
+  return {};
+}
+
+Result<void> RobotSlots::startReference(RobotSlot& slot, SlotProcess& process) {
+  TRY(identify());
+  TRY(m_processes->keepGuard());
+  if (!m_turns) m_turns = TRY(MatchTurns::create());
+  ManagedProcess managed;
+  managed.spec = {slot.id, process.profile.name, commandOf(slot, process.profile.reference)};
+  managed.spec.stopSignal = process.profile.stopSignal;
+  managed.spec.inherited = m_turns->descriptor();
+  managed.restart = process.profile.restart;
+  managed.delay = process.profile.delay;
+  managed.watch = ManagedProcess::Watch::Caller;
+  managed.silentAfter = RestartRule::Seconds(process.profile.silentAfter);
+  // Each start has a place of its own: nothing of the process before it stands there.
+  managed.prepare = [turns = m_turns, mine = &process](ChildSpec& spec) -> Result<void> {
+    if (mine->place >= 0) turns->giveBack(mine->place);
+    mine->place = -1;
+    mine->given = false;
+    mine->place = TRY(turns->takePlace());
+    spec.command.insert(spec.command.end(), {"--match-turns", std::to_string(mine->place)});
+    return {};
+  };
+  process.id = TRY(m_processes->add(managed, slot.board, SteadyClock::now()));
+  return {};
+}
+
+Result<void> RobotSlots::startForeign(RobotSlot& slot, SlotProcess& process) {
+  TRY(identify());
+  TRY(m_processes->keepGuard());
+  const ProfileProcess& profile = process.profile;
+  const auto values = valuesFor(slot);
+  const auto replaced = [&values, &slot](std::string& text) -> Result<void> {
+    auto done = expanded(text, values);
+    if (!done) {
+      done.error().context = "the runtime profile " + slot.runtime.name;
+      return tl::unexpected(done.error());
+    }
+    text = std::move(*done);
+    return {};
+  };
+  ManagedProcess managed;
+  managed.spec = {slot.id, profile.name, profile.command, profile.directory, profile.environment};
+  for (std::string& word : managed.spec.command) {
+    TRY(replaced(word));
+  }
+  TRY(replaced(managed.spec.directory));
+  for (auto& [name, value] : managed.spec.environment) {
+    TRY(replaced(value));
+  }
+  constexpr const char* drawTo = "PITCHBOARD_DRAW";
+  auto& environment = managed.spec.environment;
+  if (std::ranges::none_of(environment, [](const auto& set) { return set.first == drawTo; })) {
+    environment.emplace_back(drawTo,
+                             "127.0.0.1:" + std::to_string(m_claim->number().drawingPort()));
+  }
+  if (slot.runtime.name == "published-tree") {
+    TRY(checkPublishedTree(values, slot.board.key()));
+  }
+  managed.spec.stopSignal = profile.stopSignal;
+  managed.spec.foreign = true;
+  managed.restart = profile.restart;
+  managed.delay = profile.delay;
+  managed.silentAfter = RestartRule::Seconds(profile.silentAfter);
+  managed.watchFile = profile.watchFile;
+  managed.ownTime = profile.clock == ProfileProcess::Clock::Match;
+  if (!profile.heartbeat.empty()) {
+    const auto variable = m_base.catalog->intVar(profile.heartbeat);
+    if (!variable) {
+      return failure(ErrorCode::NotFound,
+                     "listens for \"" + profile.heartbeat +
+                         "\", which is no whole-number variable of this variable catalog",
+                     "the runtime profile " + slot.runtime.name + ", process " + profile.name);
+    }
+    managed.heartbeat = *variable;
+    managed.watch = ManagedProcess::Watch::Variable;
+    const auto& all = slot.runtime.processes;
+    managed.clears = std::none_of(all.begin(), all.end(), [](const ProfileProcess& one) {
+      return one.name == "communication" || one.name == "sending";
+    });
+  }
+  process.id = TRY(m_processes->add(managed, slot.board, SteadyClock::now()));
+  return {};
+}
+
+/// What ${...} stands for in commands.
+std::map<std::string, std::string> RobotSlots::valuesFor(const RobotSlot& slot) const {
+  std::map<std::string, std::string> values = slot.runtime.values;
+  const int number = slot.id.value;
+  values["robot"] = std::to_string(number);
+  values["n"] = number == 1 ? std::string() : std::to_string(number);
+  values["key"] = std::to_string(slot.board.key());
+  values["team"] = info(identityOf(slot.id).team).name;
+  return values;
+}
+
+std::shared_ptr<InProcessTeamChannel> RobotSlots::teamChannel(RobotId id) {
+  auto& channel = m_teamChannels[static_cast<std::size_t>(identityOf(id).team)];
+  if (!channel) channel = std::make_shared<InProcessTeamChannel>();
+  return channel;
+}
+
+ProcessOptions RobotSlots::inlineOptions(const RobotSlot& slot) {
+  ProcessOptions options = m_base.options.process;
+  options.robot = slot.id;
+  options.behaviour = slot.behaviour;
+  options.parameters = slot.parameters;
+  options.field = sim::playedField(m_base.scenario.settings);
+  options.model = *model(slot.id);
+  options.seed = m_base.scenario.settings.seed;
+  if (m_base.options.tellSides) options.facesLeft = identityOf(slot.id).imuStartsAt180;
+  options.teamChannel = teamChannel(slot.id);
+  return options;
+}
+
+std::vector<std::string> RobotSlots::commandOf(const RobotSlot& slot,
+                                               const std::string& process) const {
+  const ProcessOptions& options = m_base.options.process;
+  const sim::RobotIdentity& identity = identityOf(slot.id);
+  std::vector<std::string> command{
+      m_base.options.robotProgram,
+      process,
+      "--robot",
+      std::to_string(slot.id.value),
+      "--match",
+      std::to_string(m_claim->number().value),
+      "--key",
+      std::to_string(slot.board.key()),
+      "--behaviour",
+      behaviourToText(slot.behaviour == noBehaviour ? options.behaviour : slot.behaviour,
+                      slot.parameters),
+      "--udp-address",
+      options.udpAddress,
+      "--team",
+      std::to_string(options.team + static_cast<int>(identity.team)),
+      "--particles",
+      std::to_string(options.particles),
+      "--seed",
+      std::to_string(m_base.scenario.settings.seed),
+      "--field",
+      sim::fieldToText(sim::playedField(m_base.scenario.settings)),
+      "--robot-model",
+      robotModelToText(*model(slot.id))};
+  if (m_base.options.tellSides) {
+    command.insert(command.end(), {"--attack", identity.imuStartsAt180 ? "left" : "right"});
+  }
+  if (options.publishedLocalization) command.emplace_back("--published-localization");
+  if (m_base.thoughts) {
+    command.insert(command.end(), {"--thoughts-port", std::to_string(m_base.thoughts->port())});
+  }
+  return command;
+}
+
+}  // namespace pitchboard::link
