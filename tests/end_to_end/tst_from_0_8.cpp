@@ -249,7 +249,7 @@ class TestFrom08 : public QObject {
       const auto moment = momentFromSession(*session, time, VariableCatalog::published());
       QVERIFY2(moment, moment ? "" : moment.error().text().c_str());
       QCOMPARE(moment->state.tick, std::uint64_t(time * 6));
-      const auto entered = match->reenter(*moment);
+      const auto entered = match->restore(*moment);
       QVERIFY2(entered, entered ? "" : entered.error().text().c_str());
       const MatchFrame frame = frames.frameAt(*session, time);
       const sim::Snapshot now = match->simulation().snapshot();
