@@ -42,8 +42,8 @@ std::string stateLine(const RefereeState& state) {
     for (const RefereePlayer& player : team.players()) {
       if (player.penalty == 0 || isSubstitute(state, player)) continue;
       out += ", player " + std::to_string(player.number) + " " +
-             std::string(penaltyWords(state, player.penalty)) + " " +
-             std::to_string(player.secondsLeft) + " s";
+             std::string(penaltyWords(state, player)) + " " + std::to_string(player.secondsLeft) +
+             " s";
     }
   }
   return state.trueData() ? out + "  (true data)" : out;

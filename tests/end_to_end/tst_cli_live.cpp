@@ -188,8 +188,8 @@ class TestCliLive : public QObject {
     QCOMPARE(listener.interrupt(), 0);
     QList<QByteArray> lines = listener.process.readAllStandardOutput().trimmed().split('\n');
     const QByteArray last = lines.last();
-    QVERIFY2(last.startsWith(R"({"type":"health","robot":1,"received":900,"lost":300,)"
-                             R"("duplicates":1,"late":1,"loss":0.25,)"),
+    QVERIFY2(last.startsWith(R"({"type":"health","robot":1,"name":"Robot 1","received":900,)"
+                             R"("lost":300,"duplicates":1,"late":1,"loss":0.25,)"),
              last.constData());
     QVERIFY(lines.size() >= 2);
     QVERIFY2(listener.err.contains("Robot 1: 900 received, 300 lost (25.0 %), 1 twice, 1 late"),

@@ -193,7 +193,15 @@ class TestGameController : public QObject {
     RefereeState state;
     state.version = 12;
     state.size = 688;
-    QVERIFY(penaltyWords(state, 34) == "pickup or incapable");
+    RefereePlayer player;
+    player.penalty = 34;
+    QVERIFY(penaltyWords(state, player) == "pickup or incapable");
+    player.penalty = 15;
+    QVERIFY(penaltyWords(state, player) == "manual penalty");
+    player.red = 1;
+    QVERIFY(penaltyWords(state, player) == "sent off");
+    player.penalty = 0;
+    QVERIFY(penaltyWords(state, player).empty());
     QVERIFY(penaltyName(state, 77) == "UNKNOWN");
     state.version = 19;
     state.size = 198;

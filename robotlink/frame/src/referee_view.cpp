@@ -60,9 +60,9 @@ RefereeTeamView teamView(const RefereeState& state, const RefereeTeam& team) {
     if (player.unreliable || telemetry::isSubstitute(state, player)) continue;
     view.playersLeft += player.penalty == 0 ? 1 : 0;
     view.players.push_back(
-        {player.number, std::string(telemetry::penaltyWords(state, player.penalty)),
-         player.secondsLeft, player.warnings.value_or(0), player.yellow.value_or(0),
-         player.red.value_or(0), player.cautions.value_or(0),
+        {player.number, std::string(telemetry::penaltyWords(state, player)), player.secondsLeft,
+         player.warnings.value_or(0), player.yellow.value_or(0), player.red.value_or(0),
+         player.cautions.value_or(0),
          player.goalkeeper.value_or(0) != 0 || team.goalkeeper == player.number});
   }
   return view;
@@ -106,7 +106,7 @@ std::optional<Penalty> penaltyOf(const RefereeState& packet, int team, int playe
   if (own == nullptr) return std::nullopt;
   for (const RefereePlayer& one : own->players()) {
     if (one.number != player || one.penalty == 0 || one.unreliable) continue;
-    return Penalty{std::string(telemetry::penaltyWords(packet, one.penalty)), one.secondsLeft};
+    return Penalty{std::string(telemetry::penaltyWords(packet, one)), one.secondsLeft};
   }
   return std::nullopt;
 }

@@ -177,8 +177,9 @@ std::string_view penaltyName(const RefereeState& state, int penalty) {
   return code == nullptr ? "UNKNOWN" : code->name;
 }
 
-std::string_view penaltyWords(const RefereeState& state, int penalty) {
-  const Code* code = find(codesOf(state), penalty);
+std::string_view penaltyWords(const RefereeState& state, const RefereePlayer& player) {
+  if (player.penalty != 0 && player.red.value_or(0) > 0) return "sent off";
+  const Code* code = find(codesOf(state), player.penalty);
   return code == nullptr ? "unknown penalty" : code->words;
 }
 

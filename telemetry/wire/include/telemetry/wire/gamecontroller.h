@@ -140,8 +140,9 @@ std::string_view setPlayWords(League league, int setPlay);
 std::string_view colourWords(int colour);
 /// "HL_PICKUP_OR_INCAPABLE", "NONE"; "UNKNOWN" for codes without a name in this version.
 std::string_view penaltyName(const RefereeState& state, int penalty);
-/// "pickup or incapable", "" for none, "unknown penalty" otherwise.
-std::string_view penaltyWords(const RefereeState& state, int penalty);
+/// "pickup or incapable", "" for none, "unknown penalty" otherwise. A player with a red card is
+/// "sent off", whatever penalty the packet gives for it.
+std::string_view penaltyWords(const RefereeState& state, const RefereePlayer& player);
 /// A slot without a player, which a display leaves out.
 bool isSubstitute(const RefereeState& state, const RefereePlayer& player);
 
