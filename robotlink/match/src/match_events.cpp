@@ -16,11 +16,6 @@ void MatchEvents::stepped(const sim::Simulation& simulation) {
 }
 
 void MatchEvents::look(const sim::WorldState& state, std::string_view finishedBy) {
-  lookAtGame(state, static_cast<double>(state.tick) / state.settings.tickRate, finishedBy);
-}
-
-void MatchEvents::lookAtGame(const sim::WorldState& state, double time,
-                             std::string_view finishedBy) {
   const Game now = !finishedBy.empty()  ? Game::Over
                    : state.clockRunning ? Game::Playing
                                         : Game::ClockStopped;
@@ -28,7 +23,7 @@ void MatchEvents::lookAtGame(const sim::WorldState& state, double time,
   if (state.game && now != Game::Over) return;  // its referee says the state of the game
   MatchEvent event;
   event.kind = now == Game::Over ? MatchEventKind::MatchOver : MatchEventKind::GameState;
-  event.time = time;
+  event.time = static_cast<double>(state.tick) / state.settings.tickRate;
   event.detail = now == Game::Over      ? std::string(finishedBy)
                  : now == Game::Playing ? "PLAYING"
                                         : "CLOCK STOPPED";
