@@ -220,12 +220,8 @@ class EvenWriter : public WideWriter {
     m_holesAreEmpty = true;
   }
 
-  bool row(const SessionItem& item) override {
-    return m_rows.add(item, [this](double time, const EvenLine& line) { return put(time, line); });
-  }
-  bool end() override {
-    return m_rows.end([this](double time, const EvenLine& line) { return put(time, line); });
-  }
+  bool row(const SessionItem& item) override { return m_rows.add(item, m_write); }
+  bool end() override { return m_rows.end(m_write); }
 
  private:
   bool put(double time, const EvenLine& values) {
@@ -241,6 +237,9 @@ class EvenWriter : public WideWriter {
   }
 
   EvenRows m_rows;
+  const EvenRows::Write m_write = [this](double time, const EvenLine& line) {
+    return put(time, line);
+  };
 };
 
 class JsonWriter : public NamedWriter {
