@@ -2,9 +2,20 @@
 #include "match_events.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace pitchboard::link {
+namespace {
+
+/// Of a process that ran before, in the order of ProcessNewsKind.
+constexpr std::array kindOfNews{MatchEventKind::ProcessRestarted, MatchEventKind::ProcessRestarted,
+                                MatchEventKind::ProcessEnded,     MatchEventKind::ProcessDied,
+                                MatchEventKind::ProcessSilent,    MatchEventKind::ProcessGivenUp,
+                                MatchEventKind::ProcessRealTime};
+static_assert(kindOfNews.size() == static_cast<std::size_t>(ProcessNewsKind::RealTime) + 1);
+
+}  // namespace
 
 void MatchEvents::add(MatchEvent event) {
   if (m_events.size() >= mostKept) m_events.erase(m_events.begin());
@@ -49,30 +60,11 @@ MatchEvent MatchEvents::ofProcess(MatchEventKind kind, const sim::WorldState& st
 
 void MatchEvents::takeNews(const sim::WorldState& state, const std::vector<ProcessNews>& news) {
   for (const ProcessNews& one : news) {
-    MatchEventKind kind = MatchEventKind::ProcessStarted;
-    switch (one.kind) {
-      case ProcessNewsKind::Started:
-      case ProcessNewsKind::Restarted:
-        // The first of this name since the match began, whoever started it.
-        if (!m_everRan.emplace(one.robot, one.process).second)
-          kind = MatchEventKind::ProcessRestarted;
-        break;
-      case ProcessNewsKind::Ended:
-        kind = MatchEventKind::ProcessEnded;
-        break;
-      case ProcessNewsKind::Died:
-        kind = MatchEventKind::ProcessDied;
-        break;
-      case ProcessNewsKind::Silent:
-        kind = MatchEventKind::ProcessSilent;
-        break;
-      case ProcessNewsKind::GivenUp:
-        kind = MatchEventKind::ProcessGivenUp;
-        break;
-      case ProcessNewsKind::RealTime:
-        kind = MatchEventKind::ProcessRealTime;
-        break;
-    }
+    const bool starts = one.kind <= ProcessNewsKind::Restarted;
+    // The first of this name since the match began, whoever started it.
+    const bool isFirst = starts && m_everRan.emplace(one.robot, one.process).second;
+    const auto kind =
+        isFirst ? MatchEventKind::ProcessStarted : kindOfNews[static_cast<std::size_t>(one.kind)];
     MatchEvent event = ofProcess(kind, state, one.robot, one.process);
     event.detail = one.detail;
     if (!one.lastWords.empty()) event.detail += "; its last words: " + one.lastWords;
