@@ -38,7 +38,7 @@ std::string wallText(WallTime time) {
 Json toJson(const SessionReader& session, const Options& options) {
   const SessionInfo& info = session.info();
   Json out{{"file", options.file},
-           {"bytes", session.file().fileBytes()},
+           {"bytes", session.file().contents().fileBytes},
            {"complete", session.complete()},
            {"damaged", session.isDamaged()},
            {"program", info.program},
@@ -66,7 +66,7 @@ Json toJson(const SessionReader& session, const Options& options) {
     out["messages"][std::string(streamNames[i])] = session.count(static_cast<SessionStream>(i));
   }
   out["attachments"] = Json::array();
-  for (const auto& attachment : session.attachments()) {
+  for (const auto& attachment : session.file().contents().attachments) {
     out["attachments"].push_back({{"name", attachment.name},
                                   {"mediaType", attachment.mediaType},
                                   {"bytes", attachment.dataSize}});
@@ -84,7 +84,7 @@ Json toJson(const SessionReader& session, const Options& options) {
 void printText(const SessionReader& session, const Options& options) {
   const SessionInfo& info = session.info();
   std::printf("%s: %.3f MB%s\n", options.file.c_str(),
-              static_cast<double>(session.file().fileBytes()) / 1e6,
+              static_cast<double>(session.file().contents().fileBytes) / 1e6,
               session.complete() && !session.isDamaged()
                   ? ""
                   : "; broken off or damaged: pitchboard-cli repair makes a whole one");
@@ -108,7 +108,7 @@ void printText(const SessionReader& session, const Options& options) {
                   static_cast<unsigned long long>(count));
     }
   }
-  for (const auto& attachment : session.attachments()) {
+  for (const auto& attachment : session.file().contents().attachments) {
     std::printf("  attachment %s, %llu bytes\n", attachment.name.c_str(),
                 static_cast<unsigned long long>(attachment.dataSize));
   }

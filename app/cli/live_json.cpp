@@ -20,13 +20,6 @@ Json errorList(const TextErrors& errors) {
   return list;
 }
 
-template <class... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-template <class... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;
-
 std::string stateLine(const RefereeState& state) {
   std::string out = "referee v" + std::to_string(state.version) + "  " +
                     std::string(stateName(state.state)) + "  " +
@@ -152,14 +145,11 @@ std::string healthLine(const RobotStatus& robot, const std::string& name) {
 }
 
 std::string refereeLine(const RefereePacket& packet) {
-  return std::visit(
-      Overloaded{[](const RefereeState& state) { return stateLine(state); },
-                 [](const RobotReply& reply) { return replyLine(reply); },
-                 [](const ForwardedReply& forwarded) {
-                   return replyLine(forwarded.reply) + " at " + Address{forwarded.robot}.text();
-                 },
-                 [](const TrueDataRequest&) { return std::string("request for true data"); }},
-      packet);
+  if (const auto* state = std::get_if<RefereeState>(&packet)) return stateLine(*state);
+  if (const auto* reply = std::get_if<RobotReply>(&packet)) return replyLine(*reply);
+  const auto* forwarded = std::get_if<ForwardedReply>(&packet);
+  return forwarded ? replyLine(forwarded->reply) + " at " + Address{forwarded->robot}.text()
+                   : "request for true data";
 }
 
 std::string dump(const Json& json) {

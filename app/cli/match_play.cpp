@@ -88,7 +88,7 @@ class Playing {
 
   void pollProcesses() {
     m_match.pace().lookAfterProcesses(Clock::now());
-    (void)m_match.processes().takeLines();
+    (void)m_match.robots().processes().takeLines();
     m_player.tellEvents();
   }
 

@@ -143,7 +143,7 @@ Result<void> exportPictures(const telemetry::SessionReader& session, const Pictu
   }
   const auto all = session.range();
   if (!all) return failure(ErrorCode::NotFound, "there is nothing in this session");
-  const std::string& file = session.file().name();
+  const std::string& file = session.file().contents().name;
   auto target = FileTarget::at(request.output, IfExists::Refuse, file);
   if (!target) return tl::unexpected(target.error());
   // The studio knows the format by the name.
@@ -168,7 +168,8 @@ Result<std::string> svgPicture(const telemetry::SessionReader& session, double t
     return failure(ErrorCode::SystemError, "the folder for temporary files cannot be used");
   }
   const std::string picture = folder.path() + "/field.svg";
-  const auto painted = runStudio(paintArguments(session.file().name(), picture, time, robots), {});
+  const auto painted =
+      runStudio(paintArguments(session.file().contents().name, picture, time, robots), {});
   if (!painted) return tl::unexpected(painted.error());
   return readFile(picture, mostBytes);
 }

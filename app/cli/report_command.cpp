@@ -46,7 +46,7 @@ Result<void> exportReport(const telemetry::SessionReader& session, telemetry::Ti
       content.notes.push_back("The picture of the field is missing: " + picture.error().text());
     }
   }
-  return link::writeReport(output, content, IfExists::Refuse, session.file().name());
+  return link::writeReport(output, content, IfExists::Refuse, session.file().contents().name);
 }
 
 }  // namespace pitchboard::cli

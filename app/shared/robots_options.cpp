@@ -71,14 +71,15 @@ void apply(const RobotsOptions& options, link::MatchOptions& match) {
 }
 
 std::string numberNotice(const link::SimulatedMatch& match) {
-  const auto number = match.number();
-  if (!number || number->value == 0) return {};
-  std::string text = "match " + std::to_string(number->value) + ": blackboards have keys " +
-                     std::to_string(number->keyBase()) +
+  const auto& claim = match.robots().claim();
+  if (!claim || claim->number().value == 0) return {};
+  const link::MatchNumber number = claim->number();
+  std::string text = "match " + std::to_string(number.value) + ": blackboards have keys " +
+                     std::to_string(number.keyBase()) +
                      " + 100 x robot number, telemetry goes to " +
-                     std::to_string(number->telemetryPortBase()) + " + robot number";
-  if (!match.publishedHolder().empty()) {
-    text += ", because match 0 is played by " + match.publishedHolder();
+                     std::to_string(number.telemetryPortBase()) + " + robot number";
+  if (!claim->publishedHolder().empty()) {
+    text += ", because match 0 is played by " + claim->publishedHolder();
   }
   return text;
 }

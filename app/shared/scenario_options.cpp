@@ -56,12 +56,7 @@ void addScenarioOptions(CLI::App& command, ScenarioOptions& options) {
 }
 
 Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& options) {
-  if (options.seed) scenario.settings.seed = *options.seed;
-  if (!options.physics.empty()) scenario.settings.physics = options.physics;
-  if (!options.noise.empty()) {
-    const auto noise = TRY(link::noisePreset(options.noise));
-    scenario.settings.noise = noise;
-  }
+  scenario = TRY(link::changed(std::move(scenario), options));
   for (const std::string& text : options.robotModels) {
     TRY(chooseModel(scenario, text));
   }

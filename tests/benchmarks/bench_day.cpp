@@ -162,7 +162,7 @@ int make(const std::string& file, const Day& day) {
   const auto session = telemetry::SessionReader::open(file);
   if (!session) return 2;
   std::uint64_t packed = 0, plain = 0;
-  for (const telemetry::McapChunkInfo& chunk : session->file().chunks()) {
+  for (const telemetry::McapChunkInfo& chunk : session->file().contents().chunks) {
     packed += chunk.compressedSize;
     plain += chunk.uncompressedSize;
   }
@@ -174,7 +174,7 @@ int make(const std::string& file, const Day& day) {
       "%d robots, %.0f messages a second each, %.1f h: %.1f MB an hour, %.1f of them index; "
       "%.1f before packing, %.0f chunks an hour\n",
       day.robots, day.rate, day.hours, perHour(size), perHour(size - packed), perHour(plain),
-      static_cast<double>(session->file().chunks().size()) / day.hours);
+      static_cast<double>(session->file().contents().chunks.size()) / day.hours);
   return 0;
 }
 

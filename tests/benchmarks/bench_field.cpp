@@ -50,7 +50,7 @@ std::unique_ptr<FieldView> viewOf(const benchmark::State& state) {
   auto view = std::make_unique<FieldView>(nullptr);
   view->resize(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   if (state.range(2)) {
-    for (QAction* layer : view->layerActions()) layer->setChecked(true);
+    for (QAction* layer : view->actions().layers) layer->setChecked(true);
   }
   view->show();
   for (int i = 0; i < firstSerial; ++i) view->showFrame(movingFrame(i));

@@ -42,7 +42,7 @@ double ownCpu() {
 /// s, of the match and of its processes so far.
 double allCpu(const SimulatedMatch& match) {
   double sum = ownCpu();
-  for (const ProcessStatus& one : match.processes().statuses()) {
+  for (const ProcessStatus& one : match.robots().processes().statuses()) {
     if (one.pid == 0) continue;
     const std::string file = "/proc/" + std::to_string(one.pid) + "/schedstat";
     if (std::FILE* schedule = std::fopen(file.c_str(), "r")) {
@@ -104,7 +104,7 @@ void measure(const char* title, const char* scenario, const char* behaviour, boo
     leastPerTick = std::min(leastPerTick, spent / ticks);
   }
   std::printf("%-44s %3zu processes  %6.1f x real time  %5.1f %% of a core  %6.0f us CPU a tick\n",
-              title, match->processes().statuses().size(), fastest, 100 * leastCpu,
+              title, match->robots().processes().statuses().size(), fastest, 100 * leastCpu,
               1e6 * leastPerTick);
   std::fflush(stdout);
 }

@@ -211,7 +211,7 @@ class TestCliSessions : public QObject {
     const QString broken = newPath(".mcap"), whole = newPath(".mcap");
     const QByteArray bytes = contents(m_session);
     const auto session = SessionReader::open(m_session.toStdString());
-    const auto& chunks = session->file().chunks();
+    const auto& chunks = session->file().contents().chunks;
     const auto cut = std::find_if(chunks.begin() + static_cast<std::ptrdiff_t>(chunks.size() / 2),
                                   chunks.end(), [](const auto& one) { return one.end != 0; });
     const auto size = static_cast<qsizetype>(cut->offset + cut->length / 2);
@@ -238,7 +238,7 @@ class TestCliSessions : public QObject {
     const QString damaged = newPath(".mcap"), whole = newPath(".mcap");
     QByteArray bytes = contents(m_session);
     const auto session = SessionReader::open(m_session.toStdString());
-    const auto& chunk = session->file().chunks().front();
+    const auto& chunk = session->file().contents().chunks.front();
     const auto at = static_cast<qsizetype>(chunk.offset + chunk.length) - 20;
     bytes[at] = static_cast<char>(bytes[at] ^ 1);
     QFile file(damaged);

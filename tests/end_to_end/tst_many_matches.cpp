@@ -125,11 +125,12 @@ class TestManyMatches : public QObject {
       });
       all.push_back(make(scenario, separate()));
       SimulatedMatch& match = all.back();
-      QVERIFY(match.number().has_value());
-      numbers.insert(match.number()->value);
+      QVERIFY(match.robots().claim().has_value());
+      numbers.insert(match.robots().claim()->number().value);
       keys.insert(match.blackboard(RobotId{3})->key());
-      QCOMPARE(match.publishedHolder().empty(), match.number()->value == 0);
-      match.pace().setRobotsPace(RobotsPace::Free);
+      QCOMPARE(match.robots().claim()->publishedHolder().empty(),
+               match.robots().claim()->number().value == 0);
+      match.pace().robotsPace = RobotsPace::Free;
       match.pace().setPlaying(1.0, false, std::chrono::steady_clock::now());
     }
     QCOMPARE(numbers.size(), static_cast<std::size_t>(matches));
@@ -160,7 +161,7 @@ class TestManyMatches : public QObject {
   void aNumberOfItsOwnIsRefusedWhenItIsTaken() {
     MatchOptions options = separate();
     auto first = make(loadScenario("one-robot").value(), options);
-    options.match = first.number()->value;
+    options.match = first.robots().claim()->number().value;
     const auto second = SimulatedMatch::create(loadScenario("one-robot").value(), options);
     QVERIFY(!second);
     QVERIFY2(second.error().text().find("is played already by this program") != std::string::npos,

@@ -75,8 +75,8 @@ class TestSameEvents : public QObject {
         ManagedProcess process;
         process.spec = {RobotId{2}, "test", {"/bin/sh", "-c", script}};
         process.restart.policy = RestartPolicy::Never;
-        (void)match.processes().add(process, *match.blackboard(RobotId{2}),
-                                    std::chrono::steady_clock::now());
+        (void)match.robots().processes().add(process, *match.blackboard(RobotId{2}),
+                                             std::chrono::steady_clock::now());
         return Changed::No;
       });
     }

@@ -43,7 +43,7 @@ Scenario soccer() {
 }
 
 pid_t pidOf(const SimulatedMatch& match, RobotId robot, const char* name) {
-  for (const ProcessStatus& one : match.processes().statuses()) {
+  for (const ProcessStatus& one : match.robots().processes().statuses()) {
     if (one.robot == robot && one.name == name) return one.pid;
   }
   return 0;
@@ -219,7 +219,7 @@ class TestSeparateMatch : public QObject {
     ::kill(stopped, SIGCONT);
     const auto back = [&] {
       match.tick();
-      return match.processes().statuses()[0].state == ProcessState::Running;
+      return match.robots().processes().statuses()[0].state == ProcessState::Running;
     };
     QTRY_VERIFY(back());
     QCOMPARE(pidOf(match, robot, "decision"), stopped);

@@ -271,12 +271,12 @@ class TestUnchangedProcess : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(runner->latest()->slowestOwnProgram, std::optional(1.0), 30'000);
     // A match that waits for its programs does not leave it behind.
     runner->execute([](SimulatedMatch& match) {
-      match.pace().setWaitForOwnPrograms(true);
+      match.pace().waitForOwnPrograms = true;
       return Changed::No;
     });
     QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).speed, 1.0, 30'000);
     runner->execute([](SimulatedMatch& match) {
-      match.pace().setWaitForOwnPrograms(false);
+      match.pace().waitForOwnPrograms = false;
       return Changed::No;
     });
     runner->setSpeed(4.0);
@@ -285,7 +285,7 @@ class TestUnchangedProcess : public QObject {
     QCOMPARE(told, QStringList{sentence});
     // Started again it follows, unless it is not to.
     runner->execute([](SimulatedMatch& match) {
-      ProcessManager& processes = match.processes();
+      ProcessManager& processes = match.robots().processes();
       processes.restart(processes.statuses().front().id, std::chrono::steady_clock::now());
       return Changed::No;
     });
@@ -321,7 +321,7 @@ class TestUnchangedProcess : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->slowestOwnProgram.has_value(), 60'000);
     QCOMPARE(program().speed, wanted);
     runner->execute([](SimulatedMatch& match) {
-      match.pace().setWaitForOwnPrograms(true);
+      match.pace().waitForOwnPrograms = true;
       return Changed::No;
     });
     QTRY_VERIFY_WITH_TIMEOUT(program().speed < 0.9 * wanted, 60'000);
@@ -329,7 +329,7 @@ class TestUnchangedProcess : public QObject {
     const double slowed = program().speed;
     QVERIFY2(slowed >= 0.1, qPrintable(QString::number(slowed)));
     runner->execute([](SimulatedMatch& match) {
-      match.pace().setWaitForOwnPrograms(false);
+      match.pace().waitForOwnPrograms = false;
       return Changed::No;
     });
     QTRY_COMPARE_WITH_TIMEOUT(program().speed, wanted, 60'000);

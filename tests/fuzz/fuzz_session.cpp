@@ -34,7 +34,8 @@ void lookAt(const std::string& bytes, bool walk) {
     (void)sessionDatagram(json);
     return true;
   });
-  for (const auto& attachment : session->attachments()) (void)session->attachment(attachment.name);
+  for (const auto& attachment : session->file().contents().attachments)
+    (void)session->attachment(attachment.name);
   if (walk) return;
   std::size_t written = 0;
   for (const auto format : {ExportFormat::CsvWide, ExportFormat::JsonLines}) {

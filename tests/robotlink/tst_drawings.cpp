@@ -255,15 +255,16 @@ class TestDrawings : public QObject {
     options.keyBase = m_base;
     auto match = SimulatedMatch::create(oneRobot(), options);
     QVERIFY2(match, match ? "" : match.error().text().c_str());
-    QVERIFY(match->number());
+    QVERIFY(match->robots().claim());
     std::vector<HeardDrawing> heard;
     match->takeDrawings(heard);
     QVERIFY(match->drawings() && match->drawings()->problem().empty());
     const std::uint64_t hash = match->simulation().hash();
     QProcess program;
     program.setProcessChannelMode(QProcess::ForwardedChannels);
-    program.start(QCoreApplication::applicationDirPath() + "/draw_robot",
-                  {"1", "127.0.0.1", QString::number(match->number()->drawingPort())});
+    program.start(
+        QCoreApplication::applicationDirPath() + "/draw_robot",
+        {"1", "127.0.0.1", QString::number(match->robots().claim()->number().drawingPort())});
     QVERIFY(program.waitForStarted());
     const auto takes = [&] {
       match->takeDrawings(heard);

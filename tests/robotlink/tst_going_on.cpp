@@ -170,8 +170,8 @@ class TestGoingOn : public QObject {
     for (const std::uint64_t seconds : {35U, 26U, 21U, 17U, 15U, 11U}) {
       const std::uint64_t tick = seconds * second + 5;
       match.goBackTo(tick);
-      QCOMPARE(match.match().behaviour(RobotId{2}),
-               std::string_view(seconds >= 18 ? "striker" : "keeper"));
+      QCOMPARE(match.match().robots().find(RobotId{2})->behaviour,
+               std::string(seconds >= 18 ? "striker" : "keeper"));
       QCOMPARE(match.match().simulation().hash(), match.witness->seen.at(tick).hash);
       // Until the next change, which is not made again.
       const std::uint64_t until = seconds >= 22   ? 36

@@ -147,7 +147,8 @@ class TestMatchEvents : public QObject {
       ManagedProcess process;
       process.spec = {RobotId{1}, "decision", {"/bin/sh", "-c", script}};
       process.restart.policy = RestartPolicy::Never;
-      const auto id = match.processes().add(process, *match.blackboard(RobotId{1}), Clock::now());
+      const auto id =
+          match.robots().processes().add(process, *match.blackboard(RobotId{1}), Clock::now());
       if (!id) return false;
       last = *id;
       return QTest::qWaitFor(
@@ -170,7 +171,7 @@ class TestMatchEvents : public QObject {
              std::string("exit code 2; its last words: ouch"));
 
     QVERIFY(run("exec sleep 600", Kind::ProcessRestarted));
-    match.processes().stop(last);
+    match.robots().processes().stop(last);
     const auto stopped = taken(match);
     QCOMPARE(stopped.size(), std::size_t{1});
     QCOMPARE(stopped[0].kind, Kind::ProcessEnded);

@@ -293,7 +293,7 @@ class TestMatchSampler : public QObject {
     rig.play(10);
     const auto revision = rig.store->groupsRevision();
     ScenarioRobot robot;
-    robot.identity = {rig.match.robots().freeId(), TeamColor::Red, 7, true};
+    robot.identity = {RobotId{7}, TeamColor::Red, 7, true};
     robot.pose = {{2.0, 1.0}, 0.0};
     QVERIFY(rig.match.robots().add(robot));
     rig.play(10);

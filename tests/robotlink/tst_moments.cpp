@@ -201,7 +201,7 @@ class TestMoments : public QObject {
     QVERIFY2(entered, entered ? "" : entered.error().text().c_str());
     QCOMPARE(match.simulation().hash(), m_match->witness->seen.at(900).hash);
     QVERIFY(match.blackboard(RobotId{9}) && !match.blackboard(RobotId{2}));
-    QCOMPARE(match.behaviour(RobotId{9}), std::string_view("striker"));
+    QCOMPARE(match.robots().find(RobotId{9})->behaviour, std::string("striker"));
     const auto& names = match.variables();
     QCOMPARE(std::bit_cast<std::uint32_t>(match.blackboard(RobotId{9})->read(names.controlAction)),
              m_match->witness->seen.at(900).boards.at(

@@ -34,7 +34,7 @@ RuntimeChoice choice(const char* text) {
 
 std::vector<std::string> namesOf(const SimulatedMatch& match, int robot) {
   std::vector<std::string> names;
-  for (const ProcessStatus& one : match.processes().statuses()) {
+  for (const ProcessStatus& one : match.robots().processes().statuses()) {
     if (one.robot == RobotId{robot}) names.push_back(one.name);
   }
   return names;
@@ -242,7 +242,7 @@ class TestRuntimeProfile : public QObject {
         match.tick();
         match.pace().lookAfterProcesses(std::chrono::steady_clock::now());
       }
-      QVERIFY(match.processes().statuses().empty());
+      QVERIFY(match.robots().processes().statuses().empty());
       std::array<std::uint32_t, Blackboard::words> words{};
       board.copyWords(words);
       std::size_t written = 0;
@@ -270,15 +270,15 @@ class TestRuntimeProfile : public QObject {
       QCOMPARE(namesOf(match, other), (std::vector<std::string>{"localization", "team", "decision",
                                                                 "planning", "communication"}));
     }
-    QVERIFY(match.robotsOfOthers().empty());
+    QVERIFY(match.robots().ofOthers().empty());
     const auto mine = SystemVSegments::open(m_base + 200, AttachMode::AttachOnly);
     QVERIFY(mine);
-    QCOMPARE(match.robotsOfOthers().size(), std::size_t{1});
-    QCOMPARE(match.robotsOfOthers().front().name(), std::string("B2"));
+    QCOMPARE(match.robots().ofOthers().size(), std::size_t{1});
+    QCOMPARE(match.robots().ofOthers().front().name(), std::string("B2"));
     // And back again.
     QVERIFY(match.robots().setRuntime(RobotId{2}, {}));
     QCOMPARE(namesOf(match, 2).size(), std::size_t{5});
-    QVERIFY(match.robotsOfOthers().empty());
+    QVERIFY(match.robots().ofOthers().empty());
     match.tick();
   }
 
@@ -411,7 +411,8 @@ class TestRuntimeProfile : public QObject {
     QVERIFY(after.processes == before.processes);
     QCOMPARE(namesOf(match, 1), (std::vector<std::string>{"stays", "goes"}));
     QCOMPARE(namesOf(match, 2).size(), std::size_t{0});
-    QCOMPARE(match.processes().status(after.processes[0]->id)->state, ProcessState::Running);
+    QCOMPARE(match.robots().processes().status(after.processes[0]->id)->state,
+             ProcessState::Running);
     match.tick();
   }
 
@@ -430,7 +431,7 @@ class TestRuntimeProfile : public QObject {
     const std::string wanted = "key " + std::to_string(m_base + 100);
     const auto said = [&] {
       match.pace().lookAfterProcesses(std::chrono::steady_clock::now());
-      for (const ProcessStatus& one : match.processes().statuses()) {
+      for (const ProcessStatus& one : match.robots().processes().statuses()) {
         if (one.name == "decision" && !one.lastLines.empty()) return one.lastLines.back() == wanted;
       }
       return false;
@@ -481,7 +482,7 @@ class TestRuntimeProfile : public QObject {
     const auto lines = [&match] {
       match->pace().lookAfterProcesses(std::chrono::steady_clock::now());
       std::set<std::string> all;
-      for (const ProcessStatus& one : match->processes().statuses()) {
+      for (const ProcessStatus& one : match->robots().processes().statuses()) {
         if (!one.lastLines.empty()) all.insert(one.lastLines.back());
       }
       return all;

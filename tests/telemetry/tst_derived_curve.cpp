@@ -6,10 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include <base/units.h>
 #include <telemetry/series/derived_curve.h>
 
 namespace tst_derived_curve {
 
+using namespace pitchboard;
 using namespace pitchboard::telemetry;
 using Curve = std::vector<Sample>;
 
@@ -86,7 +88,7 @@ class TestDerivedCurve : public QObject {
   void unitConversion() {
     const auto convert = [](std::string_view from, std::string_view to, double value) {
       for (const UnitConversion& c : unitConversionsFrom(from)) {
-        if (c.to == to) return c.conversion.next({0.0, value}).value;
+        if (c.to == to) return c.factor * value;
       }
       return hole;
     };
@@ -97,9 +99,11 @@ class TestDerivedCurve : public QObject {
     QVERIFY(near(convert("0.1 V", "V", 124.0), 12.4));
     QVERIFY(unitConversionsFrom("bananas").empty());
     check(derived(Curve{{1, 10}}, LinearConversion{1.8, 32}), {{1, 50}});
-    for (const UnitConversion& c : unitConversions()) {
-      for (const UnitConversion& back : unitConversionsFrom(c.to)) {
-        if (back.to == c.from) QVERIFY(near(back.conversion.factor * c.conversion.factor, 1.0));
+    for (const Unit& unit : units) {
+      for (const UnitConversion& c : unitConversionsFrom(unit.name)) {
+        for (const UnitConversion& back : unitConversionsFrom(c.to)) {
+          if (back.to == unit.name) QVERIFY(near(back.factor * c.factor, 1.0));
+        }
       }
     }
   }

@@ -35,7 +35,8 @@ Contents contentsOf(const std::string& bytes) {
   (void)reader->events();
   std::vector<SessionRow> now;
   reader->rowsAt(1.0, now);
-  for (const auto& attachment : reader->attachments()) (void)reader->attachment(attachment.name);
+  for (const auto& attachment : reader->file().contents().attachments)
+    (void)reader->attachment(attachment.name);
   out.complete = reader->complete();
   out.notes = reader->notes().size();
   return out;
@@ -68,15 +69,15 @@ class TestMcap : public QObject {
     QVERIFY((*writer)->finish());
     m_bytes = bytesOf(path);
     const auto reader = McapReader::open(path);
-    QVERIFY(reader && reader->indexed());
+    QVERIFY(reader && reader->contents().indexed);
     std::size_t rows = 0;
     std::string body;
-    for (const McapChunkInfo& chunk : reader->chunks()) {
+    for (const McapChunkInfo& chunk : reader->contents().chunks) {
       QVERIFY(reader->readChunk(chunk, body));
       McapCursor cursor(body);
       for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
         if (kind == McapCursor::Kind::Message &&
-            reader->channels().at(cursor.message().channel).messageEncoding == "cdr") {
+            reader->contents().channels.at(cursor.message().channel).messageEncoding == "cdr") {
           ++rows;
         }
       }
@@ -92,13 +93,13 @@ class TestMcap : public QObject {
     walk.ignoreSummary = true;
     const auto walked = McapReader::openBytes(m_bytes, walk);
     const auto indexed = McapReader::openBytes(m_bytes);
-    QVERIFY(!walked->indexed() && indexed->indexed());
-    QVERIFY(walked->problems().empty());
-    QVERIFY(walked->schemas() == indexed->schemas());
-    QVERIFY(walked->channels() == indexed->channels());
-    QCOMPARE(walked->chunks().size(), indexed->chunks().size());
-    for (std::size_t i = 0; i < walked->chunks().size(); ++i) {
-      const McapChunkInfo &a = walked->chunks()[i], &b = indexed->chunks()[i];
+    QVERIFY(!walked->contents().indexed && indexed->contents().indexed);
+    QVERIFY(walked->contents().problems.empty());
+    QVERIFY(walked->contents().schemas == indexed->contents().schemas);
+    QVERIFY(walked->contents().channels == indexed->contents().channels);
+    QCOMPARE(walked->contents().chunks.size(), indexed->contents().chunks.size());
+    for (std::size_t i = 0; i < walked->contents().chunks.size(); ++i) {
+      const McapChunkInfo &a = walked->contents().chunks[i], &b = indexed->contents().chunks[i];
       QCOMPARE(a.offset, b.offset);
       QCOMPARE(a.length, b.length);
       QCOMPARE(a.start, b.start);
@@ -106,11 +107,11 @@ class TestMcap : public QObject {
       QCOMPARE(a.compressedSize, b.compressedSize);
       QVERIFY(a.channels == b.channels);
     }
-    QCOMPARE(walked->statistics().messages, indexed->statistics().messages);
-    QVERIFY(walked->statistics().perChannel == indexed->statistics().perChannel);
-    QCOMPARE(walked->statistics().start, indexed->statistics().start);
-    QCOMPARE(walked->attachments().size(), 1U);
-    QCOMPARE(walked->metadata().size(), 1U);
+    QCOMPARE(walked->contents().statistics.messages, indexed->contents().statistics.messages);
+    QVERIFY(walked->contents().statistics.perChannel == indexed->contents().statistics.perChannel);
+    QCOMPARE(walked->contents().statistics.start, indexed->contents().statistics.start);
+    QCOMPARE(walked->contents().attachments.size(), 1U);
+    QCOMPARE(walked->contents().metadata.size(), 1U);
   }
 
   void cutAtEveryByte() {
@@ -167,7 +168,7 @@ class TestMcap : public QObject {
     QFETCH(bool, lengthToo);
     const auto whole = McapReader::openBytes(m_bytes);
     for (std::size_t i = 0; i < m_chunkEnds.size(); ++i) {
-      const std::uint64_t offset = whole->chunks()[i].offset;
+      const std::uint64_t offset = whole->contents().chunks[i].offset;
       std::string bytes = m_bytes;
       bytes[m_chunkEnds[i] - 20] ^= 0x10;
       if (lengthToo) bytes.replace(offset + 1, 8, number64(0x7fffffffffffffffULL));
@@ -195,7 +196,7 @@ class TestMcap : public QObject {
       QVERIFY2(report, report ? "" : report.error().text().c_str());
       QVERIFY2(rowsOf(*SessionReader::open(repaired), everything) == rest, qPrintable(where));
       QVERIFY(!report->notes.empty());
-      const std::uint64_t lost = whole->statistics().messages - report->messages;
+      const std::uint64_t lost = whole->contents().statistics.messages - report->messages;
       if (!brokenOff || !lengthToo) {
         QCOMPARE(report->lostMessages, lost);
         QVERIFY(!report->lostMore);
@@ -216,14 +217,14 @@ class TestMcap : public QObject {
     const auto reader = McapReader::openBytes(m_bytes, walk);
     std::map<std::uint16_t, int> times;
     std::string body;
-    for (const McapChunkInfo& chunk : reader->chunks()) {
+    for (const McapChunkInfo& chunk : reader->contents().chunks) {
       QVERIFY(reader->readChunk(chunk, body));
       McapCursor cursor(body);
       for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
         if (kind == McapCursor::Kind::Channel) ++times[cursor.channel().id];
       }
     }
-    QCOMPARE(times.size(), reader->channels().size());
+    QCOMPARE(times.size(), reader->contents().channels.size());
     for (const auto& [id, count] : times) QVERIFY2(count >= 2, qPrintable(QString::number(id)));
   }
 

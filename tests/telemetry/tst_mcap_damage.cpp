@@ -101,17 +101,18 @@ void TestMcapDamage::initTestCase() {
   m_bytes = bytesOf(path);
   m_records = recordsOf(m_bytes);
   const auto reader = McapReader::open(path);
-  QVERIFY(reader && reader->indexed());
+  QVERIFY(reader && reader->contents().indexed);
   std::size_t row = 0;
   std::string body;
-  for (const McapChunkInfo& chunk : reader->chunks()) {
+  for (const McapChunkInfo& chunk : reader->contents().chunks) {
     QVERIFY(reader->readChunk(chunk, body));
     Part part{chunk.offset, chunk.offset + chunk.length, row, 0, 0};
     McapCursor cursor(body);
     for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
       if (kind != McapCursor::Kind::Message) continue;
       ++part.messages;
-      if (reader->channels().at(cursor.message().channel).messageEncoding == "cdr") ++part.rows;
+      if (reader->contents().channels.at(cursor.message().channel).messageEncoding == "cdr")
+        ++part.rows;
     }
     row += part.rows;
     for (const Record& record : m_records) {
@@ -137,7 +138,8 @@ void TestMcapDamage::expectAtMostOnePartLost(const std::string& bytes, std::size
   }
   const std::vector<Row> found = rowsOf(*session, everything);
   (void)session->events();
-  for (const auto& attachment : session->attachments()) (void)session->attachment(attachment.name);
+  for (const auto& attachment : session->file().contents().attachments)
+    (void)session->attachment(attachment.name);
   QVERIFY(session->check());
   if (found != all) {
     const auto hit = std::ranges::find_if(m_parts, [&](const Part& part) {
@@ -154,7 +156,7 @@ void TestMcapDamage::expectAtMostOnePartLost(const std::string& bytes, std::size
     });
     QVERIFY2(told, qPrintable(where("no time is said")));
   }
-  for (const McapLoss& loss : session->file().losses()) {
+  for (const McapLoss& loss : session->file().contents().losses) {
     QVERIFY2(loss.end == 0 || loss.start <= loss.end, qPrintable(where("backwards")));
     QVERIFY2(loss.bytes > 0 && loss.offset + loss.bytes <= bytes.size() && !loss.reason.empty(),
              qPrintable(where("no place")));
@@ -239,7 +241,7 @@ void TestMcapDamage::manyDamagedParts() {
   const std::vector<Row> rows = record(**writer, 1200);
   QVERIFY((*writer)->finish());
   std::string bytes = bytesOf(path);
-  const auto chunks = McapReader::openBytes(bytes)->chunks();
+  const auto chunks = McapReader::openBytes(bytes)->contents().chunks;
   QVERIFY(chunks.size() > 200);
   // Every other chunk loses its opcode: far more places to search behind than 64.
   std::set<std::uint64_t> kept;
@@ -256,17 +258,17 @@ void TestMcapDamage::manyDamagedParts() {
   bytes.resize(bytes.rfind(std::string("\x0f\x04\0\0\0\0\0\0\0", 9)));
   const auto reader = McapReader::openBytes(bytes);
   std::set<std::uint64_t> found;
-  for (const McapChunkInfo& chunk : reader->chunks()) found.insert(chunk.offset);
+  for (const McapChunkInfo& chunk : reader->contents().chunks) found.insert(chunk.offset);
   QVERIFY(found == kept);
   std::uint64_t lost = 0;
   std::uint64_t before = 0;
-  for (const McapLoss& loss : reader->losses()) {
+  for (const McapLoss& loss : reader->contents().losses) {
     lost += loss.messages.value_or(0);
     QVERIFY(loss.end == 0 || (loss.start <= loss.end && loss.start >= before));
     if (loss.messages.value_or(0) > 0) before = loss.start;
   }
-  const auto all = McapReader::open(path)->statistics().messages;
-  QCOMPARE(lost + reader->statistics().messages, all);
+  const auto all = McapReader::open(path)->contents().statistics.messages;
+  QCOMPARE(lost + reader->contents().statistics.messages, all);
 }
 
 void TestMcapDamage::anIndexIsNoEndAndNoMessage() {
@@ -278,7 +280,7 @@ void TestMcapDamage::anIndexIsNoEndAndNoMessage() {
       damaged[record.offset] = op;
       const auto session = SessionReader::openBytes(damaged);
       QVERIFY(rowsOf(*session, everything) == m_rows);
-      QVERIFY(session->file().losses().empty());
+      QVERIFY(session->file().contents().losses.empty());
       QVERIFY(std::ranges::any_of(session->notes(), [](const std::string& note) {
         return note.find("index of messages is damaged") != std::string::npos;
       }));
@@ -305,7 +307,7 @@ void TestMcapDamage::whatIsLostIsNamedInOrder() {
   QVERIFY(writer->writeChunk(chunkOf({11, 19})));
   QVERIFY(writer->finish());
   std::string bytes = bytesOf(path);
-  std::vector<McapChunkInfo> chunks = McapReader::openBytes(bytes)->chunks();
+  std::vector<McapChunkInfo> chunks = McapReader::openBytes(bytes)->contents().chunks;
   std::erase_if(chunks, [](const McapChunkInfo& chunk) { return chunk.end == 0; });
   QCOMPARE(chunks.size(), 3U);
   // Head and indexes of the middle one are gone, so that only its neighbours tell its time.
@@ -314,9 +316,9 @@ void TestMcapDamage::whatIsLostIsNamedInOrder() {
   std::fill(bytes.begin() + from, bytes.begin() + to, '\xff');
   bytes.resize(bytes.rfind(std::string("\x0f\x04\0\0\0\0\0\0\0", 9)));
   const auto session = SessionReader::openBytes(bytes);
-  QCOMPARE(session->file().losses().size(), 1U);
-  QCOMPARE(session->file().losses()[0].start, 11'000'000'000U);
-  QCOMPARE(session->file().losses()[0].end, 14'000'000'000U);
+  QCOMPARE(session->file().contents().losses.size(), 1U);
+  QCOMPARE(session->file().contents().losses[0].start, 11'000'000'000U);
+  QCOMPARE(session->file().contents().losses[0].end, 14'000'000'000U);
   const bool told = std::ranges::any_of(session->notes(), [](const std::string& note) {
     return note.find("lost, between 1.000 s and 4.000 s.") != std::string::npos;
   });

@@ -117,7 +117,7 @@ class TestSession : public QObject, private NewSessions {
     append(**writer, joined);
     QVERIFY((*writer)->finish());
     const auto reader = SessionReader::open(path);
-    QVERIFY(reader->file().chunks().size() > 10);
+    QVERIFY(reader->file().contents().chunks.size() > 10);
     std::vector<SessionRow> now;
     for (const int tick : {0, 1, 59, 60, 299, 598, 599}) {
       reader->rowsAt(tick / 60.0, now);
@@ -222,7 +222,7 @@ class TestSession : public QObject, private NewSessions {
     (*writer)->addGroup(group);
     QVERIFY((*writer)->finish());
     const auto reader = SessionReader::open(path);
-    const std::string text = reader->file().schemas().begin()->second.data;
+    const std::string text = reader->file().contents().schemas.begin()->second.data;
     for (const char* field :
          {"float64 source_time ", "float64 vision_x ", "float64 vision_x_2 ", "float64 v9lives ",
           "float64 v ", "float64 source_time_2 ", "float64 a ", "float64 a_2 "}) {
@@ -283,8 +283,8 @@ class TestSession : public QObject, private NewSessions {
     {
       auto file = McapWriter::create(path);
       McapChunk chunk;
-      for (const auto& [id, schema] : known->schemas()) chunk.add(schema);
-      for (const auto& [id, channel] : known->channels()) chunk.add(channel);
+      for (const auto& [id, schema] : known->contents().schemas) chunk.add(schema);
+      for (const auto& [id, channel] : known->contents().channels) chunk.add(channel);
       chunk.add(McapMessage{60'000, 0, 6'000'000'000, 6'000'000'000, "abc"});
       QVERIFY(file->writeChunk(chunk) && file->finish());
     }
@@ -344,10 +344,10 @@ class TestSession : public QObject, private NewSessions {
       std::uint32_t messages = 0, number = first;
       copy->walkFile({-1e18, 1e18}, [&](const McapMessage& message) {
         ++messages;
-        const McapChannel& channel = copy->file().channels().at(message.channel);
+        const McapChannel& channel = copy->file().contents().channels.at(message.channel);
         const bool theirs = channel.topic == "/theirs";
         if (!theirs) return channel.topic == "/raw" && message.data == std::string_view("\0x", 2);
-        const McapSchema& schema = copy->file().schemas().at(channel.schema);
+        const McapSchema& schema = copy->file().contents().schemas.at(channel.schema);
         return channel.metadata.at("a") == "b" && schema.data.size() == 3 &&
                message.sequence == 40 + number && message.publishTime == 77 &&
                message.logTime == 1'000'000'000ULL * number++;

@@ -120,9 +120,9 @@ class TestFieldDrawings : public QObject {
     QVERIFY(changed(now, 3.0, -2.5) && !changed(now, 3.0, -2.0));
     m_view->select({});
     QVERIFY(toggle({"Only of selected robots"}));
-    m_view->layerActions()[std::size_t(FieldLayer::Drawings)]->setChecked(false);
+    m_view->actions().layers[std::size_t(FieldLayer::Drawings)]->setChecked(false);
     QCOMPARE(m_view->picture(size), without);
-    m_view->layerActions()[std::size_t(FieldLayer::Drawings)]->setChecked(true);
+    m_view->actions().layers[std::size_t(FieldLayer::Drawings)]->setChecked(true);
     // A layer that counts from its robot goes with it.
     auto moved = std::make_shared<link::MatchFrame>(*frame);
     moved->robots[0].pose.position = {3.0, -3.0};

@@ -120,7 +120,7 @@ class TestFieldLook : public QObject {
                   "width 12\npolygon 0 0 0.5 0.5 1 -0.5\nlayer b\ndisc -2 -2 0.7",
                   0.0));
     frame->drawings = book.at(0.0);
-    for (QAction* layer : m_view->layerActions()) layer->setChecked(true);
+    for (QAction* layer : m_view->actions().layers) layer->setChecked(true);
     m_view->showFrame(frame);
     m_view->select({blue(1), red(1)});
     const QPoint middle = m_canvas->viewport()->rect().center();
@@ -252,13 +252,13 @@ class TestFieldLook : public QObject {
       auto frame = frameOf(1);
       frame->robots[0].pose.position = {0.0, 1.0};
       believe(*frame, frame->robots[0], frame->robots[0].pose);
-      for (QAction* layer : m_view->layerActions()) layer->setChecked(false);
+      for (QAction* layer : m_view->actions().layers) layer->setChecked(false);
       m_view->showFrame(frame);
       const QSize size(1040, 740);
       const QImage without = m_view->picture(size);
       frame = std::make_shared<link::MatchFrame>(*frame);
       frame->robots[0].sigma = static_cast<double>(sigma) / 100.0;
-      m_view->layerActions()[std::size_t(FieldLayer::Belief)]->setChecked(true);
+      m_view->actions().layers[std::size_t(FieldLayer::Belief)]->setChecked(true);
       m_view->showFrame(frame);
       const QImage with = m_view->picture(size);
       const QPoint beside(520 + 24, 370 - 100 + 12);
@@ -276,11 +276,11 @@ class TestFieldLook : public QObject {
       auto frame = frameOf(1);
       frame->robots[0].pose = {{0.0, 2.0}, 0.0};
       believe(*frame, frame->robots[0], {{0.0, 2.0 - away}, 0.0});
-      for (QAction* layer : m_view->layerActions()) layer->setChecked(false);
-      m_view->layerActions()[std::size_t(FieldLayer::Ghost)]->setChecked(true);
+      for (QAction* layer : m_view->actions().layers) layer->setChecked(false);
+      m_view->actions().layers[std::size_t(FieldLayer::Ghost)]->setChecked(true);
       m_view->showFrame(frame);
       const QImage ghost = m_view->picture(QSize(1040, 740));
-      m_view->layerActions()[std::size_t(FieldLayer::Ghost)]->setChecked(false);
+      m_view->actions().layers[std::size_t(FieldLayer::Ghost)]->setChecked(false);
       const QImage none = m_view->picture(QSize(1040, 740));
       const int y = 370 - static_cast<int>(100 * (2.0 - away / 2));
       return ghost.copy(515, y, 10, 1) != none.copy(515, y, 10, 1);

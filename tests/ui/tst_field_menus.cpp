@@ -187,7 +187,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
   }
 
   void layerOptionsChangeThePicture() {
-    const auto options = m_view->layerOptionActions();
+    const auto options = m_view->actions().options;
     QCOMPARE(options.size(), std::size_t(4));
     const QSize size(640, 455);
     const QImage one = m_view->picture(size);
@@ -195,7 +195,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     const QImage all = m_view->picture(size);
     QVERIFY(all != one);
     m_view->select({blue(1)});
-    m_view->layerActions()[std::size_t(FieldLayer::Eopra)]->setChecked(true);
+    m_view->actions().layers[std::size_t(FieldLayer::Eopra)]->setChecked(true);
     const QImage four = m_view->picture(size);
     options[2]->setChecked(true);
     QVERIFY(!options[1]->isChecked());
@@ -216,7 +216,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     const QSize size(1040, 740);
     const QImage without = view.picture(size);
     for (const FieldLayer layer : {FieldLayer::Particles, FieldLayer::PlannedPath}) {
-      QAction* action = view.layerActions()[std::size_t(layer)];
+      QAction* action = view.actions().layers[std::size_t(layer)];
       QVERIFY(!action->isChecked());  // off at first
       action->setChecked(true);
       QVERIFY(view.picture(size) != without);
@@ -230,8 +230,8 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     }
     auto silent = std::make_shared<link::MatchFrame>(*frame);
     silent->robots[0].thoughts.reset();
-    view.layerActions()[std::size_t(FieldLayer::Particles)]->setChecked(true);
-    view.layerActions()[std::size_t(FieldLayer::PlannedPath)]->setChecked(true);
+    view.actions().layers[std::size_t(FieldLayer::Particles)]->setChecked(true);
+    view.actions().layers[std::size_t(FieldLayer::PlannedPath)]->setChecked(true);
     view.showFrame(silent);
     QCOMPARE(view.picture(size), without);
   }

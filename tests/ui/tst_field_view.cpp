@@ -362,9 +362,9 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
 
   void nothingIsDrawnBesideThePlayingArea() {
     // A picture much wider than the field: with everything shown, its sides stay empty.
-    for (QAction* layer : m_view->layerActions()) layer->setChecked(true);
-    for (QAction* option : m_view->layerOptionActions()) option->setChecked(true);
-    m_view->layerActions()[std::size_t(FieldLayer::Grid)]->setChecked(false);
+    for (QAction* layer : m_view->actions().layers) layer->setChecked(true);
+    for (QAction* option : m_view->actions().options) option->setChecked(true);
+    m_view->actions().layers[std::size_t(FieldLayer::Grid)]->setChecked(false);
     m_controller->edits()->moveRobots(
         {{RobotId{1}, pose(1), {{-4.9, 0.0}, radiansFromDegrees(180)}}});
     m_view->select({blue(1)});

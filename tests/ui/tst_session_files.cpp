@@ -133,10 +133,10 @@ class TestSessionFiles : public QObject {
     QVERIFY(!path.isEmpty());
     {
       const auto session = telemetry::SessionReader::open(path.toStdString());
-      QVERIFY(session && session->complete() && session->file().chunks().size() > 2);
+      QVERIFY(session && session->complete() && session->file().contents().chunks.size() > 2);
       QFile file(path);
       QVERIFY(file.open(QIODevice::ReadWrite));
-      const telemetry::McapChunkInfo& chunk = session->file().chunks().back();
+      const telemetry::McapChunkInfo& chunk = session->file().contents().chunks.back();
       QVERIFY(file.seek(static_cast<qint64>(chunk.offset + chunk.length) - 20));
       QVERIFY(file.write("damage") == 6);
     }

@@ -166,14 +166,14 @@ class TestWindowMatch : public QObject {
 
   void hiddenLayersAndDrawingsAreRemembered() {
     const auto layer = [](Studio& s, FieldLayer which) {
-      return s.window.field()->layerActions()[static_cast<std::size_t>(which)];
+      return s.window.field()->actions().layers[static_cast<std::size_t>(which)];
     };
     const auto scene = [](Studio& s) { return s.window.findChild<FieldScene*>(); };
     {
       Studio s(m_settings.get());
       layer(s, FieldLayer::Trails)->setChecked(false);
       layer(s, FieldLayer::Grid)->setChecked(true);
-      s.window.field()->layerOptionActions()[2]->setChecked(true);
+      s.window.field()->actions().options[2]->setChecked(true);
       scene(s)->changeStyle([](FieldStyle& style) {
         style.drawings.hiddenLayers = {"a / b"};
         style.drawings.hiddenRobots = {red(1)};

@@ -171,19 +171,9 @@ Result<Scenario> scenarioOf(const pb_options& options) {
   auto scenario = options.text ? scenarioFromJson(options.text, "scenario")
                                : loadScenario(options.scenario ? options.scenario : "one-robot");
   if (!scenario) return scenario;
-  if (options.noise) {
-    const auto noise = TRY(noisePreset(options.noise));
-    scenario->settings.noise = noise;
-  }
-  if (options.physics) scenario->settings.physics = options.physics;
-  if (options.duration != 0.0) {
-    if (!(options.duration > 0.0 && options.duration <= 1e9)) {
-      return failure(ErrorCode::InvalidArgument,
-                     "duration must be above 0 and at most 1e9 seconds, or 0 for the scenario's");
-    }
-    scenario->stop.duration = options.duration;
-  }
-  return scenario;
+  const auto text = [](const char* given) { return std::string(given ? given : ""); };
+  return changed(std::move(*scenario),
+                 {{}, text(options.noise), text(options.physics), options.duration});
 }
 
 // Variables as numbers: ints by their index, floats behind them.

@@ -143,7 +143,7 @@ WorldSnapshot World::snapshot() const {
   for (std::size_t i = 0; i < m_boards.size(); ++i) {
     MomentRobot robot;
     robot.id = out.moment.state.robots[i].id;
-    robot.behaviour = m_match.behaviour(robot.id);
+    robot.behaviour = m_match.robots().all()[i]->behaviour;
     std::array<std::uint32_t, Blackboard::words> words;
     m_boards[i]->copyWords(words);
     robot.words.reserve(words.size());

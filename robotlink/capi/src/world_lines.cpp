@@ -143,8 +143,10 @@ void WorldRequest::create() {
   Scenario scenario = m_lines.m_usual;
   const std::string name = m_request.text("scenario", "", 4096);
   const std::string text = m_request.text("text", "", WorldLines::longestLine);
-  const std::string noise = m_request.text("noise", "", 100);
-  const std::string physics = m_request.text("physics", "", 100);
+  ScenarioOverrides overrides;
+  overrides.noise = m_request.text("noise", "", 100);
+  overrides.physics = m_request.text("physics", "", 100);
+  overrides.duration = m_request.number("duration", 0.0, {0.0, 1e9, "seconds"});
   WorldsOptions options;
   options.count = m_request.integer("worlds", 1, 1, limits.worlds);
   options.threads = m_request.integer("threads", 1, 1, Worlds::mostThreads);
@@ -152,7 +154,6 @@ void WorldRequest::create() {
   if (m_request.find("particles")) {
     options.particles = m_request.integer("particles", 500, 1, 100000);
   }
-  const double duration = m_request.number("duration", 0.0, {0.0, 1e9, "seconds"});
   if (failed()) return;
   if (!name.empty() && !text.empty()) return fail("text", "a scenario has a name or a text");
   if (!name.empty() || !text.empty()) {
@@ -165,14 +166,9 @@ void WorldRequest::create() {
     if (!loaded) return fail(loaded.error());
     scenario = std::move(*loaded);
   }
-  if (!noise.empty()) {
-    const auto preset = noisePreset(noise);
-    if (!preset) return fail(preset.error());
-    scenario.settings.noise = *preset;
-  }
-  if (!physics.empty()) scenario.settings.physics = physics;
-  if (duration > 0.0) scenario.stop.duration = duration;
-  auto made = Worlds::create(scenario, options);
+  const auto wanted = changed(std::move(scenario), overrides);
+  if (!wanted) return fail(wanted.error());
+  auto made = Worlds::create(*wanted, options);
   if (!made) return fail(made.error());
   m_lines.m_worlds = std::move(*made);
   m_lines.m_snapshots.clear();

@@ -5,7 +5,6 @@
 #include <thread>
 
 #include <base/try.h>
-#include <robotlink/match/own_pace.h>
 
 namespace pitchboard::link {
 namespace {
@@ -18,7 +17,7 @@ constexpr auto glance = 20ms;  // between two looks whether the programs are the
 
 Result<void> OwnPrograms::missing() const {
   const SimulatedMatch& match = m_player.match();
-  for (const ProcessStatus& one : match.processes().statuses()) {
+  for (const ProcessStatus& one : match.robots().processes().statuses()) {
     // One that runs and attaches nothing may have another way to see its robot.
     if (!one.foreign || (one.state == ProcessState::Running && one.restarts == 0) ||
         match.pace().hasAttached(one)) {
@@ -59,11 +58,11 @@ void OwnPrograms::look(Clock::time_point now) {
   SimulatedMatch& match = m_player.match();
   m_looked = now;
   match.pace().lookAfterProcesses(now);
-  (void)match.processes().takeLines();
-  const auto slowest = match.slowestOwnProgram();
+  (void)match.robots().processes().takeLines();
+  const auto slowest = match.pace().slowestOwnProgram();
   m_kept += slowest ? std::min(1.0, *slowest / m_now) : 1.0;
   m_looks += 1.0;
-  if (now - m_followed < ownPaceInterval) return;
+  if (now - m_followed < ProcessPace::ownPaceInterval) return;
   m_followed = now;
   const double speed = match.pace().ownPace(m_speed, m_now);
   if (speed != m_now) setSpeed(speed, now);

@@ -169,7 +169,7 @@ Result<void> RunPlayer::loop(MatchPlayer& player, const RunMeasure& measure, std
     if (const auto now = WallClock::now(); now - looked >= lookInterval) {
       looked = now;
       player.match().pace().lookAfterProcesses(now);
-      (void)player.match().processes().takeLines();
+      (void)player.match().robots().processes().takeLines();
     }
   }
   return {};

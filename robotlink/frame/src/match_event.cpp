@@ -230,63 +230,13 @@ std::string sideWithBall(const sim::WorldState& state) {
   return " for " + std::string(info(state.game->teams[team].colour).name);
 }
 
-/// What the referee of a simulated match says.
-void fillGameEvent(const sim::Event& event, const sim::WorldState& state, MatchEvent& out) {
-  switch (event.kind) {
-    case sim::EventKind::ScoreCorrected:
-      out.kind = Kind::ScoreCorrected;
-      out.side = event.value == 0 ? Side::Left : Side::Right;
-      out.colour = info(teamOn(*out.side, state.robots)).name;
-      out.score = state.score;
-      break;
-    case sim::EventKind::PlayStateChanged:
-      out.kind = Kind::GameState;
-      out.detail = wordsOf(static_cast<sim::PlayState>(event.value));
-      if (state.game) {
-        out.value = static_cast<int>(std::ceil(state.game->clock / state.settings.tickRate - 1e-9));
-      }
-      break;
-    case sim::EventKind::HalfBegan:
-      out.kind = Kind::Half;
-      out.value = event.value;
-      break;
-    case sim::EventKind::PhaseChanged:
-      out.kind = Kind::GamePhase;
-      if (event.value != 0) out.detail = wordsOf(static_cast<sim::GamePhase>(event.value));
-      break;
-    case sim::EventKind::SetPlayBegan:
-      out.kind = Kind::SetPlay;
-      out.detail =
-          std::string(wordsOf(static_cast<sim::SetPlay>(event.value))) + sideWithBall(state);
-      break;
-    case sim::EventKind::SetPlayOver:
-      out.kind = Kind::SetPlay;
-      break;
-    case sim::EventKind::DropBall:
-      out.kind = Kind::SetPlay;
-      out.detail = "drop ball";
-      break;
-    case sim::EventKind::PlayStopped:
-      out.kind = Kind::PlayStopped;
-      break;
-    case sim::EventKind::PlayGoesOn:
-      out.kind = Kind::PlayGoesOn;
-      break;
-    case sim::EventKind::Penalised:
-      out.kind = Kind::Penalised;
-      out.detail = wordsOf(static_cast<sim::PenaltyKind>(event.value));
-      break;
-    case sim::EventKind::PenaltyOver:
-      out.kind = Kind::PenaltyOver;
-      break;
-    case sim::EventKind::FinalWhistle:
-      out.kind = Kind::GamePhase;
-      out.detail = "final whistle";
-      break;
-    default:
-      break;
-  }
-}
+/// What an event of the simulation is here, in the order of sim::EventKind.
+constexpr std::array kindOfSimulated{
+    Kind::Goal,          Kind::BallOut,        Kind::Kick,      Kind::Fall,        Kind::GotUp,
+    Kind::UnknownAction, Kind::ScoreCorrected, Kind::GameState, Kind::Half,        Kind::GamePhase,
+    Kind::SetPlay,       Kind::SetPlay,        Kind::SetPlay,   Kind::PlayStopped, Kind::PlayGoesOn,
+    Kind::Penalised,     Kind::PenaltyOver,    Kind::GamePhase};
+static_assert(kindOfSimulated.size() == static_cast<std::size_t>(sim::EventKind::FinalWhistle) + 1);
 
 }  // namespace
 
@@ -297,32 +247,42 @@ MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state) {
   const double time = static_cast<double>(event.tick) / state.settings.tickRate;
   if (robot != state.robots.end()) out = eventOf(Kind::Other, time, keyOf(*robot), robot->name());
   out.time = time;
+  out.kind = kindOfSimulated[static_cast<std::size_t>(event.kind)];
   switch (event.kind) {
     case sim::EventKind::Goal:
-      out.kind = Kind::Goal;
+    case sim::EventKind::ScoreCorrected:
       out.side = event.value == 0 ? Side::Left : Side::Right;
       out.colour = info(teamOn(*out.side, state.robots)).name;
       out.score = state.score;
       break;
-    case sim::EventKind::BallOut:
-      out.kind = Kind::BallOut;
-      break;
     case sim::EventKind::Kick:
-      out.kind = Kind::Kick;
-      out.value = event.value;
-      break;
-    case sim::EventKind::Fall:
-      out.kind = Kind::Fall;
-      break;
-    case sim::EventKind::GotUp:
-      out.kind = Kind::GotUp;
-      break;
     case sim::EventKind::UnknownAction:
-      out.kind = Kind::UnknownAction;
+    case sim::EventKind::HalfBegan:
       out.value = event.value;
+      break;
+    case sim::EventKind::PlayStateChanged:
+      out.detail = wordsOf(static_cast<sim::PlayState>(event.value));
+      if (state.game) {
+        out.value = static_cast<int>(std::ceil(state.game->clock / state.settings.tickRate - 1e-9));
+      }
+      break;
+    case sim::EventKind::PhaseChanged:
+      if (event.value != 0) out.detail = wordsOf(static_cast<sim::GamePhase>(event.value));
+      break;
+    case sim::EventKind::SetPlayBegan:
+      out.detail =
+          std::string(wordsOf(static_cast<sim::SetPlay>(event.value))) + sideWithBall(state);
+      break;
+    case sim::EventKind::DropBall:
+      out.detail = "drop ball";
+      break;
+    case sim::EventKind::Penalised:
+      out.detail = wordsOf(static_cast<sim::PenaltyKind>(event.value));
+      break;
+    case sim::EventKind::FinalWhistle:
+      out.detail = "final whistle";
       break;
     default:
-      fillGameEvent(event, state, out);
       break;
   }
   return out;

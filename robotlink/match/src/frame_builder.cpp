@@ -44,7 +44,7 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   out.snapshot = m_snapshot;
   out.robots.resize(state.robots.size());
   out.teams = teamsByColour();
-  takeProcesses(match.processes());
+  takeProcesses(match.robots().processes());
   if (!still && m_last != Time{}) m_playing += std::chrono::duration<double>(now - m_last).count();
   m_last = now;
   for (std::size_t i = 0; i < state.robots.size(); ++i) {
@@ -56,16 +56,16 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
     robot.processList = processes == m_processes.end() ? nullptr : processes->second;
     fillRobot(match, robot);
     robot.thoughts.reset();
-    robot.runtime = runtimeChoiceToText(match.runtime(robot.slot()));
+    robot.runtime = runtimeChoiceToText(match.robots().find(robot.slot())->choice);
     robot.ofOthers = false;
   }
-  for (const sim::RobotIdentity& other : match.robotsOfOthers()) {
+  for (const sim::RobotIdentity& other : match.robots().ofOthers()) {
     out.robots[*simulation.indexOf(other.id)].ofOthers = true;
   }
-  const auto number = match.number();
-  out.matchNumber = number ? std::optional(number->value) : std::nullopt;
-  out.inLockStep = match.inLockStep();
-  out.slowestOwnProgram = match.slowestOwnProgram();
+  const auto& claim = match.robots().claim();
+  out.matchNumber = claim ? std::optional(claim->number().value) : std::nullopt;
+  out.inLockStep = match.pace().inLockStep();
+  out.slowestOwnProgram = match.pace().slowestOwnProgram();
   std::erase_if(m_lamps, [&](const auto& entry) { return !simulation.indexOf(entry.first); });
   if (still || now - m_thoughtsTime >= thoughtsInterval) {
     m_thoughts = match.thoughts();
@@ -139,7 +139,7 @@ void FrameBuilder::fillRobot(const SimulatedMatch& match, RobotFrame& out) {
     return meantBy(meaning, value);
   };
   out.boardKey = board->key();
-  out.behaviour = match.behaviour(out.slot());
+  out.behaviour = match.robots().find(out.slot())->behaviour;
   out.lamps = m_lamps[out.slot()].note(reader, m_playing);
   buildRobot(reader, match.simulation().state().settings.field, true, out);
 }

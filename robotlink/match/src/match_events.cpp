@@ -2,9 +2,20 @@
 #include "match_events.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace pitchboard::link {
+namespace {
+
+/// Of a process that ran before, in the order of ProcessNewsKind.
+constexpr std::array kindOfNews{MatchEventKind::ProcessRestarted, MatchEventKind::ProcessRestarted,
+                                MatchEventKind::ProcessEnded,     MatchEventKind::ProcessDied,
+                                MatchEventKind::ProcessSilent,    MatchEventKind::ProcessGivenUp,
+                                MatchEventKind::ProcessRealTime};
+static_assert(kindOfNews.size() == static_cast<std::size_t>(ProcessNewsKind::RealTime) + 1);
+
+}  // namespace
 
 void MatchEvents::add(MatchEvent event) {
   if (m_events.size() >= mostKept) m_events.erase(m_events.begin());
@@ -16,11 +27,6 @@ void MatchEvents::stepped(const sim::Simulation& simulation) {
 }
 
 void MatchEvents::look(const sim::WorldState& state, std::string_view finishedBy) {
-  lookAtGame(state, static_cast<double>(state.tick) / state.settings.tickRate, finishedBy);
-}
-
-void MatchEvents::lookAtGame(const sim::WorldState& state, double time,
-                             std::string_view finishedBy) {
   const Game now = !finishedBy.empty()  ? Game::Over
                    : state.clockRunning ? Game::Playing
                                         : Game::ClockStopped;
@@ -28,7 +34,7 @@ void MatchEvents::lookAtGame(const sim::WorldState& state, double time,
   if (state.game && now != Game::Over) return;  // its referee says the state of the game
   MatchEvent event;
   event.kind = now == Game::Over ? MatchEventKind::MatchOver : MatchEventKind::GameState;
-  event.time = time;
+  event.time = static_cast<double>(state.tick) / state.settings.tickRate;
   event.detail = now == Game::Over      ? std::string(finishedBy)
                  : now == Game::Playing ? "PLAYING"
                                         : "CLOCK STOPPED";
@@ -54,30 +60,11 @@ MatchEvent MatchEvents::ofProcess(MatchEventKind kind, const sim::WorldState& st
 
 void MatchEvents::takeNews(const sim::WorldState& state, const std::vector<ProcessNews>& news) {
   for (const ProcessNews& one : news) {
-    MatchEventKind kind = MatchEventKind::ProcessStarted;
-    switch (one.kind) {
-      case ProcessNewsKind::Started:
-      case ProcessNewsKind::Restarted:
-        // The first of this name since the match began, whoever started it.
-        if (!m_everRan.emplace(one.robot, one.process).second)
-          kind = MatchEventKind::ProcessRestarted;
-        break;
-      case ProcessNewsKind::Ended:
-        kind = MatchEventKind::ProcessEnded;
-        break;
-      case ProcessNewsKind::Died:
-        kind = MatchEventKind::ProcessDied;
-        break;
-      case ProcessNewsKind::Silent:
-        kind = MatchEventKind::ProcessSilent;
-        break;
-      case ProcessNewsKind::GivenUp:
-        kind = MatchEventKind::ProcessGivenUp;
-        break;
-      case ProcessNewsKind::RealTime:
-        kind = MatchEventKind::ProcessRealTime;
-        break;
-    }
+    const bool starts = one.kind <= ProcessNewsKind::Restarted;
+    // The first of this name since the match began, whoever started it.
+    const bool isFirst = starts && m_everRan.emplace(one.robot, one.process).second;
+    const auto kind =
+        isFirst ? MatchEventKind::ProcessStarted : kindOfNews[static_cast<std::size_t>(one.kind)];
     MatchEvent event = ofProcess(kind, state, one.robot, one.process);
     event.detail = one.detail;
     if (!one.lastWords.empty()) event.detail += "; its last words: " + one.lastWords;

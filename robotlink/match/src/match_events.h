@@ -38,7 +38,6 @@ class MatchEvents {
   enum class Game { Unknown, Playing, ClockStopped, Over };
 
   void add(MatchEvent event);
-  void lookAtGame(const sim::WorldState& state, double time, std::string_view finishedBy);
   MatchEvent ofProcess(MatchEventKind kind, const sim::WorldState& state, RobotId robot,
                        const std::string& process);
 

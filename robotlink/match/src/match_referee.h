@@ -33,8 +33,6 @@ class MatchReferee {
   const RefereeRhythm& rhythm() const { return m_rhythm; }
   void setRhythm(const RefereeRhythm& rhythm) { m_rhythm = rhythm; }
   const telemetry::RefereeState& packet() const { return m_packet; }
-  /// An external GameController is obeyed.
-  bool obeys() const { return m_receiver != nullptr; }
 
  private:
   void send();

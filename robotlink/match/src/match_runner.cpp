@@ -11,7 +11,6 @@
 #include <utility>
 
 #include <robotlink/match/match_player.h>
-#include <robotlink/match/own_pace.h>
 
 #include "frame_builder.h"
 
@@ -247,11 +246,11 @@ void MatchLoop::collectEvents() {
 
 void MatchLoop::followOwnPrograms(Clock::time_point now) {
   if (m_still || m_wantedSpeed == MatchRunner::unlimitedSpeed ||
-      now - m_lastFollow < ownPaceInterval) {
+      now - m_lastFollow < ProcessPace::ownPaceInterval) {
     return;
   }
   m_lastFollow = now;
-  const double speed = m_match.pace().waitsForOwnPrograms()
+  const double speed = m_match.pace().waitForOwnPrograms
                            ? m_match.pace().ownPace(m_wantedSpeed, m_speed)
                            : m_wantedSpeed;
   if (speed == m_speed) return;
@@ -261,7 +260,7 @@ void MatchLoop::followOwnPrograms(Clock::time_point now) {
 }
 
 bool MatchLoop::refreshesWhileStill() const {
-  if (!m_match.processes().statuses().empty()) return true;
+  if (!m_match.robots().processes().statuses().empty()) return true;
   const auto& robots = m_match.simulation().state().robots;
   return std::any_of(robots.begin(), robots.end(), [this](const sim::RobotIdentity& robot) {
     const Blackboard* board = m_match.blackboard(robot.id);
@@ -275,8 +274,8 @@ void MatchLoop::pollProcesses() {
   const auto now = Clock::now();
   m_match.pace().lookAfterProcesses(now);
   const sim::Simulation& simulation = m_match.simulation();
-  const auto& all = m_match.processes().statuses();
-  for (const ProcessLine& line : m_match.processes().takeLines()) {
+  const auto& all = m_match.robots().processes().statuses();
+  for (const ProcessLine& line : m_match.robots().processes().takeLines()) {
     const auto process = std::find_if(all.begin(), all.end(), [&line](const ProcessStatus& one) {
       return one.robot == line.robot && one.name == line.process;
     });

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <thread>
 
-#include <robotlink/match/own_pace.h>
-
 #include "match_base.h"
 #include "match_events.h"
 
@@ -19,20 +17,15 @@ bool fallsBehind(const ProcessStatus& program) {
 
 }  // namespace
 
-void ProcessPace::setRobotsPace(RobotsPace pace) {
-  m_base.options.pace = pace;
-}
+ProcessPace::ProcessPace(MatchBase& base, RobotSlots& robots, MatchEvents& events)
+    : robotsPace(base.options.pace),
+      waitForOwnPrograms(base.options.waitForOwnPrograms),
+      m_base(base),
+      m_slots(robots),
+      m_events(events) {}
 
 bool ProcessPace::inLockStep() const {
-  return m_base.options.pace == RobotsPace::LockStep || m_still || m_speed != 1.0;
-}
-
-void ProcessPace::setWaitForOwnPrograms(bool on) {
-  m_base.options.waitForOwnPrograms = on;
-}
-
-bool ProcessPace::waitsForOwnPrograms() const {
-  return m_base.options.waitForOwnPrograms;
+  return robotsPace == RobotsPace::LockStep || m_still || m_speed != 1.0;
 }
 
 void ProcessPace::lookAfterProcesses(Time now) {
@@ -69,6 +62,7 @@ void ProcessPace::setPlaying(double speed, bool still, Time now) {
 }
 
 double ProcessPace::ownPace(double wanted, double now) const {
+  constexpr double faster = 1.25, least = 0.1;
   std::optional<double> slowest;
   for (const ProcessStatus& one : m_slots.processes().statuses()) {
     if (!one.foreign || one.pid == 0) continue;
@@ -78,7 +72,7 @@ double ProcessPace::ownPace(double wanted, double now) const {
       slowest = std::min(slowest.value_or(one.achieved), one.achieved);
     }
   }
-  return paceWithOwnPrograms(wanted, now, slowest);
+  return slowest ? std::max(least, std::min(*slowest, wanted)) : std::min(wanted, now * faster);
 }
 
 std::optional<double> ProcessPace::slowestOwnProgram() const {

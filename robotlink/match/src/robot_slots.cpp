@@ -88,12 +88,6 @@ const sim::RobotModel* RobotSlots::model(RobotId id) const {
   return index ? &m_base.simulation.state().models[*index] : nullptr;
 }
 
-RobotId RobotSlots::freeId() const {
-  RobotId id{1};
-  while (find(id)) ++id.value;
-  return id;
-}
-
 std::vector<sim::RobotIdentity> RobotSlots::ofOthers() const {
   std::vector<sim::RobotIdentity> others;
   for (const auto& slot : m_slots) {
@@ -391,9 +385,22 @@ Result<void> RobotSlots::start(RobotSlot& slot, SlotProcess& process) {
     return failure(ErrorCode::NotFound, unknownName("reference process", profile.reference, known),
                    "the runtime profile " + slot.runtime.name);
   }
-  if (!profile.isReference()) return startForeign(slot, process);
-  return m_base.options.cognition == Cognition::Inline ? startInside(slot, process)
-                                                       : startReference(slot, process);
+  if (profile.isReference() && m_base.options.cognition == Cognition::Inline) {
+    return startInside(slot, process);
+  }
+  TRY(identify());
+  TRY(m_processes->keepGuard());
+  ManagedProcess managed;
+  managed.spec.robot = slot.id;
+  managed.spec.name = profile.name;
+  managed.spec.stopSignal = profile.stopSignal;
+  managed.restart = profile.restart;
+  managed.delay = profile.delay;
+  managed.silentAfter = RestartRule::Seconds(profile.silentAfter);
+  TRY(profile.isReference() ? describeReference(slot, process, managed)
+                            : describeForeign(slot, profile, managed));
+  process.id = TRY(m_processes->add(managed, slot.board, SteadyClock::now()));
+  return {};
 }
 
 Result<void> RobotSlots::startInside(const RobotSlot& slot, SlotProcess& process) {
@@ -404,18 +411,12 @@ Result<void> RobotSlots::startInside(const RobotSlot& slot, SlotProcess& process
   return {};
 }
 
-Result<void> RobotSlots::startReference(RobotSlot& slot, SlotProcess& process) {
-  TRY(identify());
-  TRY(m_processes->keepGuard());
+Result<void> RobotSlots::describeReference(const RobotSlot& slot, SlotProcess& process,
+                                           ManagedProcess& managed) {
   if (!m_turns) m_turns = TRY(MatchTurns::create());
-  ManagedProcess managed;
-  managed.spec = {slot.id, process.profile.name, commandOf(slot, process.profile.reference)};
-  managed.spec.stopSignal = process.profile.stopSignal;
+  managed.spec.command = commandOf(slot, process.profile.reference);
   managed.spec.inherited = m_turns->descriptor();
-  managed.restart = process.profile.restart;
-  managed.delay = process.profile.delay;
   managed.watch = ManagedProcess::Watch::Caller;
-  managed.silentAfter = RestartRule::Seconds(process.profile.silentAfter);
   // Each start has a place of its own: nothing of the process before it stands there.
   managed.prepare = [turns = m_turns, mine = &process](ChildSpec& spec) -> Result<void> {
     if (mine->place >= 0) turns->giveBack(mine->place);
@@ -425,14 +426,11 @@ Result<void> RobotSlots::startReference(RobotSlot& slot, SlotProcess& process) {
     spec.command.insert(spec.command.end(), {"--match-turns", std::to_string(mine->place)});
     return {};
   };
-  process.id = TRY(m_processes->add(managed, slot.board, SteadyClock::now()));
   return {};
 }
 
-Result<void> RobotSlots::startForeign(RobotSlot& slot, SlotProcess& process) {
-  TRY(identify());
-  TRY(m_processes->keepGuard());
-  const ProfileProcess& profile = process.profile;
+Result<void> RobotSlots::describeForeign(const RobotSlot& slot, const ProfileProcess& profile,
+                                         ManagedProcess& managed) const {
   const auto values = valuesFor(slot);
   const auto replaced = [&values, &slot](std::string& text) -> Result<void> {
     auto done = expanded(text, values);
@@ -443,8 +441,9 @@ Result<void> RobotSlots::startForeign(RobotSlot& slot, SlotProcess& process) {
     text = std::move(*done);
     return {};
   };
-  ManagedProcess managed;
-  managed.spec = {slot.id, profile.name, profile.command, profile.directory, profile.environment};
+  managed.spec.command = profile.command;
+  managed.spec.directory = profile.directory;
+  managed.spec.environment = profile.environment;
   for (std::string& word : managed.spec.command) {
     TRY(replaced(word));
   }
@@ -461,11 +460,7 @@ Result<void> RobotSlots::startForeign(RobotSlot& slot, SlotProcess& process) {
   if (slot.runtime.name == "published-tree") {
     TRY(checkPublishedTree(values, slot.board.key()));
   }
-  managed.spec.stopSignal = profile.stopSignal;
   managed.spec.foreign = true;
-  managed.restart = profile.restart;
-  managed.delay = profile.delay;
-  managed.silentAfter = RestartRule::Seconds(profile.silentAfter);
   managed.watchFile = profile.watchFile;
   managed.ownTime = profile.clock == ProfileProcess::Clock::Match;
   if (!profile.heartbeat.empty()) {
@@ -483,7 +478,6 @@ Result<void> RobotSlots::startForeign(RobotSlot& slot, SlotProcess& process) {
       return one.name == "communication" || one.name == "sending";
     });
   }
-  process.id = TRY(m_processes->add(managed, slot.board, SteadyClock::now()));
   return {};
 }
 

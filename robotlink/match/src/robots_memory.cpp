@@ -39,6 +39,10 @@ std::shared_ptr<const RobotsMemory> SimulatedMatch::robotsMemory() const {
   return all;
 }
 
+Result<void> SimulatedMatch::restore(const Moment& moment) {
+  return m_parts->restore(moment);
+}
+
 Result<void> SimulatedMatch::Parts::restore(const Moment& moment) {
   if (moment.state.settings.tickRate != base.tickRate()) {
     return failure(ErrorCode::InvalidArgument,

@@ -149,15 +149,15 @@ std::string_view SimulatedMatch::finishedBy() const {
 void SimulatedMatch::takeEvents(std::vector<MatchEvent>& out) {
   MatchEvents& events = m_parts->events;
   events.look(simulation().state(), finishedBy());
-  events.takeNews(simulation().state(), processes().takeNews());
+  events.takeNews(simulation().state(), robots().processes().takeNews());
   events.take(out);
 }
 
 void SimulatedMatch::takeDrawings(std::vector<HeardDrawing>& out) {
-  const auto shared = number();
-  if (!shared) return;
+  const auto& claim = robots().claim();
+  if (!claim) return;
   auto& drawings = m_parts->drawings;
-  if (!drawings) drawings = std::make_unique<MatchDrawings>(shared->drawingPort());
+  if (!drawings) drawings = std::make_unique<MatchDrawings>(claim->number().drawingPort());
   const sim::WorldState& state = simulation().state();
   drawings->hear(static_cast<double>(state.tick) / state.settings.tickRate, out);
 }
@@ -180,10 +180,6 @@ std::vector<RobotThoughts> SimulatedMatch::thoughts() {
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.robot < b.robot; });
   return all;
-}
-
-Result<void> SimulatedMatch::restore(const Moment& moment) {
-  return m_parts->restore(moment);
 }
 
 const MatchDrawings* SimulatedMatch::drawings() const {
@@ -210,24 +206,9 @@ const RobotSlots& SimulatedMatch::robots() const {
   return m_parts->slots;
 }
 
-Blackboard* SimulatedMatch::blackboard(RobotId id) {
+Blackboard* SimulatedMatch::blackboard(RobotId id) const {
   RobotSlot* found = robots().find(id);
   return found ? &found->board : nullptr;
-}
-
-const Blackboard* SimulatedMatch::blackboard(RobotId id) const {
-  const RobotSlot* found = robots().find(id);
-  return found ? &found->board : nullptr;
-}
-
-std::string_view SimulatedMatch::behaviour(RobotId id) const {
-  const RobotSlot* found = robots().find(id);
-  return found ? std::string_view(found->behaviour) : std::string_view();
-}
-
-RuntimeChoice SimulatedMatch::runtime(RobotId id) const {
-  const RobotSlot* found = robots().find(id);
-  return found ? found->choice : RuntimeChoice{};
 }
 
 const RobotVariables& SimulatedMatch::variables() const {
@@ -246,30 +227,8 @@ std::span<const sim::Percepts> SimulatedMatch::percepts() const {
   return m_parts->base.percepts;
 }
 
-ProcessManager& SimulatedMatch::processes() {
-  return m_parts->slots.processes();
-}
-
-const ProcessManager& SimulatedMatch::processes() const {
-  return m_parts->slots.processes();
-}
-
-ProcessPace& SimulatedMatch::pace() {
+ProcessPace& SimulatedMatch::pace() const {
   return m_parts->pace;
-}
-
-const ProcessPace& SimulatedMatch::pace() const {
-  return m_parts->pace;
-}
-
-std::optional<MatchNumber> SimulatedMatch::number() const {
-  const auto& claim = robots().claim();
-  return claim ? std::optional(claim->number()) : std::nullopt;
-}
-
-std::string SimulatedMatch::publishedHolder() const {
-  const auto& claim = robots().claim();
-  return claim ? claim->publishedHolder() : std::string();
 }
 
 Scenario SimulatedMatch::toScenario() const {

@@ -71,9 +71,9 @@ void MatchSampler::sampleInto(std::span<const Outlet> outlets, const SimulatedMa
 bool MatchSampler::sameRobots(const SimulatedMatch& match) const {
   if (m_catalog != &match.catalog()) return false;
   return std::ranges::equal(m_seats, m_snapshot.robots, [&](const Seat& seat, const auto& robot) {
-    const Blackboard* board = match.blackboard(robot.identity.id);
-    return seat.identity == robot.identity && seat.key == (board ? board->key() : 0) &&
-           seat.behaviour == match.behaviour(robot.identity.id);
+    const RobotSlot* slot = match.robots().find(robot.identity.id);
+    return seat.identity == robot.identity && slot && seat.key == slot->board.key() &&
+           seat.behaviour == slot->behaviour;
   });
 }
 
@@ -104,8 +104,8 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
   m_seats.clear();
   for (const sim::RobotSnapshot& robot : m_snapshot.robots) {
     const sim::RobotIdentity& identity = robot.identity;
-    const Blackboard* board = match.blackboard(identity.id);
-    Seat seat{identity, board ? board->key() : 0, std::string(match.behaviour(identity.id))};
+    const RobotSlot& slot = *match.robots().find(identity.id);
+    Seat seat{identity, slot.board.key(), slot.behaviour};
     telemetry::GroupInfo info{groupName(identity), m_board->columns(), {}};
     info.columns.insert(info.columns.end(), truth.begin(), truth.end());
     info.attributes = {{"robot", std::to_string(identity.id.value)},

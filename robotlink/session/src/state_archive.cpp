@@ -69,10 +69,9 @@ void StateArchive::dropMemory(std::deque<std::shared_ptr<const RobotsMemory>>::i
 }
 
 bool StateArchive::remembersRobotsOf(const SimulatedMatch& match) const {
-  return std::ranges::equal(m_memories.back()->robots, match.simulation().state().robots,
-                            [&](const auto& known, const auto& robot) {
-                              return known.id == robot.id &&
-                                     known.behaviour == match.behaviour(robot.id);
+  return std::ranges::equal(m_memories.back()->robots, match.robots().all(),
+                            [](const auto& known, const auto& slot) {
+                              return known.id == slot->id && known.behaviour == slot->behaviour;
                             });
 }
 

@@ -31,78 +31,36 @@ McapReader::McapReader(McapReader&&) noexcept = default;
 McapReader& McapReader::operator=(McapReader&&) noexcept = default;
 McapReader::~McapReader() = default;
 
-bool McapReader::indexed() const {
-  return m_impl->indexed;
+const McapContents& McapReader::contents() const {
+  return *m_impl;
 }
-const std::vector<std::string>& McapReader::problems() const {
-  return m_impl->problems;
-}
-const std::vector<McapLoss>& McapReader::losses() const {
-  return m_impl->losses;
-}
+
 McapLoss McapReader::lossOf(const McapChunkInfo& chunk, std::string reason) const {
   return m_impl->lossOf(chunk, std::move(reason));
 }
-bool McapReader::ended() const {
-  return m_impl->indexed || m_impl->ended;
-}
-std::uint64_t McapReader::fileBytes() const {
-  return m_impl->source.size();
-}
-const std::string& McapReader::name() const {
-  return m_impl->source.name();
-}
-const std::string& McapReader::profile() const {
-  return m_impl->profile;
-}
-const std::string& McapReader::library() const {
-  return m_impl->library;
-}
-const std::map<std::uint16_t, McapSchema>& McapReader::schemas() const {
-  return m_impl->schemas;
-}
-const std::map<std::uint16_t, McapChannel>& McapReader::channels() const {
-  return m_impl->channels;
-}
-const std::vector<McapChunkInfo>& McapReader::chunks() const {
-  return m_impl->chunks;
-}
-const std::vector<McapAttachmentInfo>& McapReader::attachments() const {
-  return m_impl->attachments;
-}
-const std::vector<McapMetadataInfo>& McapReader::metadata() const {
-  return m_impl->metadata;
-}
-const McapStatistics& McapReader::statistics() const {
-  return m_impl->statistics;
-}
 
 Result<McapReader> McapReader::open(const std::string& path, const McapReaderOptions& options) {
-  auto source = TRY(McapSource::file(path));
+  return of(TRY(McapSource::file(path)), options);
+}
+
+Result<McapReader> McapReader::openBytes(std::string bytes, const McapReaderOptions& options) {
+  return of(McapSource::memory(std::move(bytes)), options);
+}
+
+Result<McapReader> McapReader::of(McapSource source, const McapReaderOptions& options) {
   auto impl = std::make_unique<Impl>(std::move(source), options);
   TRY(impl->readHeader());
   impl->indexed = !options.ignoreSummary && impl->readSummary();
   if (!impl->indexed && !impl->scan()) {
-    return failure(ErrorCode::Conflict, "Reading was stopped.", path);
+    return failure(ErrorCode::Conflict, "Reading was stopped.", impl->name);
   }
-  return McapReader(std::move(impl));
-}
-
-Result<McapReader> McapReader::openBytes(std::string bytes, const McapReaderOptions& options) {
-  auto impl = std::make_unique<Impl>(McapSource::memory(std::move(bytes)), options);
-  TRY(impl->readHeader());
-  impl->indexed = !options.ignoreSummary && impl->readSummary();
-  if (!impl->indexed && !impl->scan()) {
-    return failure(ErrorCode::Conflict, "Reading was stopped.");
-  }
+  impl->ended = impl->ended || impl->indexed;
   return McapReader(std::move(impl));
 }
 
 void McapReader::Impl::problem(std::uint64_t offset, const std::string& sentence) {
-  if (problems.size() < mostProblems)
-    problems.push_back("At byte " + std::to_string(offset) + ": " + sentence);
-  else
-    ++moreProblems;
+  if (problems.size() >= mostProblems) return;
+  problems.push_back("At byte " + std::to_string(offset) + ": " + sentence);
 }
 
 Result<void> McapReader::Impl::readHeader() {

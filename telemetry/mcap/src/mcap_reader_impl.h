@@ -13,27 +13,17 @@
 
 namespace pitchboard::telemetry {
 
-struct McapReader::Impl {
+struct McapReader::Impl : McapContents {
   McapSource source;
   McapReaderOptions options;
   ZSTD_DCtx* unpacker = ZSTD_createDCtx();
-  bool indexed = false;
-  bool ended = false;  ///< the end of the data was found
-  std::vector<std::string> problems;
-  std::size_t moreProblems = 0;
-  std::vector<McapLoss> losses;
-
-  std::string profile, library;
   std::uint64_t dataBegin = 0;  ///< behind the header
-  std::map<std::uint16_t, McapSchema> schemas;
-  std::map<std::uint16_t, McapChannel> channels;
-  std::vector<McapChunkInfo> chunks;
-  std::vector<McapAttachmentInfo> attachments;
-  std::vector<McapMetadataInfo> metadata;
-  McapStatistics statistics;
   mutable std::string packed;
 
-  Impl(McapSource s, const McapReaderOptions& o) : source(std::move(s)), options(o) {}
+  Impl(McapSource s, const McapReaderOptions& o) : source(std::move(s)), options(o) {
+    name = source.name();
+    fileBytes = source.size();
+  }
   ~Impl() { ZSTD_freeDCtx(unpacker); }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;

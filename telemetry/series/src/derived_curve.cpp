@@ -5,25 +5,26 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
+
+#include <base/units.h>
 
 namespace pitchboard::telemetry {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double degree = std::numbers::pi / 180.0;
 
-constexpr std::array<UnitConversion, 10> conversions{{{"cm", "m", {0.01, 0.0}},
-                                                      {"m", "cm", {100.0, 0.0}},
-                                                      {"°", "rad", {degree, 0.0}},
-                                                      {"rad", "°", {1.0 / degree, 0.0}},
-                                                      {"0.1 V", "V", {0.1, 0.0}},
-                                                      {"V", "0.1 V", {10.0, 0.0}},
-                                                      {"µs", "ms", {1e-3, 0.0}},
-                                                      {"ms", "s", {1e-3, 0.0}},
-                                                      {"s", "ms", {1e3, 0.0}},
-                                                      {"rad/s", "°/s", {1.0 / degree, 0.0}}}};
+using FromTo = std::pair<std::string_view, std::string_view>;
+constexpr std::array<FromTo, 10> conversions{{{"cm", "m"},
+                                              {"m", "cm"},
+                                              {"°", "rad"},
+                                              {"rad", "°"},
+                                              {"0.1 V", "V"},
+                                              {"V", "0.1 V"},
+                                              {"µs", "ms"},
+                                              {"ms", "s"},
+                                              {"s", "ms"},
+                                              {"rad/s", "°/s"}}};
 
 /// The first sample after `time`.
 std::span<const Sample>::iterator firstAfter(std::span<const Sample> samples, double time) {
@@ -33,14 +34,11 @@ std::span<const Sample>::iterator firstAfter(std::span<const Sample> samples, do
 
 }  // namespace
 
-std::span<const UnitConversion> unitConversions() {
-  return conversions;
-}
-
 std::vector<UnitConversion> unitConversionsFrom(std::string_view unit) {
   std::vector<UnitConversion> out;
-  std::ranges::copy_if(conversions, std::back_inserter(out),
-                       [&](const UnitConversion& c) { return c.from == unit; });
+  for (const auto& [from, to] : conversions) {
+    if (from == unit) out.push_back({to, unitFactor(from, to).value()});
+  }
   return out;
 }
 

@@ -30,6 +30,21 @@ EvenRows::EvenRows(const SessionReader& session, const std::vector<SelectedGroup
   }
 }
 
+bool EvenRows::add(const SessionItem& item, const Write& write) {
+  take(item);
+  // A group that is silent is not waited for.
+  return writeUntil(readyUntil(item.time), write);
+}
+
+bool EvenRows::writeUntil(double time, const Write& write) {
+  while (m_any && next() <= time) {
+    fill(next());
+    if (!write(next(), m_line)) return false;
+    ++m_lines;
+  }
+  return true;
+}
+
 void EvenRows::take(const SessionItem& item) {
   Group& group = m_groups[item.group];
   if (!group.rows.empty() && item.time < group.rows.back().time) return;

@@ -5,6 +5,7 @@
 // Private to the library; one thread.
 
 #include <deque>
+#include <functional>
 #include <vector>
 
 #include <telemetry/session/session_export.h>
@@ -18,22 +19,15 @@ using EvenLine = std::vector<double>;
 
 class EvenRows {
  public:
+  using Write = std::function<bool(double time, const EvenLine&)>;
   EvenRows(const SessionReader& session, const std::vector<SelectedGroup>& selected,
            const Resampling& resampling);
 
   /// Rows of a group in order of time. Calls `write(time, line)` for every line that is complete;
   /// false when it says so.
-  template <class Write>
-  bool add(const SessionItem& item, const Write& write) {
-    take(item);
-    // A group that is silent is not waited for.
-    return writeUntil(readyUntil(item.time), write);
-  }
+  bool add(const SessionItem& item, const Write& write);
   /// What is left, up to the last row.
-  template <class Write>
-  bool end(const Write& write) {
-    return writeUntil(m_last, write);
-  }
+  bool end(const Write& write) { return writeUntil(m_last, write); }
 
  private:
   struct Row {
@@ -49,15 +43,7 @@ class EvenRows {
   void take(const SessionItem& item);
   double readyUntil(double now) const;
   void fill(double time);
-  template <class Write>
-  bool writeUntil(double time, const Write& write) {
-    while (m_any && next() <= time) {
-      fill(next());
-      if (!write(next(), m_line)) return false;
-      ++m_lines;
-    }
-    return true;
-  }
+  bool writeUntil(double time, const Write& write);
   double next() const { return m_begin + static_cast<double>(m_lines) / m_resampling.rate; }
 
   const std::vector<SelectedGroup>& m_selected;

@@ -27,8 +27,8 @@ class Copy {
     if (auto done = writeHead(*out); !done) return tl::unexpected(done.error());
     SessionWriterOptions writing;
     writing.waitWhenFull = true;
-    m_writer =
-        SessionWriter::on(std::move(*out), m_session.file().name(), m_session.info(), writing);
+    m_writer = SessionWriter::on(std::move(*out), m_session.file().contents().name,
+                                 m_session.info(), writing);
     addChannels();
     addOpening();
     bool stopped = false;
@@ -61,7 +61,7 @@ class Copy {
   };
 
   Result<void> writeHead(McapWriter& out) {
-    for (const McapMetadataInfo& entry : m_session.file().metadata()) {
+    for (const McapMetadataInfo& entry : m_session.file().contents().metadata) {
       const auto values = m_session.file().readMetadata(entry);
       if (!values) {
         m_report.missing.push_back(values.error().text());
@@ -74,7 +74,7 @@ class Copy {
       }
       if (auto done = out.metadata(entry.name, *values); !done) return done;
     }
-    for (const McapAttachmentInfo& entry : m_session.attachments()) {
+    for (const McapAttachmentInfo& entry : m_session.file().contents().attachments) {
       const auto data = m_session.file().readAttachment(entry);
       if (!data) {
         m_report.missing.push_back(data.error().text());
@@ -88,8 +88,8 @@ class Copy {
 
   /// The schema's number in the new file.
   std::uint16_t schemaOf(std::uint16_t id) {
-    const auto found = m_session.file().schemas().find(id);
-    if (found == m_session.file().schemas().end()) return 0;
+    const auto found = m_session.file().contents().schemas.find(id);
+    if (found == m_session.file().contents().schemas.end()) return 0;
     std::uint16_t& known = m_schemas[id];
     if (known == 0) known = m_writer->addSchema(found->second);
     return known;
@@ -101,7 +101,7 @@ class Copy {
   }
 
   void addChannels() {
-    const auto& channels = m_session.file().channels();
+    const auto& channels = m_session.file().contents().channels;
     m_channels.resize(channels.empty() ? 0 : std::size_t{channels.rbegin()->first} + 1);
     for (const auto& [id, channel] : channels) {
       Channel& to = m_channels[id];
@@ -142,9 +142,9 @@ class Copy {
     to.values = session::RowLayout(group.info).values;
     std::uint16_t& id = m_parts[group.channel];
     if (id == 0) {
-      McapChannel changed = m_session.file().channels().at(group.channel);
-      const auto schema = m_session.file().schemas().find(changed.schema);
-      if (schema != m_session.file().schemas().end()) {
+      McapChannel changed = m_session.file().contents().channels.at(group.channel);
+      const auto schema = m_session.file().contents().schemas.find(changed.schema);
+      if (schema != m_session.file().contents().schemas.end()) {
         McapSchema shorter = schema->second;
         shorter.data = session::rowSchema(part);
         changed.schema = m_writer->addSchema(shorter);

@@ -220,12 +220,8 @@ class EvenWriter : public WideWriter {
     m_holesAreEmpty = true;
   }
 
-  bool row(const SessionItem& item) override {
-    return m_rows.add(item, [this](double time, const EvenLine& line) { return put(time, line); });
-  }
-  bool end() override {
-    return m_rows.end([this](double time, const EvenLine& line) { return put(time, line); });
-  }
+  bool row(const SessionItem& item) override { return m_rows.add(item, m_write); }
+  bool end() override { return m_rows.end(m_write); }
 
  private:
   bool put(double time, const EvenLine& values) {
@@ -241,6 +237,9 @@ class EvenWriter : public WideWriter {
   }
 
   EvenRows m_rows;
+  const EvenRows::Write m_write = [this](double time, const EvenLine& line) {
+    return put(time, line);
+  };
 };
 
 class JsonWriter : public NamedWriter {
@@ -370,14 +369,14 @@ Result<ExportReport> exportFile(const SessionReader& session, ExportFormat forma
                                 const ExportProgress& progress, IfExists ifExists) {
   const auto selected = resolveSelection(session, selection);
   if (!selected) return tl::unexpected(selected.error());
-  auto target = FileTarget::at(path, ifExists, session.file().name());
+  auto target = FileTarget::at(path, ifExists, session.file().contents().name);
   if (!target) return tl::unexpected(target.error());
   auto file = target->open();
   if (!file) return tl::unexpected(file.error());
   Result<ExportReport> report;
   if (format == ExportFormat::Mcap) {
     const auto copied = copySession(session, selection, std::move(*file),
-                                    {"", session.file().library(), 3, false}, progress);
+                                    {"", session.file().contents().library, 3, false}, progress);
     if (!copied) return tl::unexpected(copied.error());
     report->bytes = copied->bytes;
     for (const auto& [id, digest] : copied->channels) report->lines += digest.messages;

@@ -43,10 +43,10 @@ Result<SessionReader> SessionReader::of(Result<McapReader> file) {
 }
 
 void SessionReader::Impl::takeMetadata() {
-  notes = file.problems();
-  seen.assign(file.chunks().size(), false);
+  notes = file.contents().problems;
+  seen.assign(file.contents().chunks.size(), false);
   int format = 0;
-  for (const McapMetadataInfo& entry : file.metadata()) {
+  for (const McapMetadataInfo& entry : file.contents().metadata) {
     if (entry.name != session::metadataName || described) continue;
     const auto values = file.readMetadata(entry);
     const auto found = values ? session::infoFromMetadata(*values, format) : std::nullopt;
@@ -69,15 +69,16 @@ void SessionReader::Impl::takeMetadata() {
 void SessionReader::Impl::findStart() {
   if (described) return;
   if (groups.empty()) {
-    note("This file was not recorded by Pitchboard (it says \"" + file.library().substr(0, 60) +
+    note("This file was not recorded by Pitchboard (it says \"" +
+         file.contents().library.substr(0, 60) +
          "\"); only what follows Pitchboard's format is shown.");
   }
   const auto fits = [](std::uint64_t time) {
     return static_cast<std::int64_t>(
         std::min<std::uint64_t>(time, std::numeric_limits<std::int64_t>::max()));
   };
-  info.start = WallTime(Duration(fits(file.statistics().start)));
-  for (std::size_t i = 0; i < file.chunks().size() && !groups.empty(); ++i) {
+  info.start = WallTime(Duration(fits(file.contents().statistics.start)));
+  for (std::size_t i = 0; i < file.contents().chunks.size() && !groups.empty(); ++i) {
     McapCursor cursor(body(i));
     for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
       if (kind != McapCursor::Kind::Message) continue;
@@ -93,8 +94,8 @@ void SessionReader::Impl::findStart() {
 
 /// Behind findStart(), which says what second of the session a moment is.
 void SessionReader::Impl::noteLosses() {
-  for (const McapLoss& loss : file.losses()) note(lossText(loss, info.start));
-  losses.insert(losses.begin(), file.losses().begin(), file.losses().end());
+  for (const McapLoss& loss : file.contents().losses) note(lossText(loss, info.start));
+  losses.insert(losses.begin(), file.contents().losses.begin(), file.contents().losses.end());
 }
 
 bool SessionReader::Impl::readRow(Use use, std::string_view data, SessionRow& row) const {
@@ -143,11 +144,12 @@ void SessionReader::Impl::addGroup(GroupInfo group, std::uint64_t rows, std::uin
 }
 
 void SessionReader::Impl::takeChannels() {
-  const auto& channels = file.channels();
+  const auto& channels = file.contents().channels;
   useOfChannel.resize(channels.empty() ? 0 : std::size_t{channels.rbegin()->first} + 1);
   for (const auto& [id, channel] : channels) {
-    const auto counted = file.statistics().perChannel.find(id);
-    const std::uint64_t count = counted == file.statistics().perChannel.end() ? 0 : counted->second;
+    const auto counted = file.contents().statistics.perChannel.find(id);
+    const std::uint64_t count =
+        counted == file.contents().statistics.perChannel.end() ? 0 : counted->second;
     if (const auto found = channel.metadata.find(session::groupKey);
         found != channel.metadata.end() && channel.messageEncoding == "cdr") {
       if (auto group = session::groupFromJson(found->second)) {
@@ -161,22 +163,22 @@ void SessionReader::Impl::takeChannels() {
       continue;
     }
     if (channel.messageEncoding == session::summaryEncoding) continue;  // takeSummaries()
-    const auto schema = file.schemas().find(channel.schema);
+    const auto schema = file.contents().schemas.find(channel.schema);
     note("The channel \"" + channel.topic.substr(0, 80) + "\" (" +
          channel.messageEncoding.substr(0, 20) +
-         (schema == file.schemas().end() ? "" : ", " + schema->second.name.substr(0, 80)) +
+         (schema == file.contents().schemas.end() ? "" : ", " + schema->second.name.substr(0, 80)) +
          ") is not known here; its " + std::to_string(count) + " messages are left out.");
   }
 }
 
 void SessionReader::Impl::takeSummaries() {
-  for (const auto& [id, channel] : file.channels()) {
+  for (const auto& [id, channel] : file.contents().channels) {
     const auto of = channel.metadata.find(std::string(session::summaryKey));
     if (channel.messageEncoding != session::summaryEncoding || of == channel.metadata.end())
       continue;
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const bool ofGroup = std::ranges::any_of(groups[g].channels, [&](std::uint16_t rows) {
-        return file.channels().at(rows).topic == of->second;
+        return file.contents().channels.at(rows).topic == of->second;
       });
       if (ofGroup) summaryChannels[static_cast<GroupId>(g)].push_back(id);
     }
@@ -184,7 +186,7 @@ void SessionReader::Impl::takeSummaries() {
 }
 
 void SessionReader::Impl::takeChunks() {
-  const auto& chunks = file.chunks();
+  const auto& chunks = file.contents().chunks;
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     if (chunks[i].end != 0 || chunks[i].loose) byStart.push_back(i);
   }
@@ -213,8 +215,8 @@ std::string_view SessionReader::Impl::body(std::size_t chunk) const {
     kept.splice(kept.begin(), kept, std::prev(kept.end()));
   }
   kept.front().chunk = chunk;
-  if (auto read = file.readChunk(file.chunks()[chunk], kept.front().body); !read) {
-    losses.push_back(file.lossOf(file.chunks()[chunk], read.error().message));
+  if (auto read = file.readChunk(file.contents().chunks[chunk], kept.front().body); !read) {
+    losses.push_back(file.lossOf(file.contents().chunks[chunk], read.error().message));
     note(lossText(losses.back(), info.start));
     damaged.insert(chunk);
     kept.pop_front();
@@ -228,9 +230,9 @@ bool SessionReader::check(const std::function<bool(double)>& progress) const {
   for (std::size_t i = 0; i < chunks; ++i) {
     if (progress && !progress(static_cast<double>(i) / static_cast<double>(chunks))) return false;
     // Without an index every chunk was checked when the file was opened.
-    if (!m_impl->seen[i] && m_impl->file.indexed()) (void)m_impl->body(i);
+    if (!m_impl->seen[i] && m_impl->file.contents().indexed) (void)m_impl->body(i);
   }
-  for (const McapAttachmentInfo& one : m_impl->file.attachments()) {
+  for (const McapAttachmentInfo& one : m_impl->file.contents().attachments) {
     if (const auto data = m_impl->file.readAttachment(one); !data) {
       m_impl->note(data.error().text());
       m_impl->damagedAttachment = true;
@@ -253,7 +255,7 @@ bool SessionReader::ours() const {
   return m_impl->described || !m_impl->groups.empty();
 }
 bool SessionReader::complete() const {
-  return m_impl->file.indexed();
+  return m_impl->file.contents().indexed;
 }
 const std::vector<std::string>& SessionReader::notes() const {
   return m_impl->notes;
@@ -266,14 +268,14 @@ const McapReader& SessionReader::file() const {
 }
 
 std::optional<TimeRange> SessionReader::range() const {
-  const McapStatistics& statistics = m_impl->file.statistics();
+  const McapStatistics& statistics = m_impl->file.contents().statistics;
   if (statistics.messages == 0) return std::nullopt;
   return TimeRange{seconds(statistics.start), seconds(statistics.end)};
 }
 
 std::uint64_t SessionReader::count(SessionStream stream) const {
   std::uint64_t sum = 0;
-  const auto& counts = m_impl->file.statistics().perChannel;
+  const auto& counts = m_impl->file.contents().statistics.perChannel;
   for (const std::uint16_t id : m_impl->channelsOfStream[static_cast<std::size_t>(stream)]) {
     if (const auto found = counts.find(id); found != counts.end()) sum += found->second;
   }
@@ -289,12 +291,8 @@ std::uint64_t SessionReader::logTime(double time) const {
   return session::nanoseconds(m_impl->info.start, time);
 }
 
-const std::vector<McapAttachmentInfo>& SessionReader::attachments() const {
-  return m_impl->file.attachments();
-}
-
 Result<std::string> SessionReader::attachment(std::string_view name) const {
-  for (const McapAttachmentInfo& one : m_impl->file.attachments()) {
+  for (const McapAttachmentInfo& one : m_impl->file.contents().attachments) {
     if (one.name == name) return m_impl->file.readAttachment(one);
   }
   return failure(ErrorCode::NotFound, "The session has no such attachment.", std::string(name));

@@ -31,18 +31,19 @@ class Repair {
     const auto session = SessionReader::open(m_from, options);
     if (!session) return tl::unexpected(session.error());
     const McapReader& broken = session->file();
-    m_report.notes = broken.problems();
-    m_report.brokeOff = !broken.ended();
+    m_report.notes = broken.contents().problems;
+    m_report.brokeOff = !broken.contents().ended;
     m_report.complete = !m_report.brokeOff;
-    if (broken.chunks().empty() && broken.metadata().empty() && broken.attachments().empty()) {
+    if (broken.contents().chunks.empty() && broken.contents().metadata.empty() &&
+        broken.contents().attachments.empty()) {
       return failure(ErrorCode::ParseError,
                      "Nothing in this file can be read; there is nothing to repair.", m_from);
     }
     auto file = target->open();
     if (!file) return tl::unexpected(file.error());
-    auto copied =
-        copySession(*session, {}, std::move(*file), {broken.profile(), broken.library(), 3, true},
-                    [this](double part) { return report(0.4 + 0.4 * part); });
+    auto copied = copySession(*session, {}, std::move(*file),
+                              {broken.contents().profile, broken.contents().library, 3, true},
+                              [this](double part) { return report(0.4 + 0.4 * part); });
     if (!copied) return m_stopped ? stopped(m_from) : tl::unexpected(copied.error());
     for (const McapLoss& loss : session->losses()) note(loss, *session);
     for (std::string& sentence : copied->missing) missing(std::move(sentence));
@@ -84,7 +85,7 @@ class Repair {
     if (!made) return wrong(made.error().message);
     if (!made->complete()) return wrong("its index is missing");
     std::map<std::uint16_t, ChannelDigest> found;
-    const auto& channels = made->file().channels();
+    const auto& channels = made->file().contents().channels;
     const bool whole = made->walkFile(
         {-1e18, 1e18},
         [&](const McapMessage& message) {
@@ -100,7 +101,7 @@ class Repair {
     if (!whole) return stopped(m_from);
     if (!made->losses().empty()) return wrong(made->losses().front().reason);
     if (found != written) return wrong("its messages are others");
-    const McapStatistics& statistics = made->file().statistics();
+    const McapStatistics& statistics = made->file().contents().statistics;
     m_report.seconds = static_cast<double>(statistics.end - statistics.start) / 1e9;
     return {};
   }

@@ -140,8 +140,8 @@ GroupSummary SessionReader::Impl::writtenSummary(GroupId group,
   if (known == impl.summaryChannels.end()) return out;
   const std::vector<std::uint16_t>& channels = known->second;
   const std::size_t columns = impl.groups[group].info.columns.size();
-  for (std::size_t i = 0; i < impl.file.chunks().size(); ++i) {
-    const McapChunkInfo& chunk = impl.file.chunks()[i];
+  for (std::size_t i = 0; i < impl.file.contents().chunks.size(); ++i) {
+    const McapChunkInfo& chunk = impl.file.contents().chunks[i];
     if (std::ranges::none_of(channels, [&](auto id) { return Impl::mayHold(chunk, id); })) continue;
     if (goOn && !goOn()) return {};
     McapCursor cursor(impl.body(i));

@@ -17,7 +17,7 @@ void SessionReader::rowsAt(double time, std::vector<SessionRow>& out) const {
   const std::uint64_t until = logTime(time);
   std::vector<std::uint64_t> best(impl.groups.size(), 0);
   std::vector<std::string_view> found(impl.groups.size());
-  const auto& chunks = impl.file.chunks();
+  const auto& chunks = impl.file.contents().chunks;
   auto at =
       static_cast<std::size_t>(std::upper_bound(impl.byStart.begin(), impl.byStart.end(), until,
                                                 [&](std::uint64_t value, std::size_t chunk) {
@@ -69,7 +69,7 @@ template <class Visit>
 bool SessionReader::Impl::walk(std::uint64_t begin, std::uint64_t end,
                                const std::vector<std::uint16_t>& wanted, const Visit& visit,
                                const std::function<bool(double)>& progress) const {
-  const auto& chunks = file.chunks();
+  const auto& chunks = file.contents().chunks;
   SessionItem item;
   SessionRow row;
   for (std::size_t i = 0; i < chunks.size(); ++i) {
@@ -146,7 +146,7 @@ bool SessionReader::walkFile(TimeRange range, const std::function<bool(const Mca
   const std::uint64_t begin = range.begin <= -1e18 ? 0 : logTime(range.begin);
   const std::uint64_t end =
       range.end >= 1e18 ? std::numeric_limits<std::uint64_t>::max() : logTime(range.end);
-  const auto& chunks = m_impl->file.chunks();
+  const auto& chunks = m_impl->file.contents().chunks;
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     if (progress && !progress(static_cast<double>(i) / static_cast<double>(chunks.size()))) {
       return false;

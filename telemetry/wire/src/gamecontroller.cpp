@@ -33,11 +33,7 @@ template <class Owner>
 void readFields(std::span<const FieldAt<Owner>> fields, Bytes bytes, Owner& owner) {
   for (const FieldAt<Owner>& field : fields) {
     const int value = intAt(bytes, field.offset, field.bytes, field.isSigned);
-    if (field.always != nullptr) {
-      owner.*field.always = value;
-    } else {
-      owner.*field.maybe = value;
-    }
+    std::visit([&](auto member) { owner.*member = value; }, field.member);
   }
 }
 

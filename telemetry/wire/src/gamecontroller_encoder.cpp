@@ -29,8 +29,9 @@ class Bytes {
   template <class Owner>
   void putFields(std::span<const FieldAt<Owner>> fields, std::size_t at, const Owner& owner) {
     for (const FieldAt<Owner>& field : fields) {
+      const auto* maybe = std::get_if<std::optional<int> Owner::*>(&field.member);
       const int value =
-          field.always != nullptr ? owner.*field.always : (owner.*field.maybe).value_or(0);
+          maybe ? (owner.*(*maybe)).value_or(0) : owner.*std::get<int Owner::*>(field.member);
       put(at + field.offset, field.bytes, field.isSigned, value);
     }
   }

@@ -3,6 +3,8 @@
 
 // Where each version keeps each value: data, so that a new version is a new row.
 
+#include <variant>
+
 #include <telemetry/wire/gamecontroller.h>
 
 namespace pitchboard::telemetry {
@@ -10,40 +12,27 @@ namespace pitchboard::telemetry {
 /// A little-endian integer of 1, 2 or 4 bytes and the member that takes it.
 template <class Owner>
 struct FieldAt {
-  int Owner::*always;
-  std::optional<int> Owner::*maybe;
+  std::variant<int Owner::*, std::optional<int> Owner::*> member;
   std::uint16_t offset;
   std::uint8_t bytes;
   bool isSigned;
 };
 
-template <class Owner>
-constexpr FieldAt<Owner> u8(int Owner::*member, std::uint16_t offset) {
-  return {member, nullptr, offset, 1, false};
+template <class Owner, class Value>
+constexpr FieldAt<Owner> u8(Value Owner::*member, std::uint16_t offset) {
+  return {member, offset, 1, false};
 }
-template <class Owner>
-constexpr FieldAt<Owner> u8(std::optional<int> Owner::*member, std::uint16_t offset) {
-  return {nullptr, member, offset, 1, false};
+template <class Owner, class Value>
+constexpr FieldAt<Owner> u16(Value Owner::*member, std::uint16_t offset) {
+  return {member, offset, 2, false};
 }
-template <class Owner>
-constexpr FieldAt<Owner> u16(int Owner::*member, std::uint16_t offset) {
-  return {member, nullptr, offset, 2, false};
+template <class Owner, class Value>
+constexpr FieldAt<Owner> i16(Value Owner::*member, std::uint16_t offset) {
+  return {member, offset, 2, true};
 }
-template <class Owner>
-constexpr FieldAt<Owner> u16(std::optional<int> Owner::*member, std::uint16_t offset) {
-  return {nullptr, member, offset, 2, false};
-}
-template <class Owner>
-constexpr FieldAt<Owner> i16(int Owner::*member, std::uint16_t offset) {
-  return {member, nullptr, offset, 2, true};
-}
-template <class Owner>
-constexpr FieldAt<Owner> i16(std::optional<int> Owner::*member, std::uint16_t offset) {
-  return {nullptr, member, offset, 2, true};
-}
-template <class Owner>
-constexpr FieldAt<Owner> i32(int Owner::*member, std::uint16_t offset) {
-  return {member, nullptr, offset, 4, true};
+template <class Owner, class Value>
+constexpr FieldAt<Owner> i32(Value Owner::*member, std::uint16_t offset) {
+  return {member, offset, 4, true};
 }
 
 enum class KickOff : std::uint8_t { Colour, TeamNumber };

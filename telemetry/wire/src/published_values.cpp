@@ -18,36 +18,6 @@ constexpr double perMetre = 100.0, perVolt = 10.0, percent = 100.0;
 // Beyond it no field ends; what was sent stays in the message's own columns.
 constexpr double farAway = 1e6;
 
-struct Unit {
-  std::string_view name;
-  UnitKind kind;
-  double factor;  ///< to m, rad, V, s, 1
-};
-constexpr double radian = radiansFromDegrees(1.0);
-constexpr std::array<Unit, 17> units{{{"m", UnitKind::Length, 1.0},
-                                      {"cm", UnitKind::Length, 0.01},
-                                      {"mm", UnitKind::Length, 0.001},
-                                      {"rad", UnitKind::Angle, 1.0},
-                                      {"°", UnitKind::Angle, radian},
-                                      {"deg", UnitKind::Angle, radian},
-                                      {"V", UnitKind::Voltage, 1.0},
-                                      {"0.1 V", UnitKind::Voltage, 0.1},
-                                      {"dV", UnitKind::Voltage, 0.1},
-                                      {"mV", UnitKind::Voltage, 0.001},
-                                      {"s", UnitKind::Time, 1.0},
-                                      {"ms", UnitKind::Time, 0.001},
-                                      {"µs", UnitKind::Time, 1e-6},
-                                      {"us", UnitKind::Time, 1e-6},
-                                      {"ns", UnitKind::Time, 1e-9},
-                                      {"%", UnitKind::Share, 0.01},
-                                      {"1", UnitKind::Share, 1.0}}};
-
-const Unit* unitNamed(std::string_view name) {
-  const auto found = std::find_if(units.begin(), units.end(),
-                                  [name](const Unit& unit) { return unit.name == name; });
-  return found == units.end() ? nullptr : &*found;
-}
-
 /// Null for what is taken as it is sent.
 const MeaningInfo* publishedOf(FieldMeaning meaning) {
   return info(meaning).kind == UnitKind::None ? nullptr : &info(meaning);
@@ -114,16 +84,11 @@ std::string unitsOf(FieldMeaning meaning) {
     case UnitKind::Time:
       return "s, ms, µs or ns";
     case UnitKind::None:
+    case UnitKind::AngularRate:
     case UnitKind::Share:
       break;
   }
   return "% or 1";
-}
-
-std::optional<double> unitFactor(std::string_view from, std::string_view to) {
-  const Unit *a = unitNamed(from), *b = unitNamed(to);
-  if (a == nullptr || b == nullptr || a->kind != b->kind) return std::nullopt;
-  return a->factor / b->factor;
 }
 
 struct PublishedValues::Pose {

@@ -26,10 +26,6 @@ bool unitFits(FieldMeaning meaning, std::string_view unit);
 /// "m, cm or mm".
 std::string unitsOf(FieldMeaning meaning);
 
-/// Factor from one unit to another of the same kind; nothing when they are of different kinds or
-/// one is not known.
-std::optional<double> unitFactor(std::string_view from, std::string_view to);
-
 /// A profile as its values are shown, and how they are made of what is sent.
 class PublishedValues {
  public:

@@ -116,27 +116,16 @@ Json replyJson(const RobotReply& reply) {
   return json;
 }
 
-template <class... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-template <class... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;
-
 }  // namespace
 
 Json refereeJson(const RefereePacket& packet) {
-  return std::visit(Overloaded{[](const RefereeState& state) { return stateJson(state); },
-                               [](const RobotReply& reply) { return replyJson(reply); },
-                               [](const ForwardedReply& forwarded) {
-                                 Json json = replyJson(forwarded.reply);
-                                 json["robot"] = Address{forwarded.robot}.text();
-                                 return json;
-                               },
-                               [](const TrueDataRequest&) {
-                                 return Json{{"header", "RGTr"}};
-                               }},
-                    packet);
+  if (const auto* state = std::get_if<RefereeState>(&packet)) return stateJson(*state);
+  if (const auto* reply = std::get_if<RobotReply>(&packet)) return replyJson(*reply);
+  const auto* forwarded = std::get_if<ForwardedReply>(&packet);
+  if (!forwarded) return {{"header", "RGTr"}};
+  Json json = replyJson(forwarded->reply);
+  json["robot"] = Address{forwarded->robot}.text();
+  return json;
 }
 
 }  // namespace pitchboard::telemetry

@@ -3,25 +3,21 @@
 
 // The ball where it really is.
 
-#include <QGraphicsItem>
-
-#include "field_style.h"
+#include "field_item.h"
 
 namespace pitchboard::ui {
 
-class BallItem : public QGraphicsItem {
+class BallItem : public FieldItem {
  public:
-  explicit BallItem(const FieldStyle* style) : m_style(style) {}
+  using FieldItem::FieldItem;
 
   void setBall(const Point& position) { setPos(toScene(position)); }
   void setSelected(bool selected);
-  void styleChanges() { prepareGeometryChange(); }
 
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
  private:
-  const FieldStyle* m_style;
   bool m_selected = false;
 };
 

@@ -4,12 +4,11 @@
 // What a robot believes: circle of its uncertainty, ghost at the believed pose, and the ball that
 // it perceives, joined to the ghost (or to the robot when it does not localize).
 
-#include <QGraphicsItem>
 #include <optional>
 
 #include <base/ids.h>
 
-#include "field_style.h"
+#include "field_item.h"
 
 namespace pitchboard::link {
 struct RobotFrame;
@@ -37,18 +36,18 @@ struct BeliefLook {
 /// has no ghost.
 BeliefLook beliefOf(const link::RobotFrame& robot, const sim::FieldSpec& field);
 
-class BeliefItem : public QGraphicsItem {
+class BeliefItem : public FieldItem {
  public:
   /// From this distance on a line joins a ghost to its robot, m.
   static constexpr double apart = 0.5;
   /// The published telemetry draws no smaller circle (SYSTEM.md section 7).
   static constexpr double leastRadius = 0.15;
 
-  explicit BeliefItem(const FieldStyle* style) : m_style(style) {}
+  using FieldItem::FieldItem;
 
   void setLook(const BeliefLook& look);
   const BeliefLook& look() const { return m_look; }
-  void styleChanges();
+  void styleChanges() override;
 
   QRectF boundingRect() const override { return m_bounds; }
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
@@ -61,7 +60,6 @@ class BeliefItem : public QGraphicsItem {
   void paintPerceivedBall(QPainter* painter) const;
   void paintBallInside(QPainter* painter) const;
 
-  const FieldStyle* m_style;
   BeliefLook m_look;
   QRectF m_bounds;
 };

@@ -5,22 +5,20 @@
 // are told from robots, from what robots believe and from another source's dotted rings without
 // colour.
 
-#include <QGraphicsItem>
 #include <vector>
 
 #include <ui/sources/frame_source.h>
 
-#include "field_style.h"
+#include "field_item.h"
 
 namespace pitchboard::ui {
 
-class ComparedItem : public QGraphicsItem {
+class ComparedItem : public FieldItem {
  public:
-  explicit ComparedItem(const FieldStyle* style) : m_style(style) {}
+  using FieldItem::FieldItem;
   /// Null: nothing is drawn.
   void setFrame(const FramePtr& frame);
   int robots() const { return static_cast<int>(m_robots.size()); }
-  void styleChanges() { prepareGeometryChange(); }
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
@@ -33,7 +31,6 @@ class ComparedItem : public QGraphicsItem {
   };
   void paintRobot(QPainter* painter, const Robot& robot) const;
 
-  const FieldStyle* m_style;
   std::vector<Robot> m_robots;
   std::optional<Point> m_ball;
 };

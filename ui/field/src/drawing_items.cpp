@@ -175,8 +175,4 @@ void DrawingItems::show(const link::MatchFrame* frame, const std::vector<RobotKe
   }
 }
 
-void DrawingItems::styleChanges() {
-  for (auto& [key, item] : m_items) item->styleChanges();
-}
-
 }  // namespace pitchboard::ui

@@ -4,7 +4,6 @@
 // What robots' programs draw on the field (docs/DRAWINGS.md): an item for each layer of each robot.
 // A layer that counts from its robot goes where the robot goes. UI thread; belongs to the scene.
 
-#include <QGraphicsItem>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,7 +14,7 @@
 #include <base/robot_key.h>
 #include <telemetry/wire/drawing_book.h>
 
-#include "field_style.h"
+#include "field_item.h"
 
 namespace pitchboard::link {
 struct MatchFrame;
@@ -24,13 +23,13 @@ struct MatchFrame;
 namespace pitchboard::ui {
 
 /// One layer of one robot.
-class DrawingItem : public QGraphicsItem {
+class DrawingItem : public FieldItem {
  public:
-  explicit DrawingItem(const FieldStyle* style) : m_style(style) {}
+  using FieldItem::FieldItem;
   /// `origin`: from where its coordinates count.
   void setLayer(std::shared_ptr<const telemetry::DrawingLayer> layer, TeamColor team,
                 const Pose& origin);
-  void styleChanges();
+  void styleChanges() override;
   QRectF boundingRect() const override { return m_bounds; }
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
@@ -41,7 +40,6 @@ class DrawingItem : public QGraphicsItem {
   QColor colourOf(const telemetry::DrawingShape& shape) const;
   QRectF computeBounds() const;
 
-  const FieldStyle* m_style;
   std::shared_ptr<const telemetry::DrawingLayer> m_layer;
   TeamColor m_team = TeamColor::Blue;
   Pose m_origin;
@@ -55,7 +53,6 @@ class DrawingItems {
       : m_scene(scene), m_style(style), m_height(height) {}
 
   void show(const link::MatchFrame* frame, const std::vector<RobotKey>& selection);
-  void styleChanges();
 
  private:
   QGraphicsScene* m_scene;

@@ -98,22 +98,9 @@ FieldScene::FieldScene(QObject* parent)
 FieldScene::~FieldScene() = default;
 
 void FieldScene::styleChanged() {
-  for (auto& [id, robot] : m_robots) {
-    robot->body.styleChanges();
-    robot->belief.styleChanges();
-    robot->trail.styleChanges();
-    robot->wedge.styleChanges();
-    robot->other.styleChanges();
-    robot->particles.styleChanges();
-    robot->path.styleChanges();
+  for (QGraphicsItem* item : items()) {
+    if (auto* shown = dynamic_cast<FieldItem*>(item)) shown->styleChanges();
   }
-  m_teamBalls->styleChanges();
-  m_drawings->styleChanges();
-  m_compared->styleChanges();
-  m_ball->styleChanges();
-  m_eopra->styleChanges();
-  m_starVars->styleChanges();
-  m_ruler->styleChanges();
   if (m_frame) showFrame(m_frame);
   update();
 }

@@ -74,13 +74,13 @@ void put(QSettings& settings, const QString& key, const QVariant& value, const Q
 }  // namespace
 
 void restoreFieldLayers(FieldView& field, const QSettings& settings) {
-  const std::vector<QAction*> layers = field.layerActions();
+  const std::vector<QAction*> layers = field.actions().layers;
   for (std::size_t i = 0; i < fieldLayerCount; ++i) {
     QAction* layer = layers[i];
     layer->setChecked(settings.value(layerKey(i), layer->isChecked()).toBool());
   }
   const int granularity = settings.value(eopraKey).toInt();
-  for (QAction* option : field.layerOptionActions()) {
+  for (QAction* option : field.actions().options) {
     if (option->objectName() == QStringLiteral("fieldOfViewOfAll")) {
       option->setChecked(settings.value(wedgeKey, option->isChecked()).toBool());
     } else if (option->objectName() == QStringLiteral("eopra%1").arg(granularity)) {

@@ -43,12 +43,6 @@ FieldTools::FieldTools(FieldScene* scene, FieldPointer* pointer, FieldCanvas* ca
   makeStrip(field);
 }
 
-std::vector<QAction*> FieldTools::viewActions() const {
-  std::vector<QAction*> actions = m_tools;
-  for (QAction* action : {m_flip, m_fit, m_keys}) actions.push_back(action);
-  return actions;
-}
-
 void FieldTools::makeLayers() {
   for (const FieldLayerInfo& layer : fieldLayers) {
     auto* action = new QAction(QString::fromUtf8(layer.name), this);
@@ -59,7 +53,7 @@ void FieldTools::makeLayers() {
     }
     connect(action, &QAction::toggled, this,
             [this, which = layer.layer](bool on) { showLayer(which, on); });
-    m_layers.push_back(action);
+    m_actions.layers.push_back(action);
   }
 }
 
@@ -75,8 +69,9 @@ void FieldTools::makeTools() {
             [this, tool = text.tool] { m_pointer->setTool(tool); });
     connect(m_pointer, &FieldPointer::toolChanged, action,
             [action, tool = text.tool](FieldTool chosen) { action->setChecked(chosen == tool); });
-    m_tools.push_back(action);
+    m_actions.view.push_back(action);
   }
+  m_adding = m_actions.view.back();
 }
 
 void FieldTools::makeViews() {
@@ -85,14 +80,15 @@ void FieldTools::makeViews() {
   m_flip->setCheckable(true);
   m_flip->setToolTip(QStringLiteral("See the field from the other side (Space)"));
   connect(m_flip, &QAction::toggled, this, [this](bool on) { m_canvas->setFlipped(on); });
-  m_fit = new QAction(themedIcon(QStringLiteral("zoom-fit-best")),
-                      QStringLiteral("Fit the field\tHome"), this);
-  m_fit->setToolTip(QStringLiteral("Fit the field (Home)"));
-  connect(m_fit, &QAction::triggered, this, [this] { m_canvas->fit(); });
-  m_keys = new QAction(themedIcon(QStringLiteral("help-contextual")),
-                       QStringLiteral("Keys of the field\tF1"), this);
-  m_keys->setToolTip(QStringLiteral("All keys of the field (F1)"));
-  connect(m_keys, &QAction::triggered, this, [this] { m_help->toggle(); });
+  auto* fit = new QAction(themedIcon(QStringLiteral("zoom-fit-best")),
+                          QStringLiteral("Fit the field\tHome"), this);
+  fit->setToolTip(QStringLiteral("Fit the field (Home)"));
+  connect(fit, &QAction::triggered, this, [this] { m_canvas->fit(); });
+  auto* keys = new QAction(themedIcon(QStringLiteral("help-contextual")),
+                           QStringLiteral("Keys of the field\tF1"), this);
+  keys->setToolTip(QStringLiteral("All keys of the field (F1)"));
+  connect(keys, &QAction::triggered, this, [this] { m_help->toggle(); });
+  m_actions.view.insert(m_actions.view.end(), {m_flip, fit, keys});
 }
 
 void FieldTools::makeLayerOptions(QWidget* field) {
@@ -103,7 +99,7 @@ void FieldTools::makeLayerOptions(QWidget* field) {
   connect(all, &QAction::toggled, this, [this](bool on) {
     m_scene->changeStyle([on](FieldStyle& style) { style.wedgeForAll = on; });
   });
-  m_layerOptions.push_back(all);
+  m_actions.options.push_back(all);
   auto* group = new QActionGroup(this);
   for (const int granularity : {4, 6}) {
     auto* action = new QAction(QStringLiteral("EOPRA granularity %1").arg(granularity), group);
@@ -115,12 +111,12 @@ void FieldTools::makeLayerOptions(QWidget* field) {
       m_scene->changeStyle(
           [granularity](FieldStyle& style) { style.eopraGranularity = granularity; });
     });
-    m_layerOptions.push_back(action);
+    m_actions.options.push_back(action);
   }
-  m_drawings =
-      new DrawingsMenu(m_scene, m_layers[static_cast<std::size_t>(FieldLayer::Drawings)], field);
+  m_drawings = new DrawingsMenu(
+      m_scene, m_actions.layers[static_cast<std::size_t>(FieldLayer::Drawings)], field);
   m_drawings->menuAction()->setText(QStringLiteral("Drawings of robots' programs"));
-  m_layerOptions.push_back(m_drawings->menuAction());
+  m_actions.options.push_back(m_drawings->menuAction());
 }
 
 void FieldTools::makeStrip(QWidget* field) {
@@ -130,15 +126,18 @@ void FieldTools::makeStrip(QWidget* field) {
   const int icon = scaled(field, 18);
   m_strip->setIconSize(QSize(icon, icon));
   m_strip->setFixedWidth(scaled(field, 36));
-  for (QAction* tool : m_tools) m_strip->addAction(tool);
-  addTeams();
-  m_strip->addSeparator();
-  addLayersButton();
-  for (QAction* action : {m_flip, m_fit, m_keys}) m_strip->addAction(action);
+  for (QAction* action : m_actions.view) {
+    if (action == m_flip) {
+      addTeams();
+      m_strip->addSeparator();
+      addLayersButton();
+    }
+    m_strip->addAction(action);
+  }
 }
 
 void FieldTools::addTeams() {
-  auto* button = qobject_cast<QToolButton*>(m_strip->widgetForAction(m_tools.back()));
+  auto* button = qobject_cast<QToolButton*>(m_strip->widgetForAction(m_adding));
   if (button == nullptr) return;
   auto* teams = new QMenu(button);
   auto* group = new QActionGroup(teams);
@@ -162,9 +161,9 @@ void FieldTools::addLayersButton() {
   layersButton->setAccessibleName(QStringLiteral("Layers"));
   layersButton->setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(layersButton);
-  for (QAction* layer : m_layers) menu->addAction(layer);
+  for (QAction* layer : m_actions.layers) menu->addAction(layer);
   menu->addSeparator();
-  for (QAction* option : m_layerOptions) menu->addAction(option);
+  for (QAction* option : m_actions.options) menu->addAction(option);
   layersButton->setMenu(menu);
   m_strip->addWidget(layersButton);
 }

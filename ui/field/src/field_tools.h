@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <ui/field/field_layers.h>
+#include <ui/field/field_view.h>
 
 class QAction;
 class QToolBar;
@@ -28,15 +29,10 @@ class FieldTools : public QObject {
              QWidget* field);
 
   QToolBar* strip() const { return m_strip; }
-  /// One checkable action per FieldLayer, in its order.
-  const std::vector<QAction*>& layers() const { return m_layers; }
-  /// How layers look.
-  const std::vector<QAction*>& layerOptions() const { return m_layerOptions; }
-  /// Tools, flip, fit, keys.
-  std::vector<QAction*> viewActions() const;
+  const FieldActions& actions() const { return m_actions; }
   QAction* flip() const { return m_flip; }
   /// The tool that adds robots.
-  QAction* adding() const { return m_tools.back(); }
+  QAction* adding() const { return m_adding; }
 
  private:
   void makeLayers();
@@ -53,13 +49,10 @@ class FieldTools : public QObject {
   FieldCanvas* m_canvas;
   HelpOverlay* m_help;
   QToolBar* m_strip = nullptr;
-  std::vector<QAction*> m_layers;
-  std::vector<QAction*> m_layerOptions;
+  FieldActions m_actions;
   DrawingsMenu* m_drawings = nullptr;
-  std::vector<QAction*> m_tools;
+  QAction* m_adding = nullptr;
   QAction* m_flip = nullptr;
-  QAction* m_fit = nullptr;
-  QAction* m_keys = nullptr;
 };
 
 }  // namespace pitchboard::ui

@@ -127,7 +127,7 @@ void FieldView::Private::carryOut(const FieldOrder& order) {
       return pointer->nudge({direction.x * step, direction.y * step});
     }
     case Layer:
-      return tools->layers()[static_cast<std::size_t>(order.value)]->toggle();
+      return tools->actions().layers[static_cast<std::size_t>(order.value)]->toggle();
     case Fit:
       return canvas->fit();
     case Help:
@@ -322,16 +322,8 @@ void FieldView::follow(std::optional<RobotKey> id) {
 std::optional<RobotKey> FieldView::followed() const {
   return d->scene->followed();
 }
-std::vector<QAction*> FieldView::layerActions() const {
-  return d->tools->layers();
-}
-
-std::vector<QAction*> FieldView::layerOptionActions() const {
-  return d->tools->layerOptions();
-}
-
-std::vector<QAction*> FieldView::viewActions() const {
-  return d->tools->viewActions();
+const FieldActions& FieldView::actions() const {
+  return d->tools->actions();
 }
 
 void FieldView::fillRobotsMenu(QMenu* menu) {

@@ -4,23 +4,21 @@
 // What only a match with other eyes on it has: the ball that a team agrees on, and where another
 // source sees a robot.
 
-#include <QGraphicsItem>
 #include <vector>
 
 #include <base/ids.h>
 #include <robotlink/frame/live_values.h>
-#include "field_style.h"
+#include "field_item.h"
 
 namespace pitchboard::ui {
 
 /// For each team a cross in a circle as wide as its robots' opinions, with how many of them agree.
-class TeamBallsItem : public QGraphicsItem {
+class TeamBallsItem : public FieldItem {
  public:
-  explicit TeamBallsItem(const FieldStyle* style) : m_style(style) {}
+  using FieldItem::FieldItem;
   void setBalls(std::vector<link::TeamBall> balls);
   /// Where robots are drawn, m: the words keep off them where they can.
   void setRobots(std::vector<QPointF> robots, double radius);
-  void styleChanges() { prepareGeometryChange(); }
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
@@ -29,7 +27,6 @@ class TeamBallsItem : public QGraphicsItem {
   QPointF wordsAt(const ScreenPainting& screen, const link::TeamBall& ball, QSizeF plate,
                   double ring) const;
 
-  const FieldStyle* m_style;
   std::vector<link::TeamBall> m_balls;
   std::vector<QPointF> m_robots;
   double m_robotRadius = 0.0;
@@ -45,17 +42,15 @@ struct OtherPose {
 };
 
 /// A dotted ring with a heading at the other pose, joined to the robot, with the difference.
-class OtherPoseItem : public QGraphicsItem {
+class OtherPoseItem : public FieldItem {
  public:
-  explicit OtherPoseItem(const FieldStyle* style) : m_style(style) {}
+  using FieldItem::FieldItem;
   void setOther(const OtherPose& other);
   const OtherPose& other() const { return m_other; }
-  void styleChanges() { prepareGeometryChange(); }
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
  private:
-  const FieldStyle* m_style;
   OtherPose m_other;
 };
 

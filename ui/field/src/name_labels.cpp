@@ -139,10 +139,6 @@ void NameLabelsItem::setRobots(std::vector<Robot> robots) {
   place();
 }
 
-void NameLabelsItem::styleChanges() {
-  place();
-}
-
 void NameLabelsItem::place() {
   const double scale = m_style->pixelsPerMetre;
   const double side = m_style->flipped ? -1.0 : 1.0;

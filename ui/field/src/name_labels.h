@@ -5,7 +5,6 @@
 // cannot be read in their disc, because it is too small to write in or another robot covers it.
 // They never lie on each other or on a robot while there is room. UI thread; belongs to the scene.
 
-#include <QGraphicsItem>
 #include <QSizeF>
 #include <map>
 #include <span>
@@ -13,7 +12,7 @@
 
 #include <base/robot_key.h>
 
-#include "field_style.h"
+#include "field_item.h"
 
 namespace pitchboard::ui {
 
@@ -43,9 +42,9 @@ std::vector<PlacedName> placeWords(std::span<const NamedRobot> robots, const QRe
 std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots, DirectionsBefore& before,
                                    std::vector<QRectF> taken = {});
 
-class NameLabelsItem : public QGraphicsItem {
+class NameLabelsItem : public FieldItem {
  public:
-  explicit NameLabelsItem(const FieldStyle* style) : m_style(style) {}
+  using FieldItem::FieldItem;
 
   struct Robot {
     RobotKey id;
@@ -58,7 +57,6 @@ class NameLabelsItem : public QGraphicsItem {
   void setRobots(std::vector<Robot> robots);
   /// In pixels from the robot, of those that have a word.
   const std::map<RobotKey, QPointF>& words() const { return m_words; }
-  void styleChanges();
 
   QRectF boundingRect() const override { return m_bounds; }
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
@@ -73,7 +71,6 @@ class NameLabelsItem : public QGraphicsItem {
   };
   void place();
 
-  const FieldStyle* m_style;
   std::vector<Robot> m_robots;
   std::vector<Label> m_labels;
   std::map<RobotKey, QPointF> m_words;

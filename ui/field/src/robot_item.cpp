@@ -27,7 +27,7 @@ QPointF across(const QPointF& direction) {
 
 }  // namespace
 
-RobotItem::RobotItem(const FieldStyle* style, RobotKey id) : m_style(style), m_id(id) {}
+RobotItem::RobotItem(const FieldStyle* style, RobotKey id) : FieldItem(style), m_id(id) {}
 
 void RobotItem::setLook(const RobotLook& look) {
   if (look == m_look) return;

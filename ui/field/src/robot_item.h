@@ -3,14 +3,13 @@
 
 // A robot's body: disc, nose in the direction of its heading, number, selection ring and handle.
 
-#include <QGraphicsItem>
 #include <QString>
 #include <optional>
 
 #include <base/ids.h>
 #include <base/robot_key.h>
 
-#include "field_style.h"
+#include "field_item.h"
 
 namespace pitchboard::ui {
 
@@ -28,7 +27,7 @@ struct RobotLook {
   bool operator==(const RobotLook&) const = default;
 };
 
-class RobotItem : public QGraphicsItem {
+class RobotItem : public FieldItem {
  public:
   RobotItem(const FieldStyle* style, RobotKey id);
 
@@ -38,8 +37,6 @@ class RobotItem : public QGraphicsItem {
   void setLook(const RobotLook& look);
   /// Where its word is written, in pixels from its centre; below it while nobody has said.
   void setWordPlace(const QPointF& place);
-  /// Call before the zoom changes what the item covers.
-  void styleChanges() { prepareGeometryChange(); }
 
   /// Where the turning handle is, in metres of the scene.
   static QPointF handlePosition(const FieldStyle& style, const Pose& pose, double radius);
@@ -54,7 +51,6 @@ class RobotItem : public QGraphicsItem {
   void paintSelection(QPainter* painter, const ScreenPainting& screen, double radius) const;
   void paintBody(QPainter* painter, const ScreenPainting& screen, double radius) const;
 
-  const FieldStyle* m_style;
   RobotKey m_id;
   RobotLook m_look;
   std::optional<QPointF> m_wordPlace;

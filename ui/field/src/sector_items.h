@@ -4,10 +4,9 @@
 // Qualitative space round the selected robot: EOPRA (directions and distance rings) and StarVars
 // (directions), as in SYSTEM.md section 9.
 
-#include <QGraphicsItem>
 #include <vector>
 
-#include "field_style.h"
+#include "field_item.h"
 
 namespace pitchboard::ui {
 
@@ -15,13 +14,12 @@ namespace pitchboard::ui {
 /// δ·m/(2m − e) for e = m+1..2m−1.
 std::vector<double> eopraRings(int granularity, double delta = 1.0);
 
-class SectorItem : public QGraphicsItem {
+class SectorItem : public FieldItem {
  public:
   enum class Kind { Eopra, StarVars };
-  SectorItem(const FieldStyle* style, Kind kind) : m_style(style), m_kind(kind) {}
+  SectorItem(const FieldStyle* style, Kind kind) : FieldItem(style), m_kind(kind) {}
 
   void setPose(const Pose& pose);
-  void styleChanges() { prepareGeometryChange(); }
 
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
@@ -32,7 +30,6 @@ class SectorItem : public QGraphicsItem {
   void paintStarVars(QPainter* painter, const ScreenPainting& screen) const;
   double reach() const;
 
-  const FieldStyle* m_style;
   Kind m_kind;
   double m_yaw = 0.0;
 };

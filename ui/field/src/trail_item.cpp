@@ -25,8 +25,6 @@ bool passes(const QPointF& from, const QPointF& to, const QPointF* points, int c
 
 }  // namespace
 
-TrailItem::TrailItem(const FieldStyle* style) : m_style(style) {}
-
 void TrailItem::clear() {
   if (m_count == 0) return;
   prepareGeometryChange();

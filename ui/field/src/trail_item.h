@@ -3,25 +3,23 @@
 
 // Where a robot has been: a line that fades with age. Bounded in time and in points.
 
-#include <QGraphicsItem>
 #include <array>
 
-#include "field_style.h"
+#include "field_item.h"
 
 namespace pitchboard::ui {
 
-class TrailItem : public QGraphicsItem {
+class TrailItem : public FieldItem {
  public:
   static constexpr double seconds = 8.0;      ///< simulated
   static constexpr double step = 0.03;        ///< metres between points
   static constexpr double longestJump = 0.4;  ///< metres; more is a move by hand, not a walk
 
-  explicit TrailItem(const FieldStyle* style);
+  using FieldItem::FieldItem;
 
   /// `time` in simulated seconds; going back in time or jumping starts the trail anew.
   void append(const Point& position, double time);
   void clear();
-  void styleChanges() { prepareGeometryChange(); }
 
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
@@ -38,7 +36,6 @@ class TrailItem : public QGraphicsItem {
   void dropOld();
   void updateBounds();
 
-  const FieldStyle* m_style;
   std::array<Mark, capacity> m_marks;  // ring
   int m_first = 0;
   int m_count = 0;

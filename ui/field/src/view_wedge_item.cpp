@@ -51,14 +51,10 @@ void ViewWedgeItem::setHead(const Point& position, double headYaw) {
   m_position = position;
   m_yaw = headYaw;
   m_otherCamera = false;
-  updateOutline();
+  styleChanges();
 }
 
 void ViewWedgeItem::styleChanges() {
-  updateOutline();
-}
-
-void ViewWedgeItem::updateOutline() {
   prepareGeometryChange();
   if (!isVisible()) {
     m_outline.clear();

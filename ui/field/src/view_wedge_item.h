@@ -4,29 +4,25 @@
 // What a robot's camera can see: a sector round the direction of the head, as far as the playing
 // area with its border goes.
 
-#include <QGraphicsItem>
 #include <QPolygonF>
 
-#include "field_style.h"
+#include "field_item.h"
 
 namespace pitchboard::ui {
 
-class ViewWedgeItem : public QGraphicsItem {
+class ViewWedgeItem : public FieldItem {
  public:
-  explicit ViewWedgeItem(const FieldStyle* style) : m_style(style) {}
+  using FieldItem::FieldItem;
 
   /// What this kind of robot sees: rad in all, metres. Shows with the next setHead().
   void setCamera(double opening, double range);
   void setHead(const Point& position, double headYaw);
-  void styleChanges();
+  void styleChanges() override;
 
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
  private:
-  void updateOutline();
-
-  const FieldStyle* m_style;
   Point m_position;
   double m_yaw = 0.0;
   double m_opening = 0.0, m_range = 0.0;

@@ -212,8 +212,7 @@ void addDerived(QMenu* menu, PlotPage* page, PlotPane* pane, int index) {
   offer(QStringLiteral("Wrapped angle"),
         with(CurveKind::WrapAngle, unit == "rad" ? 6.283185307179586 : 360.0), false);
   for (const auto& conversion : telemetry::unitConversionsFrom(unit)) {
-    CurveSpec spec = with(CurveKind::Conversion, conversion.conversion.factor);
-    spec.offset = conversion.conversion.offset;
+    CurveSpec spec = with(CurveKind::Conversion, conversion.factor);
     spec.unit = QString::fromUtf8(conversion.to.data(), qsizetype(conversion.to.size()));
     offer(QStringLiteral("In %1").arg(spec.unit), spec, true);
   }

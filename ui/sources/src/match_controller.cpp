@@ -242,7 +242,7 @@ void MatchController::settle() {
 void MatchController::setPace(link::RobotsPace pace) {
   m_options.pace = pace;
   post([pace](link::SimulatedMatch& match) {
-    match.pace().setRobotsPace(pace);
+    match.pace().robotsPace = pace;
     return link::Changed::No;
   });
   emit transportChanged();
@@ -251,7 +251,7 @@ void MatchController::setPace(link::RobotsPace pace) {
 void MatchController::setWaitForOwnPrograms(bool on) {
   m_options.waitForOwnPrograms = on;
   post([on](link::SimulatedMatch& match) {
-    match.pace().setWaitForOwnPrograms(on);
+    match.pace().waitForOwnPrograms = on;
     return link::Changed::No;
   });
   emit transportChanged();

@@ -444,7 +444,7 @@ void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
 
 void MatchEdits::orderProcesses(const std::function<void(link::ProcessManager&)>& what) {
   order([what](link::SimulatedMatch& match) {
-    what(match.processes());
+    what(match.robots().processes());
     return link::Changed::No;
   });
 }

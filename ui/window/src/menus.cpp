@@ -210,10 +210,10 @@ void StudioMenus::makeView() {
   }
   menu->addSeparator();
   QMenu* layers = menu->addMenu(QStringLiteral("Field &layers"));
-  for (QAction* action : m_parts.field->layerActions()) layers->addAction(action);
+  for (QAction* action : m_parts.field->actions().layers) layers->addAction(action);
   layers->addSeparator();
-  for (QAction* action : m_parts.field->layerOptionActions()) layers->addAction(action);
-  for (QAction* action : m_parts.field->viewActions()) menu->addAction(action);
+  for (QAction* action : m_parts.field->actions().options) layers->addAction(action);
+  for (QAction* action : m_parts.field->actions().view) menu->addAction(action);
   QAction* overlay = menu->addAction(QStringLiteral("Overlay what is &heard live"));
   overlay->setObjectName(QStringLiteral("liveOverlay"));
   overlay->setCheckable(true);

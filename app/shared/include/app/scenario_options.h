@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +13,8 @@
 
 namespace pitchboard::shared {
 
-struct ScenarioOptions {
+struct ScenarioOptions : link::ScenarioOverrides {
   std::string scenario = "match";
-  std::optional<std::uint64_t> seed;
-  std::string noise;                     ///< name of a preset; empty: the scenario's
-  std::string physics;                   ///< name of a model; empty: the scenario's
   std::vector<std::string> robotModels;  ///< "kid-size", "red=my-robot.json"; the last one wins
 };
 

@@ -17,11 +17,16 @@ class MatchEvents;
 
 class ProcessPace {
  public:
+  /// Between two changes for own programs, so that a new pace shows what it does.
+  static constexpr std::chrono::seconds ownPaceInterval{3};
   using Time = std::chrono::steady_clock::time_point;
 
   /// All outlive it.
-  ProcessPace(MatchBase& base, RobotSlots& robots, MatchEvents& events)
-      : m_base(base), m_slots(robots), m_events(events) {}
+  ProcessPace(MatchBase& base, RobotSlots& robots, MatchEvents& events);
+
+  // As in MatchOptions; may change while it is played.
+  RobotsPace robotsPace;
+  bool waitForOwnPrograms;
 
   /// Starts again what died, notices what is silent, takes what was written. About 20 times a
   /// second, also while the match stands still.
@@ -30,15 +35,13 @@ class ProcessPace {
   void setPlaying(double speed, bool still, Time now);
   /// Slower than that for now, because a team's programs cannot keep up: their clocks follow.
   void slowTo(double speed, Time now) { m_slots.processes().setSpeed(speed, now); }
-  void setRobotsPace(RobotsPace pace);
   /// Separate reference processes are waited for in every tick.
   bool inLockStep() const;
 
   // A team's own programs.
-  void setWaitForOwnPrograms(bool on);
-  bool waitsForOwnPrograms() const;
-  /// At which pace to go on to `wanted` with them: see paceWithOwnPrograms(). Faster than real time
-  /// only when the clocks of all of them can follow.
+  /// At which pace to go on to `wanted` with them: not above what the
+  /// slowest of them manages, and faster again in steps. Faster than real time only when the clocks
+  /// of all of them can follow.
   double ownPace(double wanted, double now) const;
   /// Times real time: the slowest of them that cannot keep up; nothing: all do.
   std::optional<double> slowestOwnProgram() const;

@@ -87,8 +87,6 @@ class RobotSlots {
   const sim::RobotIdentity& identityOf(RobotId id) const;
   /// Which kind of robot it is; null when there is no such robot.
   const sim::RobotModel* model(RobotId id) const;
-  /// The smallest robot number that is free (blackboard key, telemetry port).
-  RobotId freeId() const;
   /// Robots whose processes nobody here has started, so that they do not stop with the match.
   std::vector<sim::RobotIdentity> ofOthers() const;
 
@@ -143,8 +141,10 @@ class RobotSlots {
   bool wants(const RobotSlot& slot, const ProfileProcess& process) const;
   Result<void> startMissing(RobotSlot& slot, std::vector<SlotProcess*>& started);
   Result<void> start(RobotSlot& slot, SlotProcess& process);
-  Result<void> startReference(RobotSlot& slot, SlotProcess& process);
-  Result<void> startForeign(RobotSlot& slot, SlotProcess& process);
+  Result<void> describeReference(const RobotSlot& slot, SlotProcess& process,
+                                 ManagedProcess& managed);
+  Result<void> describeForeign(const RobotSlot& slot, const ProfileProcess& profile,
+                               ManagedProcess& managed) const;
   void forget(SlotProcess& process);
   ProcessOptions inlineOptions(const RobotSlot& slot);
   std::vector<std::string> commandOf(const RobotSlot& slot, const std::string& process) const;

@@ -6,21 +6,18 @@
 // runner owns it on its thread. No pacing here: tick() advances one tick whenever it is called.
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <robotlink/blackboard/blackboard.h>
-#include <robotlink/blackboard/match_number.h>
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/frame/match_event.h>
 #include <robotlink/match/match_options.h>
 #include <robotlink/match/process_pace.h>
 #include <robotlink/match/robot_slots.h>
-#include <robotlink/processes/process_manager.h>
 #include <robotlink/scenario/scenario.h>
 #include <simcore/simulation/simulation.h>
 
@@ -69,11 +66,7 @@ class SimulatedMatch {
   RobotSlots& robots();
   const RobotSlots& robots() const;
   /// Nothing when there is no such robot.
-  Blackboard* blackboard(RobotId id);
-  const Blackboard* blackboard(RobotId id) const;
-  /// Empty when there is no such robot.
-  std::string_view behaviour(RobotId id) const;
-  RuntimeChoice runtime(RobotId id) const;
+  Blackboard* blackboard(RobotId id) const;
   /// Particles and paths of the robots, by number; none unless MatchOptions::thoughts. Asks inline
   /// processes, or takes what separate ones have sent.
   std::vector<RobotThoughts> thoughts();
@@ -84,20 +77,8 @@ class SimulatedMatch {
   std::span<const sim::RobotCommand> commands() const;
   /// What the last tick let the robots sense, in the same order.
   std::span<const sim::Percepts> percepts() const;
-  /// The separate processes, and how match and processes keep time with each other.
-  ProcessManager& processes();
-  const ProcessManager& processes() const;
-  ProcessPace& pace();
-  const ProcessPace& pace() const;
-  /// As ProcessPace says.
-  bool inLockStep() const { return pace().inLockStep(); }
-  std::optional<double> slowestOwnProgram() const { return pace().slowestOwnProgram(); }
-  /// Its number on this computer; nothing while it shares no blackboard with others.
-  std::optional<MatchNumber> number() const;
-  /// Who plays match 0, when this one had to take another number; else empty.
-  std::string publishedHolder() const;
-  /// As RobotSlots::ofOthers().
-  std::vector<sim::RobotIdentity> robotsOfOthers() const { return robots().ofOthers(); }
+  /// How it and the separate processes keep time with each other.
+  ProcessPace& pace() const;
 
   /// Puts a recorded moment back exactly: robots come and go until they are those of the moment,
   /// with its behaviours, and what is known of their blackboards is written. Reference processes

@@ -72,6 +72,16 @@ struct Scenario {
   bool operator==(const Scenario&) const = default;
 };
 
+/// What the caller wants to be different in a scenario.
+struct ScenarioOverrides {
+  std::optional<std::uint64_t> seed;
+  std::string noise;      ///< name of a preset; empty: the scenario's
+  std::string physics;    ///< name of a model; empty: the scenario's
+  double duration = 0.0;  ///< s; 0: the scenario's
+};
+/// Errors as noisePreset(); InvalidArgument for a duration below 0 or above 1e9 s.
+Result<Scenario> changed(Scenario scenario, const ScenarioOverrides& overrides);
+
 struct ScenarioName {
   std::string name;
   std::string title;

@@ -68,14 +68,12 @@ struct LinearConversion {
   Sample next(const Sample& sample) const { return {sample.time, factor * sample.value + offset}; }
 };
 
-/// A conversion that a menu can offer: values in `from` become values in `to`.
+/// A conversion that a menu can offer.
 struct UnitConversion {
-  std::string_view from, to;  ///< as in ColumnInfo::unit
-  LinearConversion conversion;
+  std::string_view to;  ///< as in ColumnInfo::unit
+  double factor = 1.0;
 };
-/// cm and m, ° and rad, tenths of a volt and V, ms, µs and s.
-std::span<const UnitConversion> unitConversions();
-/// Those of values in `unit`.
+/// Of values in `unit`: between cm and m, ° and rad, tenths of a volt and V, ms, µs and s.
 std::vector<UnitConversion> unitConversionsFrom(std::string_view unit);
 
 /// Any of the above over a whole curve.

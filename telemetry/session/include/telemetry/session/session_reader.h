@@ -113,7 +113,6 @@ class SessionReader {
   /// All events; those that are not of the form of an event are left out.
   std::vector<SessionEvent> events() const;
 
-  const std::vector<McapAttachmentInfo>& attachments() const;
   /// Error NotFound, or ParseError when it is damaged.
   Result<std::string> attachment(std::string_view name) const;
 

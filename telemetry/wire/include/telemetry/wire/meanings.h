@@ -7,11 +7,10 @@
 #include <array>
 #include <string_view>
 
+#include <base/units.h>
 #include <telemetry/wire/profile.h>
 
 namespace pitchboard::telemetry {
-
-enum class UnitKind : std::uint8_t { None, Length, Angle, Voltage, Time, Share };
 
 struct MeaningInfo {
   FieldMeaning meaning = FieldMeaning::None;

@@ -20,6 +20,13 @@ class QMenu;
 
 namespace pitchboard::ui {
 
+/// For menus; also on the tool strip.
+struct FieldActions {
+  std::vector<QAction*> layers;   ///< checkable, one per FieldLayer, in that order
+  std::vector<QAction*> options;  ///< how layers look: field of view of all, granularity of EOPRA
+  std::vector<QAction*> view;     ///< select, ruler, add, flip, fit, keys
+};
+
 class FieldView : public QWidget, public FieldPictures {
   Q_OBJECT
  public:
@@ -40,12 +47,7 @@ class FieldView : public QWidget, public FieldPictures {
   /// Keeps this robot in the middle of the view; nothing ends it.
   void follow(std::optional<RobotKey> id);
   std::optional<RobotKey> followed() const;
-  /// One checkable action per FieldLayer, in that order, for menus; also on the tool strip.
-  std::vector<QAction*> layerActions() const;
-  /// How layers look: field of view of all robots, granularity of EOPRA; also on the tool strip.
-  std::vector<QAction*> layerOptionActions() const;
-  /// Select, ruler, add, flip, fit, keys: for the View menu; also on the tool strip.
-  std::vector<QAction*> viewActions() const;
+  const FieldActions& actions() const;
   /// What can be done with the selected robots, with all of them and the ball, for the menu bar.
   void fillRobotsMenu(QMenu* menu);
   /// Opens the editor for the pose of this robot.
