@@ -147,7 +147,8 @@ endfunction()
 # program tests_<folder>, and a test of its own for ctest. ALONE makes a program of its own, for tests that replace
 # functions of the C library or that other checks build alone. GUI tests run offscreen. INSIDE names the modules
 # (ui/plots) whose private headers it may include. Every test has its folder as a label; `threads` are those in
-# which threads of ours work at the same time: they run under TSan too. build_<label>_tests builds the tests of a label.
+# which threads of ours work at the same time: they run under TSan too; `every_build` are those that continuous integration runs with and without sanitizers.
+# build_<label>_tests builds the tests of a label.
 function(pitchboard_test name)
   cmake_parse_arguments(ARG "GUI;ALONE" "TIMEOUT" "SOURCES;LIBS;LABELS;INSIDE" ${ARGN})
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
