@@ -48,27 +48,31 @@ function(pitchboard_position_independent target)
   target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition)
 endfunction()
 
+# A name in one file of a module says nothing about names in another. Where several files are compiled together
+# (CMAKE_UNITY_BUILD), gcc takes them for one: local names of one would be in the shadow of another's, what stands
+# in an unnamed namespace would belong to a header, and where more is inlined, gcc 12 takes what an empty optional
+# does not hold for read. What is built file by file (dev, no-pch) has these warnings, too.
+function(pitchboard_several_files target)
+  if(CMAKE_UNITY_BUILD)
+    target_compile_options(${target} PRIVATE
+                           $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow;-Wshadow=local;-Wno-subobject-linkage;-Wno-maybe-uninitialized>)
+  endif()
+endfunction()
+
 # For dialogs, reports and command lines (-O1) and tests (-O0): at -O3 they compile up to twice as long, for
 # nothing. What they call is in the modules whose loops take time.
 function(pitchboard_compile_quickly target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
 endfunction()
 
-# The presets that build everything at once (release, the sanitizers) compile several files of a room
-# together (CMAKE_UNITY_BUILD): a third of the time. APART names files that have local names of another
-# file of the room.
-function(pitchboard_apart)
-  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-endfunction()
-
-# pitchboard_room(<library> <room> [LIGHTLY_OPTIMIZED] SOURCES ... [APART files] [PUBLIC libs] [PRIVATE libs])
+# pitchboard_room(<library> <room> [LIGHTLY_OPTIMIZED] SOURCES ... [PUBLIC libs] [PRIVATE libs])
 # makes <library>::<room> from the current directory: include/ holds what other rooms may include,
-# src/ the rest. LIGHTLY_OPTIMIZED: nobody waits for a loop in it; compiled at -O1. A room can include a header of another one only when it links it here, and
-# tests/end_to_end/tst_layers.cpp holds which rooms may be linked. All rooms of a library together
-# are <library>::all.
+# src/ the rest. LIGHTLY_OPTIMIZED: nobody waits for a loop in it; compiled at -O1. A room can include
+# a header of another one only when it links it here, and tests/end_to_end/tst_layers.cpp holds which rooms may
+# be linked. All rooms of a library together are <library>::all. The presets that build everything at once
+# (release, the sanitizers) compile several files of a room together (CMAKE_UNITY_BUILD): a third of the time.
 function(pitchboard_room library room)
-  cmake_parse_arguments(ARG "LIGHTLY_OPTIMIZED" "" "SOURCES;APART;PUBLIC;PRIVATE" ${ARGN})
-  pitchboard_apart(${ARG_APART})
+  cmake_parse_arguments(ARG "LIGHTLY_OPTIMIZED" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target ${library}_${room})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(${library}::${room} ALIAS ${target})
@@ -76,6 +80,7 @@ function(pitchboard_room library room)
                              PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   pitchboard_warnings(${target})
+  pitchboard_several_files(${target})
   if(ARG_LIGHTLY_OPTIMIZED)
     pitchboard_compile_quickly(${target} -O1)
   endif()
@@ -102,10 +107,9 @@ function(pitchboard_rooms library)
   endforeach()
 endfunction()
 
-# pitchboard_program(<name> SOURCES ... [APART files] LIBS ...)
+# pitchboard_program(<name> SOURCES ... LIBS ...)
 function(pitchboard_program name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;APART;LIBS" ${ARGN})
-  pitchboard_apart(${ARG_APART})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS})
   if(NOT ui::window IN_LIST ARG_LIBS)
@@ -114,6 +118,7 @@ function(pitchboard_program name)
   endif()
   target_compile_definitions(${name} PRIVATE PITCHBOARD_VERSION="${PROJECT_VERSION}")
   pitchboard_warnings(${name})
+  pitchboard_several_files(${name})
   pitchboard_compile_quickly(${name} -O1)
   set_property(GLOBAL APPEND PROPERTY PITCHBOARD_PROGRAMS ${name})
 endfunction()
