@@ -130,7 +130,7 @@ function(pitchboard_test_options name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(${name} PRIVATE Qt6::Test)
   target_compile_options(${name} PRIVATE "SHELL:-include ${PROJECT_SOURCE_DIR}/tests/support/test_program.h")
-  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/moc)
+  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/moc)
   target_compile_definitions(${name} PRIVATE
     PITCHBOARD_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data"
     PITCHBOARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
@@ -142,20 +142,18 @@ function(pitchboard_test_options name)
   if(LLD_PROGRAM)
     target_link_options(${name} PRIVATE -fuse-ld=lld)
   endif()
-  if(PITCHBOARD_SANITIZE MATCHES thread)
-    target_sources(${name} PRIVATE $<TARGET_OBJECTS:tests_own_memory>)
-  endif()
 endfunction()
 
-# pitchboard_test(<name> SOURCES ... LIBS ... [INSIDE modules] [LABELS ...] [TIMEOUT s] [GUI] [ALONE]): a test
-# <name>.cpp with one QtTest class, registered as tests/support/test_program.h says. It becomes part of the
-# program tests_<folder>, and a test of its own for ctest. ALONE makes a program of its own, for tests that replace
-# functions of the C library or that other checks build alone. GUI tests run offscreen. INSIDE names the modules
-# (ui/plots) whose private headers it may include. Every test has its folder as a label; `threads` are those in
-# which threads of ours work at the same time: they run under TSan too; `every_build` are those that continuous integration runs with and without sanitizers.
-# build_<label>_tests builds the tests of a label.
+# pitchboard_test(<name> SOURCES ... LIBS ... [INSIDE modules] [PART part] [LABELS ...] [TIMEOUT s] [GUI] [ALONE]): a
+# test with one QtTest class in the first source, <name>.cpp, registered as tests/support/test_program.h says. It
+# becomes part of the program tests_<folder>, and a test of its own for ctest. ALONE makes a program of its own, for
+# tests that replace functions of the C library or that other checks build alone. GUI tests run offscreen. INSIDE
+# names the modules (ui/plots) whose private headers it may include; tests of one PART are compiled together, and no
+# others see these headers. Every test has its folder as a label; `threads` are those in which threads of ours work
+# at the same time: they run under TSan too; `every_build` are those that continuous integration runs with and
+# without sanitizers. build_<label>_tests builds the tests of a label.
 function(pitchboard_test name)
-  cmake_parse_arguments(ARG "GUI;ALONE" "TIMEOUT" "SOURCES;LIBS;LABELS;INSIDE" ${ARGN})
+  cmake_parse_arguments(ARG "GUI;ALONE" "PART;TIMEOUT" "SOURCES;LIBS;LABELS;INSIDE" ${ARGN})
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
   if(ARG_ALONE)
     set(program ${name})
@@ -170,15 +168,29 @@ function(pitchboard_test name)
     if(NOT ARG_ALONE)
       target_sources(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/test_program.cpp)
     endif()
+    if(PITCHBOARD_SANITIZE MATCHES thread)
+      target_sources(${program} PRIVATE $<TARGET_OBJECTS:tests_own_memory>)
+    endif()
+  endif()
+  set(compiled ${program})
+  if(ARG_PART)
+    set(compiled ${program}_${ARG_PART})
+    if(NOT TARGET ${compiled})
+      add_library(${compiled} OBJECT)
+      pitchboard_test_options(${compiled})
+      target_link_libraries(${program} PRIVATE ${compiled})
+    endif()
+    target_link_libraries(${program} PRIVATE ${ARG_LIBS})
   endif()
   # moc for the one file that has a test class. AUTOMOC would look at each test twice and compile an
   # empty file for it: a tenth of the time of a build.
   set(moc ${CMAKE_CURRENT_BINARY_DIR}/moc/${name}.moc)
-  qt6_generate_moc(${name}.cpp ${moc} TARGET ${program})
-  target_sources(${program} PRIVATE ${ARG_SOURCES} ${moc})
-  target_link_libraries(${program} PRIVATE ${ARG_LIBS})
+  list(GET ARG_SOURCES 0 source)
+  qt6_generate_moc(${source} ${moc} TARGET ${compiled})
+  target_sources(${compiled} PRIVATE ${ARG_SOURCES} ${moc})
+  target_link_libraries(${compiled} PRIVATE ${ARG_LIBS})
   foreach(module IN LISTS ARG_INSIDE)
-    target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/${module}/src)
+    target_include_directories(${compiled} PRIVATE ${PROJECT_SOURCE_DIR}/${module}/src)
   endforeach()
   add_test(NAME ${name} COMMAND ${command})
   set(environment "LC_ALL=C.UTF-8")
