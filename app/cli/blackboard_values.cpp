@@ -136,7 +136,7 @@ void dumpJson(const VariableCatalog& catalog, const Words& words, int key,
   std::printf("%s\n", out.dump(1).c_str());
 }
 
-Result<int> dump(DumpOptions& options) {
+Result<int> dumpValues(DumpOptions& options) {
   const auto catalog = TRY(loadCatalog(options.catalog));
   const auto board = TRY(openTarget(options.target, AttachMode::ReadOnly));
   Words words{};
@@ -324,7 +324,7 @@ void addDumpCommand(CLI::App& parent, int& exitCode) {
   addCatalogOption(*command, options->catalog);
   command->add_flag("--all", options->all, "also words without a name that are not zero");
   command->add_flag("--json", options->json, "as JSON");
-  whenChosen(*command, options, exitCode, &dump);
+  whenChosen(*command, options, exitCode, &dumpValues);
 }
 
 void addWatchCommand(CLI::App& parent, int& exitCode) {

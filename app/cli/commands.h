@@ -12,6 +12,9 @@
 
 namespace pitchboard::cli {
 
+/// Who writes a file, for its head.
+inline constexpr const char* programName = "pitchboard " PITCHBOARD_VERSION;
+
 /// What a group of commands looks like to main(): the one registration list is in main.cpp.
 using AddCommand = void (*)(CLI::App& parent, int& exitCode);
 

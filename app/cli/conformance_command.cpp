@@ -10,7 +10,7 @@
 namespace pitchboard::cli {
 namespace {
 
-struct Options {
+struct ConformanceOptions {
   std::vector<std::string> files;
   bool json = false;
 };
@@ -39,7 +39,7 @@ void print(const std::string& file, const link::ConformanceReport& report, bool 
   }
 }
 
-int run(const Options& options) {
+int checkTraces(const ConformanceOptions& options) {
   int exitCode = 0;
   for (const std::string& file : options.files) {
     const auto report = link::runConformance(file);
@@ -56,7 +56,7 @@ int run(const Options& options) {
 }  // namespace
 
 void addConformanceCommand(CLI::App& parent, int& exitCode) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConformanceOptions>();
   CLI::App* command = parent.add_subcommand(
       "conformance",
       "Compare the published model with recorded runs of the published simulator.\n"
@@ -65,7 +65,7 @@ void addConformanceCommand(CLI::App& parent, int& exitCode) {
   command->add_option("FILE", options->files, "Traces: FILE.json with FILE.csv.gz beside it")
       ->required();
   command->add_flag("--json", options->json, "One JSON object per file");
-  command->callback([options, &exitCode] { exitCode = run(*options); });
+  command->callback([options, &exitCode] { exitCode = checkTraces(*options); });
 }
 
 }  // namespace pitchboard::cli

@@ -20,7 +20,7 @@ using namespace telemetry;
 
 constexpr std::size_t maxFileBytes = 256U << 20;
 
-struct Options {
+struct DecodeOptions {
   std::vector<std::string> files;
   std::string profile;
   bool json = false;
@@ -61,14 +61,14 @@ void forEachLine(std::string_view text, Visit visit) {
   }
 }
 
-void put(const Options& options, Json json, const Json& body, const std::string& line) {
+void put(const DecodeOptions& options, Json json, const Json& body, const std::string& line) {
   json.update(body);
   std::printf("%s\n", options.json ? dump(json).c_str() : line.c_str());
 }
 
-Result<int> decodeStoredMessages(const Options& options, const TextDecoder& decoder);
+Result<int> decodeStoredMessages(const DecodeOptions& options, const TextDecoder& decoder);
 
-Result<int> decodeTelemetry(const Options& options) {
+Result<int> decodeTelemetry(const DecodeOptions& options) {
   Profile profile = publishedProfile();
   if (!options.profile.empty()) {
     profile = TRY(loadProfile(options.profile));
@@ -135,7 +135,7 @@ Result<std::vector<StoredPacket>> storedPackets(const std::string& file, const s
 }
 
 /// Messages that are no text: one in a file, or lines of JSON.
-Result<int> decodeStoredMessages(const Options& options, const TextDecoder& decoder) {
+Result<int> decodeStoredMessages(const DecodeOptions& options, const TextDecoder& decoder) {
   auto decoded = std::make_unique<DecodedText>();
   int exitCode = 0;
   for (const std::string& file : options.files) {
@@ -153,7 +153,7 @@ Result<int> decodeStoredMessages(const Options& options, const TextDecoder& deco
   return exitCode;
 }
 
-Result<int> decodeGameController(const Options& options) {
+Result<int> decodeGameController(const DecodeOptions& options) {
   int exitCode = 0;
   for (const std::string& file : options.files) {
     const auto text = TRY(readAll(file));
@@ -189,7 +189,7 @@ void addDecodeCommand(CLI::App& parent, int& exitCode) {
       "            pitchboard-cli decode telemetry -");
   decode->require_subcommand(1);
 
-  auto text = std::make_shared<Options>();
+  auto text = std::make_shared<DecodeOptions>();
   CLI::App* telemetry = decode->add_subcommand(
       "telemetry",
       "Datagrams of robots. Text: one per line; a line may begin with time, tab, sender, tab.\n"
@@ -202,7 +202,7 @@ void addDecodeCommand(CLI::App& parent, int& exitCode) {
   telemetry->add_flag("--json", text->json, "One JSON object per datagram");
   whenChosen(*telemetry, text, exitCode, decodeTelemetry);
 
-  auto referee = std::make_shared<Options>();
+  auto referee = std::make_shared<DecodeOptions>();
   CLI::App* controller = decode->add_subcommand(
       "gamecontroller",
       "Referee packets: one packet per file, or lines of JSON with the bytes under \"hex\"");

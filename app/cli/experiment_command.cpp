@@ -23,7 +23,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr int exitAssertionFailed = 1;
-constexpr const char* program = "pitchboard " PITCHBOARD_VERSION;
 
 /// A run of an experiment's results, played again into a session file. Error Conflict when it does
 /// not end in the state that the results say, unless a team's own programs play in it.
@@ -37,7 +36,7 @@ Result<link::RunResult> recordRun(const std::string& folder, const link::Experim
     std::filesystem::create_directories(parent, code);
   }
   auto player = TRY(link::RunPlayer::create(experiment, settings));
-  auto result = player.record(number, path, program);
+  auto result = player.record(number, path, programName);
   if (!result) return result;
   if (result->hash != before->hash && !experiment.ownPrograms) {
     return failure(ErrorCode::Conflict,
@@ -49,7 +48,7 @@ Result<link::RunResult> recordRun(const std::string& folder, const link::Experim
   return result;
 }
 
-struct Options {
+struct ExperimentOptions {
   std::string experiment, out, shard, robotProgram;
   std::optional<std::uint64_t> seed;
   std::optional<std::size_t> runs;
@@ -130,7 +129,7 @@ Result<int> told(const link::Experiment& experiment, const link::ExperimentFolde
   return summary.holds() ? 0 : exitAssertionFailed;
 }
 
-Result<int> run(Options& options) {
+Result<int> playExperiment(ExperimentOptions& options) {
   if (options.experiment.empty() || options.out.empty()) {
     return failure(ErrorCode::InvalidArgument,
                    "say which experiment and where to: pitchboard-cli experiment "
@@ -147,7 +146,7 @@ Result<int> run(Options& options) {
                                                        : options.robotProgram;
   settings.cancelled = &interrupted;
   settings.folder = options.out;
-  settings.program = program;
+  settings.program = programName;
   const std::vector<std::size_t> numbers = numbersOf(folder, shard);
   const std::size_t jobs =
       options.jobs > 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
@@ -270,8 +269,8 @@ void addReplay(CLI::App& parent, int& exitCode) {
 }  // namespace
 
 void addExperimentCommand(CLI::App& parent, int& exitCode) {
-  auto options = std::make_shared<Options>();
-  Options& o = *options;
+  auto options = std::make_shared<ExperimentOptions>();
+  ExperimentOptions& o = *options;
   CLI::App* command = parent.add_subcommand(
       "experiment",
       "Plays an experiment: many runs under several conditions, with tables and a report. Exit 1 "
@@ -309,7 +308,7 @@ void addExperimentCommand(CLI::App& parent, int& exitCode) {
       }
       return;
     }
-    exitCode = exitCodeOf(run(*options));
+    exitCode = exitCodeOf(playExperiment(*options));
   });
 }
 

@@ -22,7 +22,7 @@ using namespace telemetry;
 
 constexpr const char* reportFormat = "report";
 
-struct Options {
+struct ExportOptions {
   std::string file, format = "csv-wide", output;
   std::string from, until;
   std::vector<std::string> robots, variables;
@@ -35,7 +35,7 @@ struct Part {
   std::optional<double> from, until;
 };
 
-Result<Part> partOf(const SessionReader& session, const Options& options) {
+Result<Part> partOf(const SessionReader& session, const ExportOptions& options) {
   Part part;
   const auto range = session.range();
   if (!range && (!options.from.empty() || !options.until.empty())) {
@@ -61,7 +61,7 @@ Result<Part> partOf(const SessionReader& session, const Options& options) {
   return part;
 }
 
-int run(const Options& options) {
+int exportSession(const ExportOptions& options) {
   const bool asReport = options.format == reportFormat;
   const bool asPicture = isPictureFormat(options.format);
   const auto format = asReport || asPicture ? ExportFormat::CsvWide : exportFormat(options.format);
@@ -126,7 +126,7 @@ int run(const Options& options) {
 }  // namespace
 
 void addExportCommand(CLI::App& parent, int& exitCode) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportOptions>();
   CLI::App* command = parent.add_subcommand(
       "export",
       "Write a session, or part of it, as CSV, JSON lines or a shorter session.\n"
@@ -173,7 +173,7 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       ->type_name("FILE");
   command->add_flag("--progress", options->progress,
                     "Say on stderr how far it is, also without a terminal");
-  command->callback([options, &exitCode] { exitCode = run(*options); });
+  command->callback([options, &exitCode] { exitCode = exportSession(*options); });
 }
 
 }  // namespace pitchboard::cli

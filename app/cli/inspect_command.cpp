@@ -17,7 +17,7 @@ namespace {
 
 using namespace telemetry;
 
-struct Options {
+struct InspectOptions {
   std::string file;
   bool json = false, events = false, progress = false;
 };
@@ -35,7 +35,7 @@ std::string wallText(WallTime time) {
   return text.data();
 }
 
-Json toJson(const SessionReader& session, const Options& options) {
+Json toJson(const SessionReader& session, const InspectOptions& options) {
   const SessionInfo& info = session.info();
   Json out{{"file", options.file},
            {"bytes", session.file().contents().fileBytes},
@@ -81,7 +81,7 @@ Json toJson(const SessionReader& session, const Options& options) {
   return out;
 }
 
-void printText(const SessionReader& session, const Options& options) {
+void printText(const SessionReader& session, const InspectOptions& options) {
   const SessionInfo& info = session.info();
   std::printf("%s: %.3f MB%s\n", options.file.c_str(),
               static_cast<double>(session.file().contents().fileBytes) / 1e6,
@@ -122,7 +122,7 @@ void printText(const SessionReader& session, const Options& options) {
   for (const std::string& note : session.notes()) std::printf("%s\n", note.c_str());
 }
 
-int run(const Options& options) {
+int inspectSession(const InspectOptions& options) {
   const InterruptGuard signals;
   Progress progress("reading", options.progress);
   McapReaderOptions reading;
@@ -141,7 +141,7 @@ int run(const Options& options) {
 }  // namespace
 
 void addInspectCommand(CLI::App& parent, int& exitCode) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InspectOptions>();
   CLI::App* command =
       parent.add_subcommand("inspect",
                             "Say what is in a session, and whether all of it can be "
@@ -153,7 +153,7 @@ void addInspectCommand(CLI::App& parent, int& exitCode) {
   command->add_flag("--events", options->events, "List the events");
   command->add_flag("--progress", options->progress,
                     "Say on stderr how far it is, also without a terminal");
-  command->callback([options, &exitCode] { exitCode = run(*options); });
+  command->callback([options, &exitCode] { exitCode = inspectSession(*options); });
 }
 
 }  // namespace pitchboard::cli

@@ -18,7 +18,7 @@ namespace {
 
 using namespace telemetry;
 
-struct Options {
+struct PrintOptions {
   ListenOptions network;
   std::optional<double> duration;
   std::string monitor;
@@ -153,7 +153,7 @@ void reportEnd(const ReceiverStatus& network, const Printer& printer, WallTime n
   std::fputc('\n', stderr);
 }
 
-int run(const Options& options) {
+int listenToRobots(const PrintOptions& options) {
   using Clock = std::chrono::steady_clock;
   auto setup = listenSetup(options.network);
   if (!setup) return reportError(setup.error());
@@ -208,7 +208,7 @@ int run(const Options& options) {
 }  // namespace
 
 void addListenCommand(CLI::App& parent, int& exitCode) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PrintOptions>();
   CLI::App* command = parent.add_subcommand(
       "listen",
       "Print what robots and the referee send, until Ctrl+C. Sends nothing unless --monitor is "
@@ -226,7 +226,7 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
   command->add_flag("--json", options->json,
                     "One JSON object per message, and how each robot is heard\n"
                     "once a second and at the end (\"type\": \"health\")");
-  command->callback([options, &exitCode] { exitCode = run(*options); });
+  command->callback([options, &exitCode] { exitCode = listenToRobots(*options); });
 }
 
 }  // namespace pitchboard::cli

@@ -25,10 +25,9 @@ namespace {
 using namespace telemetry;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto pollInterval = std::chrono::milliseconds(20);
-constexpr const char* program = "pitchboard " PITCHBOARD_VERSION;
+constexpr auto healthInterval = std::chrono::milliseconds(20);
 
-struct Options {
+struct RecordOptions {
   std::string output;
   PlayOptions play;
   bool live = false, progress = false;
@@ -76,7 +75,7 @@ class Health {
   std::set<RecordingTrouble> m_told;
 };
 
-Result<int> recordMatch(const Options& options) {
+Result<int> recordMatch(const RecordOptions& options) {
   const auto cognition = TRY(cognitionOf(options.play));
   const auto speed = TRY(speedOf(options.play, cognition));
   const auto scenario =
@@ -86,7 +85,7 @@ Result<int> recordMatch(const Options& options) {
   SessionWriterOptions writing;
   writing.waitWhenFull = true;
   const std::shared_ptr<SessionWriter> writer = TRY(SessionWriter::create(
-      options.output, link::sessionInfo(match, program, LiveClock().now()), writing));
+      options.output, link::sessionInfo(match, programName, LiveClock().now()), writing));
   link::attachMatch(*writer, match.scenario(), link::VariableCatalog::published());
   const auto sampler = std::make_shared<link::MatchSampler>();
   const auto recorder = std::make_shared<link::MatchRecorder>(writer, sampler);
@@ -107,7 +106,7 @@ Result<int> recordMatch(const Options& options) {
   return 0;
 }
 
-Result<int> recordLive(const Options& options) {
+Result<int> recordLive(const RecordOptions& options) {
   auto setup = TRY(listenSetup(options.network));
   link::LiveOptions live;
   live.bind = setup.receiver.bind;
@@ -126,14 +125,14 @@ Result<int> recordLive(const Options& options) {
     if (!details.networkProblem.empty()) {
       return failure(ErrorCode::SystemError, details.networkProblem);
     }
-    std::this_thread::sleep_for(pollInterval);
+    std::this_thread::sleep_for(healthInterval);
   }
   const auto& ports = details.network.ports;
   if (std::ranges::none_of(ports, [](const PortStatus& port) { return port.bound; })) {
     return failure(ErrorCode::SystemError, ports.front().problem, options.network.bind);
   }
   link::RecorderOptions recording;
-  recording.program = program;
+  recording.program = programName;
   const auto recorder =
       TRY(link::LiveRecorder::create(options.output, live, watch.began(), recording));
   watch.observe(recorder);
@@ -149,7 +148,7 @@ Result<int> recordLive(const Options& options) {
     while (!interrupted && !isOver() && recorder->status().recording) {
       reportPorts(watch.details().network, told);
       health.say(recorder->status());
-      std::this_thread::sleep_for(pollInterval);
+      std::this_thread::sleep_for(healthInterval);
     }
   }
   watch.stopObserving(recorder);
@@ -165,7 +164,7 @@ Result<int> recordLive(const Options& options) {
   return ended(recorder->path(), recorder->status(), finished);
 }
 
-Result<int> run(Options& options) {
+Result<int> record(RecordOptions& options) {
   const InterruptGuard signals;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end
   if (!options.output.empty()) return options.live ? recordLive(options) : recordMatch(options);
@@ -175,8 +174,8 @@ Result<int> run(Options& options) {
 }  // namespace
 
 void addRecordCommand(CLI::App& parent, int& exitCode) {
-  auto options = std::make_shared<Options>();
-  Options& o = *options;
+  auto options = std::make_shared<RecordOptions>();
+  RecordOptions& o = *options;
   CLI::App* command = parent.add_subcommand(
       "record",
       "Play a match (as fast as possible by default), or listen to live robots, and record "
@@ -201,7 +200,7 @@ void addRecordCommand(CLI::App& parent, int& exitCode) {
   addListenOptions(*command, o.network);
   command->add_flag("--progress", o.progress,
                     "Say on stderr how far it is, also without a terminal");
-  whenChosen(*command, options, exitCode, run);
+  whenChosen(*command, options, exitCode, record);
 }
 
 }  // namespace pitchboard::cli

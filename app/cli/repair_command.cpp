@@ -11,12 +11,12 @@
 namespace pitchboard::cli {
 namespace {
 
-struct Options {
+struct RepairOptions {
   std::string from, to;
   bool progress = false;
 };
 
-int run(const Options& options) {
+int repairSession(const RepairOptions& options) {
   const InterruptGuard signals;
   Result<telemetry::RepairReport> report;
   {
@@ -33,7 +33,7 @@ int run(const Options& options) {
 }  // namespace
 
 void addRepairCommand(CLI::App& parent, int& exitCode) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RepairOptions>();
   CLI::App* command = parent.add_subcommand(
       "repair",
       "Recover a truncated or damaged recording into a new file. The old file is not changed.\n"
@@ -45,7 +45,7 @@ void addRepairCommand(CLI::App& parent, int& exitCode) {
       ->type_name("OUT");
   command->add_flag("--progress", options->progress,
                     "Say on stderr how far it is, also without a terminal");
-  command->callback([options, &exitCode] { exitCode = run(*options); });
+  command->callback([options, &exitCode] { exitCode = repairSession(*options); });
 }
 
 }  // namespace pitchboard::cli

@@ -19,7 +19,7 @@
 namespace pitchboard::cli {
 namespace {
 
-struct Options {
+struct TestOptions {
   std::string folder, junit, robotProgram;
   std::size_t jobs = 0;
   bool list = false;
@@ -79,7 +79,8 @@ std::vector<Found> testsOf(const std::string& name) {
   return out;
 }
 
-Result<link::ExperimentSummary> played(const link::Experiment& experiment, const Options& options) {
+Result<link::ExperimentSummary> played(const link::Experiment& experiment,
+                                       const TestOptions& options) {
   link::PlaySettings settings;
   settings.cancelled = &interrupted;
   settings.robotProgram = options.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
@@ -99,7 +100,7 @@ Result<link::ExperimentSummary> played(const link::Experiment& experiment, const
   return link::summarize(experiment, table);
 }
 
-Result<link::TestedExperiment> tested(const Found& test, const Options& options) {
+Result<link::TestedExperiment> tested(const Found& test, const TestOptions& options) {
   if (test.error) return tl::unexpected(*test.error);
   auto experiment = TRY(link::loadExperiment(test.path));
   if (experiment.assertions.empty()) {
@@ -112,7 +113,7 @@ Result<link::TestedExperiment> tested(const Found& test, const Options& options)
   return link::TestedExperiment{std::move(experiment), std::move(*summary), {}};
 }
 
-int run(const Options& options) {
+int runTests(const TestOptions& options) {
   const std::vector<Found> tests = testsOf(options.folder);
   const InterruptGuard signals;
   std::vector<link::TestedExperiment> all;
@@ -151,8 +152,8 @@ int run(const Options& options) {
 }  // namespace
 
 void addTestCommand(CLI::App& parent, int& exitCode) {
-  auto options = std::make_shared<Options>();
-  Options& o = *options;
+  auto options = std::make_shared<TestOptions>();
+  TestOptions& o = *options;
   CLI::App* command = parent.add_subcommand(
       "test",
       "Play situations with assertions (experiment files) and print which of them hold. Exits with "
@@ -183,7 +184,7 @@ void addTestCommand(CLI::App& parent, int& exitCode) {
       }
       return;
     }
-    exitCode = run(*options);
+    exitCode = runTests(*options);
   });
 }
 

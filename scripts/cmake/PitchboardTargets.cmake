@@ -48,27 +48,31 @@ function(pitchboard_position_independent target)
   target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition)
 endfunction()
 
+# A name in one file of a module says nothing about names in another. Where several files are compiled together
+# (CMAKE_UNITY_BUILD), gcc takes them for one: local names of one would be in the shadow of another's, what stands
+# in an unnamed namespace would belong to a header, and where more is inlined, gcc 12 takes what an empty optional
+# does not hold for read. What is built file by file (dev, no-pch) has these warnings, too.
+function(pitchboard_several_files target)
+  if(CMAKE_UNITY_BUILD)
+    target_compile_options(${target} PRIVATE
+                           $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow;-Wshadow=local;-Wno-subobject-linkage;-Wno-maybe-uninitialized>)
+  endif()
+endfunction()
+
 # For dialogs, reports and command lines (-O1) and tests (-O0): at -O3 they compile up to twice as long, for
 # nothing. What they call is in the modules whose loops take time.
 function(pitchboard_compile_quickly target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
 endfunction()
 
-# The presets that build everything at once (release, the sanitizers) compile several files of a room
-# together (CMAKE_UNITY_BUILD): a third of the time. APART names files that have local names of another
-# file of the room.
-function(pitchboard_apart)
-  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-endfunction()
-
-# pitchboard_room(<library> <room> [LIGHTLY_OPTIMIZED] SOURCES ... [APART files] [PUBLIC libs] [PRIVATE libs])
+# pitchboard_room(<library> <room> [LIGHTLY_OPTIMIZED] SOURCES ... [PUBLIC libs] [PRIVATE libs])
 # makes <library>::<room> from the current directory: include/ holds what other rooms may include,
-# src/ the rest. LIGHTLY_OPTIMIZED: nobody waits for a loop in it; compiled at -O1. A room can include a header of another one only when it links it here, and
-# tests/end_to_end/tst_layers.cpp holds which rooms may be linked. All rooms of a library together
-# are <library>::all.
+# src/ the rest. LIGHTLY_OPTIMIZED: nobody waits for a loop in it; compiled at -O1. A room can include
+# a header of another one only when it links it here, and tests/end_to_end/tst_layers.cpp holds which rooms may
+# be linked. All rooms of a library together are <library>::all. The presets that build everything at once
+# (release, the sanitizers) compile several files of a room together (CMAKE_UNITY_BUILD): a third of the time.
 function(pitchboard_room library room)
-  cmake_parse_arguments(ARG "LIGHTLY_OPTIMIZED" "" "SOURCES;APART;PUBLIC;PRIVATE" ${ARGN})
-  pitchboard_apart(${ARG_APART})
+  cmake_parse_arguments(ARG "LIGHTLY_OPTIMIZED" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target ${library}_${room})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(${library}::${room} ALIAS ${target})
@@ -76,6 +80,7 @@ function(pitchboard_room library room)
                              PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   pitchboard_warnings(${target})
+  pitchboard_several_files(${target})
   if(ARG_LIGHTLY_OPTIMIZED)
     pitchboard_compile_quickly(${target} -O1)
   endif()
@@ -102,10 +107,9 @@ function(pitchboard_rooms library)
   endforeach()
 endfunction()
 
-# pitchboard_program(<name> SOURCES ... [APART files] LIBS ...)
+# pitchboard_program(<name> SOURCES ... LIBS ...)
 function(pitchboard_program name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;APART;LIBS" ${ARGN})
-  pitchboard_apart(${ARG_APART})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS})
   if(NOT ui::window IN_LIST ARG_LIBS)
@@ -114,6 +118,7 @@ function(pitchboard_program name)
   endif()
   target_compile_definitions(${name} PRIVATE PITCHBOARD_VERSION="${PROJECT_VERSION}")
   pitchboard_warnings(${name})
+  pitchboard_several_files(${name})
   pitchboard_compile_quickly(${name} -O1)
   set_property(GLOBAL APPEND PROPERTY PITCHBOARD_PROGRAMS ${name})
 endfunction()
@@ -125,7 +130,7 @@ function(pitchboard_test_options name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(${name} PRIVATE Qt6::Test)
   target_compile_options(${name} PRIVATE "SHELL:-include ${PROJECT_SOURCE_DIR}/tests/support/test_program.h")
-  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/moc)
+  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/moc)
   target_compile_definitions(${name} PRIVATE
     PITCHBOARD_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data"
     PITCHBOARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
@@ -137,19 +142,18 @@ function(pitchboard_test_options name)
   if(LLD_PROGRAM)
     target_link_options(${name} PRIVATE -fuse-ld=lld)
   endif()
-  if(PITCHBOARD_SANITIZE MATCHES thread)
-    target_sources(${name} PRIVATE $<TARGET_OBJECTS:tests_own_memory>)
-  endif()
 endfunction()
 
-# pitchboard_test(<name> SOURCES ... LIBS ... [INSIDE modules] [LABELS ...] [TIMEOUT s] [GUI] [ALONE]): a test
-# <name>.cpp with one QtTest class, registered as tests/support/test_program.h says. It becomes part of the
-# program tests_<folder>, and a test of its own for ctest. ALONE makes a program of its own, for tests that replace
-# functions of the C library or that other checks build alone. GUI tests run offscreen. INSIDE names the modules
-# (ui/plots) whose private headers it may include. Every test has its folder as a label; `threads` are those in
-# which threads of ours work at the same time: they run under TSan too. build_<label>_tests builds the tests of a label.
+# pitchboard_test(<name> SOURCES ... LIBS ... [INSIDE modules] [PART part] [LABELS ...] [TIMEOUT s] [GUI] [ALONE]): a
+# test with one QtTest class in the first source, <name>.cpp, registered as tests/support/test_program.h says. It
+# becomes part of the program tests_<folder>, and a test of its own for ctest. ALONE makes a program of its own, for
+# tests that replace functions of the C library or that other checks build alone. GUI tests run offscreen. INSIDE
+# names the modules (ui/plots) whose private headers it may include; tests of one PART are compiled together, and no
+# others see these headers. Every test has its folder as a label; `threads` are those in which threads of ours work
+# at the same time: they run under TSan too; `every_build` are those that continuous integration runs with and
+# without sanitizers. build_<label>_tests builds the tests of a label.
 function(pitchboard_test name)
-  cmake_parse_arguments(ARG "GUI;ALONE" "TIMEOUT" "SOURCES;LIBS;LABELS;INSIDE" ${ARGN})
+  cmake_parse_arguments(ARG "GUI;ALONE" "PART;TIMEOUT" "SOURCES;LIBS;LABELS;INSIDE" ${ARGN})
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
   if(ARG_ALONE)
     set(program ${name})
@@ -164,15 +168,29 @@ function(pitchboard_test name)
     if(NOT ARG_ALONE)
       target_sources(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/test_program.cpp)
     endif()
+    if(PITCHBOARD_SANITIZE MATCHES thread)
+      target_sources(${program} PRIVATE $<TARGET_OBJECTS:tests_own_memory>)
+    endif()
+  endif()
+  set(compiled ${program})
+  if(ARG_PART)
+    set(compiled ${program}_${ARG_PART})
+    if(NOT TARGET ${compiled})
+      add_library(${compiled} OBJECT)
+      pitchboard_test_options(${compiled})
+      target_link_libraries(${program} PRIVATE ${compiled})
+    endif()
+    target_link_libraries(${program} PRIVATE ${ARG_LIBS})
   endif()
   # moc for the one file that has a test class. AUTOMOC would look at each test twice and compile an
   # empty file for it: a tenth of the time of a build.
   set(moc ${CMAKE_CURRENT_BINARY_DIR}/moc/${name}.moc)
-  qt6_generate_moc(${name}.cpp ${moc} TARGET ${program})
-  target_sources(${program} PRIVATE ${ARG_SOURCES} ${moc})
-  target_link_libraries(${program} PRIVATE ${ARG_LIBS})
+  list(GET ARG_SOURCES 0 source)
+  qt6_generate_moc(${source} ${moc} TARGET ${compiled})
+  target_sources(${compiled} PRIVATE ${ARG_SOURCES} ${moc})
+  target_link_libraries(${compiled} PRIVATE ${ARG_LIBS})
   foreach(module IN LISTS ARG_INSIDE)
-    target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/${module}/src)
+    target_include_directories(${compiled} PRIVATE ${PROJECT_SOURCE_DIR}/${module}/src)
   endforeach()
   add_test(NAME ${name} COMMAND ${command})
   set(environment "LC_ALL=C.UTF-8")

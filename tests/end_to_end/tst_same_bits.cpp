@@ -60,8 +60,8 @@ class TestSameBits : public QObject {
   }
 };
 
-PITCHBOARD_TEST(TestSameBits)
-
 }  // namespace tst_same_bits
+
+QTEST_GUILESS_MAIN(tst_same_bits::TestSameBits)
 
 #include "tst_same_bits.moc"

@@ -330,8 +330,8 @@ class TestCapi : public QObject {
   }
 };
 
-PITCHBOARD_TEST(TestCapi)
-
 }  // namespace tst_capi
+
+QTEST_GUILESS_MAIN(tst_capi::TestCapi)
 
 #include "tst_capi.moc"

@@ -113,8 +113,8 @@ class TestConformance : public QObject {
   }
 };
 
-PITCHBOARD_TEST(TestConformance)
-
 }  // namespace tst_conformance
+
+QTEST_GUILESS_MAIN(tst_conformance::TestConformance)
 
 #include "tst_conformance.moc"

@@ -198,17 +198,12 @@ class TestLiveWatch : public QObject {
 
   void aTakenPortIsNamed() {
     const LiveOptions options = freeOptions();
-    const int other = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    sockaddr_in name{};
-    name.sin_family = AF_INET;
-    name.sin_port = htons(portOf(options, 2));
-    name.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    QVERIFY(bind(other, reinterpret_cast<sockaddr*>(&name), sizeof name) == 0);
+    const TestSocket other(INADDR_LOOPBACK, portOf(options, 2));
+    QVERIFY(other.good());
     LiveWatch watch(options);
     QTRY_COMPARE(bound(watch), std::size_t{3});
     const auto ports = watch.details().network.ports;
     QVERIFY(!ports[1].bound && !ports[1].problem.empty());
-    close(other);
   }
 
   void whatIsClearedIsForgotten() {

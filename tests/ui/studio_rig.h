@@ -18,8 +18,9 @@ struct Studio {
   pitchboard::ui::MatchController controller;
   pitchboard::ui::MainWindow window;
 
-  explicit Studio(QSize size = {1280, 800})
-      : controller(options()), window(&controller, &settings) {
+  explicit Studio(QSize size = {1280, 800}) : Studio(options(), size) {}
+  explicit Studio(const pitchboard::link::MatchOptions& how, QSize size = {1280, 800})
+      : controller(how), window(&controller, &settings) {
     if (size.isValid()) window.resize(size);
     window.show();
   }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <base/try.h>
+#include <robotlink/cognition/referee_orders.h>
 
 #include "planning/target.h"
 
@@ -15,9 +16,6 @@ namespace {
 // DECISION_ACTION_A
 constexpr int stop = 0, turnLeft = 2, turnRight = 3, kickRight = 4, kickLeft = 5, walkSlow = 8,
               gait = 11;
-
-// COM_REFEREE
-enum Referee { Stopped = 1, Play = 2, Ready = 11, Set = 12 };
 
 int truncated(double value) {
   constexpr double low = std::numeric_limits<int>::min(), high = std::numeric_limits<int>::max();
@@ -31,12 +29,12 @@ class NaiveDecision final : public CognitiveProcess {
   void step(Blackboard& board, const Clock&) override {
     m_target.clear(board);  // of a decision before it, for a planning that still runs
     switch (board.read(m_variables.comReferee)) {
-      case Stopped:
-      case Ready:
-      case Set:
+      case refereeStop:
+      case refereeReady:
+      case refereeSet:
         board.write(m_variables.decisionActionA, stop);
         break;
-      case Play:
+      case refereePlay:
         play(board);
         break;
       default:  // nobody has spoken yet: the published process does nothing either

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int experimentVersion = 1;
 constexpr int mostRuns = 1'000'000;
-constexpr std::size_t mostConditions = 1000, mostEntries = 1000, mostFileBytes = 1024 * 1024;
+constexpr std::size_t mostConditions = 1000, mostEntries = 1000, mostScenarioBytes = 1024 * 1024;
 constexpr double fastestMatch = 1000.0;  // times real time, of a team's own programs
 constexpr double longestRun = 1e6;       // s
 constexpr double fieldReach = 200.0;     // m; a place outside the walls is moved inside
@@ -111,7 +111,7 @@ void ExperimentReader::readScenario(ConditionParts& parts) {
   parts.stop = whole->stop;
   std::string text(resourceText("scenarios/" + name + ".json"));
   if (!known) {
-    auto file = readFile(path, mostFileBytes, "the scenario");
+    auto file = readFile(path, mostScenarioBytes, "the scenario");
     if (!file) return m_root.fail("scenario", file.error().text());
     text = std::move(*file);
   }

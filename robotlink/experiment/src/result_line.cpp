@@ -22,7 +22,7 @@ Json valueOf(double value) {
   return value;
 }
 
-tl::unexpected<Error> wrong(std::string sentence) {
+tl::unexpected<Error> wrongLine(std::string sentence) {
   return failure(ErrorCode::ParseError, std::move(sentence));
 }
 
@@ -79,7 +79,7 @@ std::string lineOf(const RunResult& result) {
 Result<RunResult> resultFromLine(std::string_view line, const Experiment& experiment,
                                  std::size_t metrics) {
   const Json json = Json::parse(line, nullptr, false);
-  if (!json.is_object()) return wrong("is no JSON object");
+  if (!json.is_object()) return wrongLine("is no JSON object");
   const auto whole = [&json](const char* key) -> std::optional<std::uint64_t> {
     const auto found = json.find(key);
     if (found == json.end() || !found->is_number_unsigned()) return {};
@@ -94,11 +94,11 @@ Result<RunResult> resultFromLine(std::string_view line, const Experiment& experi
   RunResult out;
   out.endedBy = text("end");
   if (!number || !seed || !ticks || !hash || out.endedBy.empty() || out.endedBy.size() > 32) {
-    return wrong("has no run, seed, end, ticks or hash");
+    return wrongLine("has no run, seed, end, ticks or hash");
   }
   if (*number < 1 || *number > experiment.allRuns()) {
-    return wrong("has run " + std::to_string(*number) + ", but the experiment has " +
-                 std::to_string(experiment.allRuns()));
+    return wrongLine("has run " + std::to_string(*number) + ", but the experiment has " +
+                     std::to_string(experiment.allRuns()));
   }
   out.number = static_cast<std::size_t>(*number);
   out.seed = *seed;
@@ -106,15 +106,15 @@ Result<RunResult> resultFromLine(std::string_view line, const Experiment& experi
   out.hash = *hash;
   const auto values = json.find("values");
   if (values == json.end() || !values->is_array() || values->size() != metrics) {
-    return wrong("has not " + std::to_string(metrics) + " values");
+    return wrongLine("has not " + std::to_string(metrics) + " values");
   }
   for (const Json& value : *values) {
-    if (!value.is_null() && !value.is_number()) return wrong("has a value that is no number");
+    if (!value.is_null() && !value.is_number()) return wrongLine("has a value that is no number");
     out.values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
                                          : value.get<double>());
   }
   if (const auto paths = json.find("paths"); paths != json.end() && !readPaths(*paths, out)) {
-    return wrong("has paths that cannot be read");
+    return wrongLine("has paths that cannot be read");
   }
   return out;
 }

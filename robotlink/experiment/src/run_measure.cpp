@@ -15,7 +15,7 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double unmeasured = std::numeric_limits<double>::quiet_NaN();
 constexpr double still = 0.05;            // m; who moves less than this does not move
 constexpr double touchTolerance = 0.005;  // m between two bodies that touch
 constexpr double centimetre = 0.01;       // m
@@ -36,7 +36,7 @@ void MeanOf::add(double value) {
 }
 
 double MeanOf::mean() const {
-  return m_count > 0 ? m_sum / static_cast<double>(m_count) : nan;
+  return m_count > 0 ? m_sum / static_cast<double>(m_count) : unmeasured;
 }
 
 Result<ReducedExpression> ReducedExpression::make(const ExpressionMetric& metric,
@@ -79,7 +79,7 @@ void ReducedExpression::sample(double time, const LatestRows& rows) {
 }
 
 double ReducedExpression::value() const {
-  if (m_count == 0) return nan;
+  if (m_count == 0) return unmeasured;
   switch (m_reduction) {
     case Reduction::Mean:
       return m_mean.mean();
@@ -303,7 +303,7 @@ double RunMeasure::teamValue(TeamValue which, const Sums& sums) const {
     case TeamValue::Time:
       return m_now.time;
     case TeamValue::TimeToGoal:
-      return m_firstGoal.value_or(nan);
+      return m_firstGoal.value_or(unmeasured);
     case TeamValue::Walked:
       return sums.walked;
     case TeamValue::Displacement:
@@ -319,13 +319,13 @@ double RunMeasure::teamValue(TeamValue which, const Sums& sums) const {
     case TeamValue::BeliefErrorEnd:
       return sums.beliefEnd.mean();
     case TeamValue::Possession:
-      return m_anybodys > 0.0 ? m_ours / m_anybodys : nan;
+      return m_anybodys > 0.0 ? m_ours / m_anybodys : unmeasured;
     case TeamValue::Collisions:
       return m_collisions;
     case TeamValue::Penalties:
       return m_penalties;
   }
-  return nan;
+  return unmeasured;
 }
 
 RunResult RunMeasure::result(const SimulatedMatch& match) {
@@ -346,9 +346,9 @@ RunResult RunMeasure::result(const SimulatedMatch& match) {
     const auto robot = std::ranges::find(m_robots, name, &Robot::name);
     const bool here = robot != m_robots.end();
     const auto index = static_cast<std::size_t>(robot - m_robots.begin());
-    out.values.push_back(here ? m_now.robots[index].statistics.distanceWalked : nan);
-    out.values.push_back(here ? double(m_now.robots[index].statistics.kicks) : nan);
-    out.values.push_back(here ? robot->belief.mean() : nan);
+    out.values.push_back(here ? m_now.robots[index].statistics.distanceWalked : unmeasured);
+    out.values.push_back(here ? double(m_now.robots[index].statistics.kicks) : unmeasured);
+    out.values.push_back(here ? robot->belief.mean() : unmeasured);
   }
   for (const ReducedExpression& expression : m_expressions)
     out.values.push_back(expression.value());

@@ -23,7 +23,7 @@ namespace pitchboard::link {
 namespace {
 
 using WallClock = std::chrono::steady_clock;
-constexpr auto lookInterval = std::chrono::milliseconds(50);
+constexpr auto timeBetweenLooks = std::chrono::milliseconds(50);
 constexpr std::uint64_t ticksBetweenLooks = 64;  // at the clock and at who cancels
 
 sim::RobotIdentity const* robotNamed(const sim::WorldState& world, std::string_view name) {
@@ -166,7 +166,7 @@ Result<void> RunPlayer::loop(MatchPlayer& player, const RunMeasure& measure, std
       return failure(ErrorCode::Conflict, "cancelled");
     }
     if (own || !e.separateProcesses) continue;
-    if (const auto now = WallClock::now(); now - looked >= lookInterval) {
+    if (const auto now = WallClock::now(); now - looked >= timeBetweenLooks) {
       looked = now;
       player.match().pace().lookAfterProcesses(now);
       (void)player.match().robots().processes().takeLines();

@@ -19,7 +19,7 @@ struct Step {
   bool inBrackets = false;
 };
 
-tl::unexpected<Error> wrong(std::string sentence) {
+tl::unexpected<Error> wrongKey(std::string sentence) {
   return failure(ErrorCode::InvalidArgument, std::move(sentence));
 }
 
@@ -30,16 +30,16 @@ Result<std::vector<Step>> stepsOf(std::string_view key) {
     const bool bracket = key[at] == '[';
     if (bracket || (key[at] == '.' && !steps.empty())) ++at;
     const std::size_t end = bracket ? key.find(']', at) : key.find_first_of(".[", at);
-    if (bracket && end == std::string_view::npos) return wrong("its '[' is not closed");
+    if (bracket && end == std::string_view::npos) return wrongKey("its '[' is not closed");
     std::string name(key.substr(at, end == std::string_view::npos ? end : end - at));
-    if (name.empty()) return wrong("a part of it is empty");
+    if (name.empty()) return wrongKey("a part of it is empty");
     steps.push_back({std::move(name), bracket});
     at = end == std::string_view::npos ? key.size() : end + (bracket ? 1 : 0);
   }
   if (steps.empty() || steps.front().inBrackets) {
-    return wrong("it must begin with a key of a scenario, such as noise");
+    return wrongKey("it must begin with a key of a scenario, such as noise");
   }
-  if (steps.size() > deepest) return wrong("it has more than eight parts");
+  if (steps.size() > deepest) return wrongKey("it has more than eight parts");
   return steps;
 }
 
@@ -75,10 +75,10 @@ Result<void> put(Json& into, std::string_view name, std::span<const Step> rest, 
   const auto behind = rest.subspan(1);
   if (!step.inBrackets) {
     makeObject(into, name);
-    if (!into.is_object()) return wrong(std::string(name) + " has no keys");
+    if (!into.is_object()) return wrongKey(std::string(name) + " has no keys");
     return put(into[step.name], step.name, behind, value);
   }
-  if (!into.is_array()) return wrong("the scenario has no list " + std::string(name));
+  if (!into.is_array()) return wrongKey("the scenario has no list " + std::string(name));
   if (step.name == "*") {
     for (Json& entry : into) {
       TRY(put(entry, name, behind, value));
@@ -90,15 +90,15 @@ Result<void> put(Json& into, std::string_view name, std::span<const Step> rest, 
   const auto [stop, code] = std::from_chars(step.name.data(), end, index);
   if (code == std::errc() && stop == end) {
     if (index >= into.size()) {
-      return wrong(std::string(name) + " has " + std::to_string(into.size()) +
-                   " entries, counted from 0");
+      return wrongKey(std::string(name) + " has " + std::to_string(into.size()) +
+                      " entries, counted from 0");
     }
     return put(into[index], name, behind, value);
   }
   for (Json& entry : into) {
     if (isRobot(entry, step.name)) return put(entry, name, behind, value);
   }
-  return wrong("there is no robot " + step.name + " in the scenario");
+  return wrongKey("there is no robot " + step.name + " in the scenario");
 }
 
 }  // namespace
@@ -131,9 +131,9 @@ Result<void> putValue(Json& scenario, std::string_view key, const Json& value) {
   const auto steps = TRY(stepsOf(key));
   const std::string& first = steps.front().name;
   if (first == "stop" || first == "seed") {
-    return wrong("\"" + first + "\" is the experiment's own key");
+    return wrongKey("\"" + first + "\" is the experiment's own key");
   }
-  if (!scenario.is_object()) return wrong("the scenario is no object");
+  if (!scenario.is_object()) return wrongKey("the scenario is no object");
   return put(scenario[first], first, std::span(steps).subspan(1), value);
 }
 

@@ -16,7 +16,6 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double tail = 0.025;  // of each side of a 95 % interval
 constexpr std::size_t resamples = 2000;
 // More values than this: draws are what takes the time, and fewer resamples say the same.
@@ -77,7 +76,7 @@ SampleMoments momentsOf(std::span<const double> values) {
     out.mean += off / static_cast<double>(out.count);
     squares += off * (value - out.mean);
   }
-  if (out.count == 0) out.mean = nan;
+  if (out.count == 0) out.mean = std::numeric_limits<double>::quiet_NaN();
   if (out.count > 1) out.deviation = std::sqrt(squares / static_cast<double>(out.count - 1));
   return out;
 }

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include <base/angles.h>
 #include <robotlink/models/noise_presets.h>
@@ -14,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json differencesOf(const sim::RobotModel& model, const sim::RobotModel& base) {
-  Json out = differences(sim::robotModelParameters, model, base);
+  Json out = numbersToJson(differences(sim::robotModelParameters, model, base));
   if (model.kickLaw != base.kickLaw) {
     out["kick_law"] = sim::kickLawNames[static_cast<std::size_t>(model.kickLaw)];
   }
@@ -59,6 +60,12 @@ Json jsonNumber(double value) {
   return value;
 }
 
+Json numbersToJson(const KeyedNumbers& numbers) {
+  Json out = Json::object();
+  for (const auto& [key, number] : numbers) out[std::string(key)] = jsonNumber(number);
+  return out;
+}
+
 Json noiseToJson(const sim::NoiseParameters& noise) {
   std::string base;
   Json least;
@@ -66,7 +73,7 @@ Json noiseToJson(const sim::NoiseParameters& noise) {
     const auto preset = noisePreset(name);
     if (!preset) continue;
     if (*preset == noise) return name;
-    Json changed = differences(sim::noiseParameters, noise, *preset);
+    Json changed = numbersToJson(differences(sim::noiseParameters, noise, *preset));
     if (noise.ofModel != preset->ofModel) changed[std::string(noiseOfModelKey)] = noise.ofModel;
     if (base.empty() || changed.size() < least.size()) {
       base = name;

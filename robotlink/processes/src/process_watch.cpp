@@ -12,10 +12,6 @@ namespace {
 using Seconds = RestartRule::Seconds;
 using Watch = ManagedProcess::Watch;
 
-std::chrono::steady_clock::duration ticks(Seconds seconds) {
-  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(seconds);
-}
-
 }  // namespace
 
 void ProcessManager::watch(Entry& entry, Time now) {
@@ -33,13 +29,13 @@ void ProcessManager::watch(Entry& entry, Time now) {
     }
   }
   if (m_paused && process.spec.foreign) entry.lastSign = entry.stoppedSince = now;
-  if (now - entry.status.started >= ticks(process.restart.steadyAfter)) {
+  if (now - entry.status.started >= process.restart.steadyAfter) {
     entry.wait = process.restart.firstWait;
     entry.inARow = 0;
   }
   const bool listens = process.watch == Watch::Variable || process.watch == Watch::Sleeps;
   ProcessStatus& status = entry.status;
-  if (listens && now - entry.lastSign >= ticks(process.silentAfter)) {
+  if (listens && now - entry.lastSign >= process.silentAfter) {
     if (status.state == ProcessState::Silent) return;  // it has been told
     silenced(entry, now, "no sign of life for " + inSeconds(process.silentAfter));
   } else if (listens && status.state == ProcessState::Silent) {
@@ -105,7 +101,7 @@ void ProcessManager::sample(Entry& entry, Time now) {
     if (entry.process.watch == Watch::Nobody && status.state == ProcessState::Silent) {
       status.state = ProcessState::Running;
     }
-  } else if (now - entry.stoppedSince >= ticks(entry.process.silentAfter)) {
+  } else if (now - entry.stoppedSince >= entry.process.silentAfter) {
     silenced(entry, now, "stopped by a signal for " + inSeconds(entry.process.silentAfter));
   }
 }

@@ -13,7 +13,7 @@ namespace pitchboard::link {
 namespace {
 
 constexpr std::string_view ourSections = "Pitchboard";
-constexpr std::size_t mostBytes = 1024 * 1024;
+constexpr std::size_t mostConfigBytes = 1024 * 1024;
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank = " \t\r\f\v";
@@ -98,7 +98,7 @@ Result<IniFile> iniFromText(std::string_view text, std::string_view source) {
 }
 
 Result<IniFile> readIniFile(const std::string& path) {
-  const auto text = TRY(readFile(path, mostBytes));
+  const auto text = TRY(readFile(path, mostConfigBytes));
   return iniFromText(text, path);
 }
 

@@ -15,7 +15,7 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr std::size_t mostBytes = 1024 * 1024;
+constexpr std::size_t mostProfileBytes = 1024 * 1024;
 constexpr std::size_t mostProcesses = 8;  // of a robot
 constexpr std::size_t mostWords = 100;
 constexpr std::size_t longestText = 4096;
@@ -172,7 +172,7 @@ Result<RuntimeProfile> named(const std::string& nameOrPath) {
     return failure(ErrorCode::NotFound,
                    unknownName("built-in runtime profile and no file", name, runtimeNames()));
   }
-  const auto text = TRY(readFile(name, mostBytes, "the runtime profile"));
+  const auto text = TRY(readFile(name, mostProfileBytes, "the runtime profile"));
   auto profile = runtimeProfileFromJson(text, name);
   if (!profile) return profile;
   // A folder, and a program with a folder, are meant from where the profile lies.
@@ -207,7 +207,7 @@ std::vector<std::string> builtInRuntimes() {
 
 Result<RuntimeProfile> runtimeProfileFromJson(std::string_view text, std::string_view source) {
   JsonReport report(source);
-  const auto root = parseJson(text, report, mostBytes);
+  const auto root = parseJson(text, report, mostProfileBytes);
   if (report.failed()) return tl::unexpected(report.error());
   RuntimeProfile profile = Reader(*root, report).read();
   if (report.failed()) return tl::unexpected(report.error());

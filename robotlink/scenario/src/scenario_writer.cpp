@@ -29,7 +29,7 @@ Json rigidBodyToJson(const sim::RigidBodySettings& body, const sim::FieldSpec& f
   usual.ballMass = field.ballMass;
   Json out = Json::object();
   if (body.falls != usual.falls) out[sim::fallsSwitch.key] = body.falls;
-  out.update(differences(sim::rigidBodyParameters, body, usual));
+  out.update(numbersToJson(differences(sim::rigidBodyParameters, body, usual)));
   return out;
 }
 
@@ -40,8 +40,8 @@ Json refereeToJson(const sim::RefereeRules& rules) {
     const auto built = refereeRuleSet(set.name);
     if (!built || !*built) continue;
     if (**built == rules) return set.name;
-    Json changed = differences(sim::refereeCounts, rules, **built);
-    changed.update(differences(sim::refereeParameters, rules, **built));
+    Json changed = numbersToJson(differences(sim::refereeCounts, rules, **built));
+    changed.update(numbersToJson(differences(sim::refereeParameters, rules, **built)));
     for (const auto& one : sim::refereeSwitches) {
       if (rules.*one.member != (**built).*one.member) changed[one.key] = rules.*one.member;
     }

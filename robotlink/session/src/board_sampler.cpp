@@ -13,13 +13,14 @@ namespace pitchboard::link {
 namespace {
 
 using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;  // CLOCK_MONOTONIC in the standard libraries of Linux
+using SteadyClock =
+    std::chrono::steady_clock;  // CLOCK_MONOTONIC in the standard libraries of Linux
 
 constexpr auto longestSleep = 50ms;   // so that stopping takes no longer
 constexpr auto lookInterval = 100ms;  // is the segment still the one of this key?
 constexpr auto rateWindow = 1s;
 
-void sleepUntil(Clock::time_point until) {
+void sleepUntil(SteadyClock::time_point until) {
   const auto since = until.time_since_epoch();
   const auto seconds = std::chrono::floor<std::chrono::seconds>(since);
   timespec at{};
@@ -79,14 +80,14 @@ BoardSamplerStatus BoardSampler::status() const {
 }
 
 void BoardSampler::run(const std::stop_token& stop, Attached attached) {
-  const auto period = std::chrono::duration_cast<Clock::duration>(
+  const auto period = std::chrono::duration_cast<SteadyClock::duration>(
       std::chrono::duration<double>(1.0 / m_options.rate));
   std::vector<std::uint32_t> words(m_columns.size());
   bool there = true;
-  auto due = Clock::now(), nextLook = due + lookInterval, windowStart = due;
+  auto due = SteadyClock::now(), nextLook = due + lookInterval, windowStart = due;
   std::uint64_t inWindow = 0;
   while (!stop.stop_requested()) {
-    auto now = Clock::now();
+    auto now = SteadyClock::now();
     if (now < due) {
       sleepUntil(std::min(due, now + longestSleep));
       continue;
@@ -109,7 +110,7 @@ void BoardSampler::run(const std::stop_token& stop, Attached attached) {
       }
     }
     if (there) {
-      now = Clock::now();
+      now = SteadyClock::now();
       m_columns.read(attached.board, words);
       m_sink->append(m_group,
                      {std::chrono::duration<double>(now - m_options.zero).count(), words, {}});
@@ -119,7 +120,7 @@ void BoardSampler::run(const std::stop_token& stop, Attached attached) {
     std::uint64_t missed = 0;
     if (now - due > period) {  // more than one late: they cannot be made up for
       missed = static_cast<std::uint64_t>((now - due) / period);
-      due += period * static_cast<Clock::rep>(missed);
+      due += period * static_cast<SteadyClock::rep>(missed);
     }
     const std::lock_guard lock(m_mutex);
     m_status.samples += there ? 1 : 0;

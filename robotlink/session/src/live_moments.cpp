@@ -16,7 +16,7 @@ constexpr std::array booksOnly{SessionStream::LiveState};
 constexpr std::array everything{SessionStream::Telemetry, SessionStream::RefereeRaw,
                                 SessionStream::LiveState};
 constexpr double usualStep = 20.0;   // s; books are kept every 15
-constexpr double disorder = 2.0;     // s; what was kept later may have come so much earlier
+constexpr double lateness = 2.0;     // s; what was kept later may have come so much earlier
 constexpr double farAway = 1e9;      // s; no source lasts so long
 constexpr double tolerance = 5e-10;  // s; files keep whole nanoseconds
 
@@ -114,7 +114,7 @@ bool LiveMoments::goTo(const LiveHistory& history, double time) {
     start = history.begin();
     begun = true;
   }
-  history.walk(everything, {*start - disorder, until}, [&](const LiveRecord& record) {
+  history.walk(everything, {*start - lateness, until}, [&](const LiveRecord& record) {
     begun = begun || (record.stream == SessionStream::LiveState &&
                       std::abs(record.time - *start) <= tolerance);
     if (begun && record.time <= until) impl.take(record);

@@ -141,27 +141,27 @@ struct MatchColumn {
   double resolution = 0.0;
 };
 
-constexpr const char *game = "Match", *timing = "Timing";
+constexpr const char *ofTheMatch = "Match", *ofTiming = "Timing";
 
 const std::array theMatchColumns{
-    MatchColumn{"TICK", "", timing, [](const sim::Snapshot& s) { return double(s.tick); }},
+    MatchColumn{"TICK", "", ofTiming, [](const sim::Snapshot& s) { return double(s.tick); }},
     MatchColumn{"BALL_X", "m", truth, [](const sim::Snapshot& s) { return s.ball.x; }},
     MatchColumn{"BALL_Y", "m", truth, [](const sim::Snapshot& s) { return s.ball.y; }},
     MatchColumn{"BALL_VX", "m/s", truth, [](const sim::Snapshot& s) { return s.ballVelocity.x; },
                 ColumnKind::Number, speed_mps},
     MatchColumn{"BALL_VY", "m/s", truth, [](const sim::Snapshot& s) { return s.ballVelocity.y; },
                 ColumnKind::Number, speed_mps},
-    MatchColumn{"CLOCK", "s", game, [](const sim::Snapshot& s) { return s.clock; }},
-    MatchColumn{"CLOCK_RUNNING", "", game,
+    MatchColumn{"CLOCK", "s", ofTheMatch, [](const sim::Snapshot& s) { return s.clock; }},
+    MatchColumn{"CLOCK_RUNNING", "", ofTheMatch,
                 [](const sim::Snapshot& s) { return s.clockRunning ? 1.0 : 0.0; },
                 ColumnKind::Flag},
-    MatchColumn{"SCORE_LEFT", "", game,
+    MatchColumn{"SCORE_LEFT", "", ofTheMatch,
                 [](const sim::Snapshot& s) { return double(s.score.left); }},
-    MatchColumn{"SCORE_RIGHT", "", game,
+    MatchColumn{"SCORE_RIGHT", "", ofTheMatch,
                 [](const sim::Snapshot& s) { return double(s.score.right); }}};
 
 template <class Column>
-ColumnInfo infoOf(const Column& column) {
+ColumnInfo columnInfo(const Column& column) {
   return {column.name, ColumnType::Float64, column.unit, column.category, column.kind,
           {},          column.resolution};
 }
@@ -171,7 +171,7 @@ ColumnInfo infoOf(const Column& column) {
 std::vector<ColumnInfo> truthColumns() {
   std::vector<ColumnInfo> out;
   for (const RobotColumn& column : robotColumns) {
-    out.push_back(infoOf(column));
+    out.push_back(columnInfo(column));
     if (column.kind == ColumnKind::Enumeration) out.back().labels = actionLabels();
   }
   const auto ofGame = playerColumns();
@@ -205,10 +205,10 @@ void readTruth(const SimulatedMatch& match, const sim::Snapshot& snapshot,
 std::vector<ColumnInfo> matchColumns() {
   std::vector<ColumnInfo> out;
   for (const MatchColumn& column : theMatchColumns) {
-    out.push_back(infoOf(column));
+    out.push_back(columnInfo(column));
   }
   out.push_back(
-      {"TICK_TIME", ColumnType::Float64, "µs", timing, ColumnKind::Number, {}, microseconds});
+      {"TICK_TIME", ColumnType::Float64, "µs", ofTiming, ColumnKind::Number, {}, microseconds});
   const auto ofGame = gameColumns();
   out.insert(out.end(), ofGame.begin(), ofGame.end());
   return out;

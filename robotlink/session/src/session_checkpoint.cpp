@@ -7,12 +7,13 @@
 #include <base/try.h>
 #include <telemetry/wire/base64.h>
 
+#include "recorded_layout.h"
+
 namespace pitchboard::link {
 namespace {
 
 // Longer than the time between two checkpoints.
-constexpr double usualReach = 2.5;      // s
-constexpr double timeTolerance = 1e-6;  // s; file times are whole nanoseconds
+constexpr double usualReach = 2.5;  // s
 
 }  // namespace
 

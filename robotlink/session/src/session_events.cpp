@@ -4,6 +4,7 @@
 #include <map>
 #include <string_view>
 
+#include <robotlink/frame/teams.h>
 #include <robotlink/session/row_slot.h>
 
 namespace pitchboard::link {

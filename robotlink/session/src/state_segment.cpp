@@ -14,8 +14,8 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr std::string_view magic = "PBsg";
-constexpr std::uint64_t version = 1;
+constexpr std::string_view segmentMagic = "PBsg";
+constexpr std::uint64_t segmentVersion = 1;
 // A segment is a second of a match; one that claims more would keep us stepping for ever.
 constexpr std::uint64_t mostTicks = 1'000'000;
 
@@ -143,8 +143,8 @@ Result<sim::WorldState> StateSegment::at(std::uint64_t tick) const {
 }
 
 std::string StateSegment::encode() const {
-  std::string out(magic);
-  putVarint(out, version);
+  std::string out(segmentMagic);
+  putVarint(out, segmentVersion);
   putVarint(out, m_ticks);
   out += m_state;
   out += m_commands;
@@ -154,11 +154,11 @@ std::string StateSegment::encode() const {
 
 Result<StateSegment> StateSegment::decode(std::string_view bytes) {
   CodecReader in(bytes);
-  if (in.bytes(magic.size()) != magic) {
+  if (in.bytes(segmentMagic.size()) != segmentMagic) {
     return failure(ErrorCode::ParseError, "this is not a recorded piece of a match");
   }
   const std::uint64_t found = in.varint();
-  if (in.ok() && found != version) {
+  if (in.ok() && found != segmentVersion) {
     return failure(ErrorCode::Unsupported,
                    "this piece of a match was recorded by a later version of Pitchboard; use that");
   }

@@ -15,10 +15,6 @@ constexpr double margin = 0.005;      // m, so that nearly touching things count
 constexpr double partingSpeed = 0.5;  // m/s at which things dragged onto each other part
 constexpr double feetGrip = 4.0;      // m/s², friction of about 0.4
 
-double length(double x, double y) {
-  return std::sqrt(x * x + y * y);
-}
-
 /// Whether a place is so far from a post or net along one axis that it is farther in all.
 bool isBeside(const Obstacle& o, const Point& place, double distance) {
   return place.x - o.last.x >= distance || o.first.x - place.x >= distance ||

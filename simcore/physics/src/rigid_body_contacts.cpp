@@ -24,10 +24,6 @@ double impactDistance(double touching) {
   return std::max(touching - 2.5 * slop, 1.5 * slop);
 }
 
-double length(double x, double y) {
-  return std::sqrt(x * x + y * y);
-}
-
 }  // namespace
 
 /// What a step needs beside the world: as scratch, for it is made anew in every step.

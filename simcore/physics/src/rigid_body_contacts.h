@@ -16,6 +16,7 @@
 // the world's own contact manager: the one place, with the version of Box2D that the build asks for
 // (2.4).
 
+#include <cmath>
 #include <memory>
 #include <span>
 #include <vector>
@@ -26,6 +27,10 @@
 #include "rigid_body_obstacles.h"
 
 namespace pitchboard::sim::rigid {
+
+inline double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
 
 /// A robot, or the ball after the robots, that may touch something in this tick.
 struct MovingBody {

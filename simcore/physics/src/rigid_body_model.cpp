@@ -16,10 +16,10 @@
 namespace pitchboard::sim {
 namespace {
 
-RigidBodyState& stateOf(WorldState& world) {
+RigidBodyState& bodiesOf(WorldState& world) {
   return std::get<RigidBodyState>(world.physics);
 }
-const RigidBodyState& stateOf(const WorldState& world) {
+const RigidBodyState& bodiesOf(const WorldState& world) {
   return std::get<RigidBodyState>(world.physics);
 }
 
@@ -94,18 +94,18 @@ class RigidBodyModel final : public PhysicsModel {
   void robotAdded(WorldState& world, const Pose& pose) const override {
     RigidRobot robot;
     robot.pose = {pose.position, rigid::wrapped(pose.yaw)};
-    stateOf(world).robots.push_back(std::move(robot));
+    bodiesOf(world).robots.push_back(std::move(robot));
   }
 
   void robotRemoved(WorldState& world, std::size_t index) const override {
-    RigidBodyState& state = stateOf(world);
+    RigidBodyState& state = bodiesOf(world);
     const auto offset = static_cast<std::ptrdiff_t>(index);
     state.robots.erase(state.robots.begin() + offset);
     for (PastMoment& moment : state.past) moment.robots.erase(moment.robots.begin() + offset);
   }
 
   void placeRobot(WorldState& world, std::size_t index, const Pose& pose) const override {
-    RigidRobot& robot = stateOf(world).robots[index];
+    RigidRobot& robot = bodiesOf(world).robots[index];
     robot.pose = {pose.position, rigid::wrapped(pose.yaw)};
     // Taken up and put down: it stands, and starts its gait anew.
     robot.forwardSpeed = robot.sidewaysSpeed = robot.yawRate = 0.0;
@@ -113,37 +113,37 @@ class RigidBodyModel final : public PhysicsModel {
   }
 
   void placeHead(WorldState& world, std::size_t index, double headYaw) const override {
-    RigidRobot& robot = stateOf(world).robots[index];
+    RigidRobot& robot = bodiesOf(world).robots[index];
     const double limit = world.models[index].panLimit;
     robot.headYaw = std::clamp(rigid::wrapped(headYaw - robot.pose.yaw), -limit, limit);
   }
 
   void placeBall(WorldState& world, const Point& position,
                  const Velocity& velocity) const override {
-    stateOf(world).ball = {position, velocity};
+    bodiesOf(world).ball = {position, velocity};
   }
 
   double imuError(const WorldState& world, std::size_t index) const override {
-    const RigidRobot& robot = stateOf(world).robots[index];
+    const RigidRobot& robot = bodiesOf(world).robots[index];
     return robot.imuDrift - robot.imuZero;
   }
 
   void setImuError(WorldState& world, std::size_t index, double error) const override {
-    RigidRobot& robot = stateOf(world).robots[index];
+    RigidRobot& robot = bodiesOf(world).robots[index];
     robot.imuDrift = error;
     robot.imuZero = 0.0;
   }
 
   void settingsChanged(WorldState& world) const override {
-    rigid::resizePast(world, stateOf(world));
+    rigid::resizePast(world, bodiesOf(world));
   }
 
   Pose robotPose(const WorldState& world, std::size_t index) const override {
-    return stateOf(world).robots[index].pose;
+    return bodiesOf(world).robots[index].pose;
   }
 
   void describe(const WorldState& world, Snapshot& out) const override {
-    const RigidBodyState& state = stateOf(world);
+    const RigidBodyState& state = bodiesOf(world);
     out.ball = state.ball.position;
     out.ballVelocity = state.ball.velocity;
     for (std::size_t i = 0; i < state.robots.size(); ++i) {
@@ -161,7 +161,7 @@ class RigidBodyModel final : public PhysicsModel {
   static rigid::Tick tickOf(WorldState& world, std::vector<Event>& events, Scratch& used) {
     const double frames = published_frame::framesPerSecond / world.settings.tickRate;
     return {world,
-            stateOf(world),
+            bodiesOf(world),
             used.motions,
             events,
             used.draws,

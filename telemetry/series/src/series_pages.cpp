@@ -10,10 +10,10 @@
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double emptyBucket = std::numeric_limits<double>::quiet_NaN();
 
 double valueOf(const std::vector<float>& values, std::size_t bucket) {
-  if (values.empty()) return nothing;
+  if (values.empty()) return emptyBucket;
   return static_cast<double>(values.size() == 1 ? values.front() : values[bucket]);
 }
 
@@ -68,7 +68,8 @@ class PagedView final : public GroupView {
 
   void buckets(std::uint32_t column, TimeRange range, std::span<SeriesBucket> out) const override {
     if (const auto held = read(range)) return held->rows->buckets(column, range, out);
-    std::fill(out.begin(), out.end(), SeriesBucket{nothing, nothing, nothing, nothing, 0});
+    std::fill(out.begin(), out.end(),
+              SeriesBucket{emptyBucket, emptyBucket, emptyBucket, emptyBucket, 0});
     const double width = (range.end - range.begin) / static_cast<double>(out.size());
     if (!(width > 0.0)) return;
     each(column, range,

@@ -9,7 +9,7 @@
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+constexpr float unset = std::numeric_limits<float>::quiet_NaN();
 
 /// Values of one kind only need one.
 void shorten(std::vector<float>& values) {
@@ -51,7 +51,7 @@ std::size_t GroupSummary::bytes() const {
 
 SummaryBuilder::SummaryBuilder(const GroupInfo& group) {
   for (const ColumnInfo& column : group.columns) m_types.push_back(column.type);
-  m_now.assign(m_types.size(), {nothing, nothing, nothing});
+  m_now.assign(m_types.size(), {unset, unset, unset});
   m_part.columns.resize(m_types.size());
 }
 
@@ -60,7 +60,7 @@ std::optional<SummaryPart> SummaryBuilder::add(double time, const RowView& row) 
   m_end = time;
   std::size_t word = 0, value = 0;
   for (std::size_t c = 0; c < m_types.size(); ++c) {
-    float number = nothing;
+    float number = unset;
     if (m_types[c] == ColumnType::Float64) {
       if (value < row.values.size()) number = static_cast<float>(row.values[value]);
       ++value;
@@ -99,7 +99,7 @@ void SummaryBuilder::closeBucket() {
     m_part.columns[c].max.push_back(m_now[c].max);
     m_part.columns[c].last.push_back(m_now[c].last);
   }
-  m_now.assign(m_types.size(), {nothing, nothing, nothing});
+  m_now.assign(m_types.size(), {unset, unset, unset});
   m_rows = 0;
 }
 

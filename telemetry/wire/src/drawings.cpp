@@ -55,9 +55,9 @@ constexpr std::array<ColourWord, 14> colourWords{{{"white", 0xffffffff},
 constexpr std::array<std::string_view, 3> frameWords{"field", "robot", "belief"};
 
 /// The words of one line.
-class Words {
+class LineWords {
  public:
-  explicit Words(std::string_view line) : m_rest(line) {}
+  explicit LineWords(std::string_view line) : m_rest(line) {}
   /// Empty at the end.
   std::string_view next() {
     skip();
@@ -106,7 +106,7 @@ std::optional<std::uint32_t> hexColour(std::string_view word) {
   return word.size() == 7 ? 0xff000000U | value : (value >> 8U) | (value << 24U);
 }
 
-std::string inQuotes(std::string_view word) {
+std::string shownWord(std::string_view word) {
   return "\"" + printable(word, 40) + "\"";
 }
 
@@ -145,7 +145,7 @@ class DrawingReader {
     if (!line.starts_with(magic)) {
       return refuse("a drawing begins with PBD1 and the robot's number, for example \"PBD1 3\"");
     }
-    Words words(line.substr(magic.size()));
+    LineWords words(line.substr(magic.size()));
     const auto robot = whole(words.next(), TextDecoder::maxRobot);
     if (!robot) {
       return refuse("behind PBD1 stands the robot's number, from 1 to " +
@@ -163,7 +163,7 @@ class DrawingReader {
   }
 
   Result<void> readLine(std::string_view line) {
-    Words words(line);
+    LineWords words(line);
     const std::string_view word = words.next();
     if (word.empty()) return {};
     if (word == "layer" || word == "more") return readLayer(words, word == "more");
@@ -171,7 +171,7 @@ class DrawingReader {
     if (word == "width") return readWidth(words);
     const auto shape = std::ranges::find(shapeWords, word, &ShapeWord::word);
     if (shape == shapeWords.end()) {
-      return refuse(inQuotes(word) +
+      return refuse(shownWord(word) +
                     " is none of layer, more, colour, width, line, arrow, circle, disc, polygon, "
                     "area, point, text");
     }
@@ -181,7 +181,7 @@ class DrawingReader {
     return readShape(*shape, words);
   }
 
-  Result<void> readLayer(Words& words, bool adds) {
+  Result<void> readLayer(LineWords& words, bool adds) {
     if (m_drawing.layers.size() == Limits::layers) {
       return refuse("a datagram has at most " + std::to_string(Limits::layers) + " layers");
     }
@@ -201,7 +201,7 @@ class DrawingReader {
       }
       const auto life = number(word, Limits::longestLife);
       if (!life || *life <= 0.0) {
-        return refuse(inQuotes(word) +
+        return refuse(shownWord(word) +
                       " is neither field, robot or belief nor seconds up to 10 for which the layer "
                       "stays");
       }
@@ -213,7 +213,7 @@ class DrawingReader {
     return {};
   }
 
-  Result<void> readColour(Words& words) {
+  Result<void> readColour(LineWords& words) {
     const std::string_view word = words.next();
     const auto known = std::ranges::find(colourWords, word, &ColourWord::word);
     if (word == "team") {
@@ -223,21 +223,21 @@ class DrawingReader {
     } else if (const auto hex = hexColour(word)) {
       m_colour = hex;
     } else {
-      return refuse(inQuotes(word) +
+      return refuse(shownWord(word) +
                     " is no colour: team, white, black, grey, red, orange, yellow, green, cyan, "
                     "blue, violet, magenta, pink, brown, #rrggbb or #rrggbbaa");
     }
     return {};
   }
 
-  Result<void> readWidth(Words& words) {
+  Result<void> readWidth(LineWords& words) {
     const auto width = number(words.next(), Limits::widest);
     if (!width || *width < 0.5) return refuse("a width is from 0.5 to 20 pixels");
     m_width = *width;
     return {};
   }
 
-  Result<void> readShape(const ShapeWord& what, Words& words) {
+  Result<void> readShape(const ShapeWord& what, LineWords& words) {
     DrawingLayer& layer = m_drawing.layers.back();
     const auto wrong = [&what] {
       return refuse(std::string(what.word) + " needs " + std::string(what.needs) +
@@ -277,7 +277,7 @@ class DrawingReader {
     if (layer.shapes.size() == Limits::shapes ||
         m_points + shape.points.size() > Limits::robotPoints ||
         layer.points() + shape.points.size() > Limits::points) {
-      return refuse("layer " + inQuotes(layer.name) + " has more than " +
+      return refuse("layer " + shownWord(layer.name) + " has more than " +
                     std::to_string(Limits::shapes) + " shapes or " +
                     std::to_string(Limits::points) + " points; draw less, or on several layers");
     }

@@ -10,7 +10,6 @@
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 // So that `made` never grows: words point into it.
 constexpr std::size_t madeBytes = 16 * 1024;
 constexpr std::size_t longestWord = ErrorTally::sampleBytes;

@@ -5,12 +5,16 @@
 // wire. Any thread, with a DecodedText of its own.
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string_view>
 
 #include <telemetry/wire/text_decoder.h>
 
 namespace pitchboard::telemetry {
+
+/// The value of a field that a message does not have, or not as a number.
+inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// Begins a message of `count` fields: none of them is there.
 void clearFields(std::size_t count, DecodedText& out);

@@ -9,9 +9,9 @@ namespace pitchboard::telemetry {
 namespace {
 
 /// Writes little-endian integers and remembers the first that does not fit.
-class Bytes {
+class PacketBytes {
  public:
-  explicit Bytes(std::size_t size) : m_bytes(size, '\0') {}
+  explicit PacketBytes(std::size_t size) : m_bytes(size, '\0') {}
 
   void put(std::size_t offset, std::size_t count, bool isSigned, int value) {
     const int bits = static_cast<int>(8 * count);
@@ -56,7 +56,7 @@ Result<std::string> encodeReferee(const RefereeState& state) {
                                                std::to_string(state.version) + " with " +
                                                std::to_string(state.size) + " bytes.");
   }
-  Bytes bytes(layout->size);
+  PacketBytes bytes(layout->size);
   bytes.text(state.magic);
   bytes.put(4, 1, false, state.version);
   bytes.putFields(layout->header, 0, state);

@@ -71,28 +71,28 @@ constexpr League hl = League::Humanoid;
 constexpr League spl = League::StandardPlatform;
 constexpr League hsl = League::HumanoidSoccer;
 constexpr KickOff colour = KickOff::Colour;
-constexpr KickOff number = KickOff::TeamNumber;
+constexpr KickOff byNumber = KickOff::TeamNumber;
 using Codes = PenaltyCodes;
 
 // version, size, league, kick-off, penalties, header, info, team blocks, team, slots, player
 constexpr RefereeLayout layouts[] = {
     {7, 116, hl, colour, Codes::Hl2013, header7, 0, 20, 48, team7, 11, 4, 4, player7},
     {8, 158, hl, colour, Codes::Hl2013, header8, 0, 18, 70, team8, 11, 48, 2, player8},
-    {9, 244, hl, number, Codes::Hl2013, header9, 0, 20, 112, team8, 11, 90, 2, player8},
-    {10, 588, spl, number, Codes::Spl2017, header9, 0, 20, 284, team8, 11, 262, 2, player8},
-    {11, 592, hl, number, Codes::Hl2017, headerHl11, 13, 24, 284, team8, 11, 262, 2, player8},
-    {12, 640, hl, number, Codes::Hl2017, headerHl11, 13, 24, 308, team8, 11, 264, 4, player640},
-    {12, 688, hl, number, Codes::Hl2017, headerHl11, 13, 24, 332, team8, 11, 266, 6, player688},
-    {11, 58, spl, number, Codes::Spl2017, headerSpl11, 0, 22, 18, team8, 6, 6, 2, player8},
-    {12, 54, spl, number, Codes::Spl2019, headerSpl12, 0, 18, 18, team8, 6, 6, 2, player8},
-    {13, 54, spl, number, Codes::Spl2019, headerSpl12, 0, 18, 18, team8, 6, 6, 2, player8},
-    {14, 62, spl, number, Codes::Spl2019, headerSpl12, 0, 18, 22, team14, 7, 8, 2, player8},
-    {15, 118, spl, number, Codes::Spl2019, headerSpl12, 0, 18, 50, team15, 20, 10, 2, player8},
-    {16, 118, spl, number, Codes::Spl2019, headerSpl12, 0, 18, 50, team15, 20, 10, 2, player8},
-    {17, 118, spl, number, Codes::Spl2019, headerSpl12, 0, 18, 50, team15, 20, 10, 2, player8},
-    {18, 118, spl, number, Codes::Spl2019, headerSpl12, 0, 18, 50, team15, 20, 10, 2, player8},
-    {19, 198, hsl, number, Codes::Hsl19, headerHsl, 0, 18, 90, team15, 20, 10, 4, player19},
-    {20, 158, hsl, number, Codes::Hsl20, headerHsl, 0, 18, 70, team15, 20, 10, 3, player20},
+    {9, 244, hl, byNumber, Codes::Hl2013, header9, 0, 20, 112, team8, 11, 90, 2, player8},
+    {10, 588, spl, byNumber, Codes::Spl2017, header9, 0, 20, 284, team8, 11, 262, 2, player8},
+    {11, 592, hl, byNumber, Codes::Hl2017, headerHl11, 13, 24, 284, team8, 11, 262, 2, player8},
+    {12, 640, hl, byNumber, Codes::Hl2017, headerHl11, 13, 24, 308, team8, 11, 264, 4, player640},
+    {12, 688, hl, byNumber, Codes::Hl2017, headerHl11, 13, 24, 332, team8, 11, 266, 6, player688},
+    {11, 58, spl, byNumber, Codes::Spl2017, headerSpl11, 0, 22, 18, team8, 6, 6, 2, player8},
+    {12, 54, spl, byNumber, Codes::Spl2019, headerSpl12, 0, 18, 18, team8, 6, 6, 2, player8},
+    {13, 54, spl, byNumber, Codes::Spl2019, headerSpl12, 0, 18, 18, team8, 6, 6, 2, player8},
+    {14, 62, spl, byNumber, Codes::Spl2019, headerSpl12, 0, 18, 22, team14, 7, 8, 2, player8},
+    {15, 118, spl, byNumber, Codes::Spl2019, headerSpl12, 0, 18, 50, team15, 20, 10, 2, player8},
+    {16, 118, spl, byNumber, Codes::Spl2019, headerSpl12, 0, 18, 50, team15, 20, 10, 2, player8},
+    {17, 118, spl, byNumber, Codes::Spl2019, headerSpl12, 0, 18, 50, team15, 20, 10, 2, player8},
+    {18, 118, spl, byNumber, Codes::Spl2019, headerSpl12, 0, 18, 50, team15, 20, 10, 2, player8},
+    {19, 198, hsl, byNumber, Codes::Hsl19, headerHsl, 0, 18, 90, team15, 20, 10, 4, player19},
+    {20, 158, hsl, byNumber, Codes::Hsl20, headerHsl, 0, 18, 70, team15, 20, 10, 3, player20},
 };
 
 template <class Owner>

@@ -9,10 +9,11 @@
 #include <base/angles.h>
 #include <telemetry/wire/meanings.h>
 
+#include "field_values.h"
+
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t noIndex = std::numeric_limits<std::size_t>::max();
 constexpr double perMetre = 100.0, perVolt = 10.0, percent = 100.0;
 // Beyond it no field ends; what was sent stays in the message's own columns.

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t maxFileBytes = 256 * 1024, longestText = 60, mostSenders = 64;
+constexpr std::size_t mostSetupBytes = 256 * 1024, longestText = 60, mostSenders = 64;
 constexpr int highestTeam = 65535;
 constexpr std::array<std::string_view, 2> directions{"right", "left"};
 constexpr std::array<std::string_view, 8> setupKeys{"name",    "number",  "colour",  "ports",
@@ -114,7 +114,7 @@ std::string TeamSetup::title() const {
 
 Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file, Profile profile) {
   JsonReport report(file);
-  const auto root = parseJson(text, report, maxFileBytes);
+  const auto root = parseJson(text, report, mostSetupBytes);
   if (!root) return tl::unexpected(report.error());
   TeamSetup setup = readSetup(report, JsonObject(report, *root, "", setupKeys));
   if (report.failed()) return tl::unexpected(report.error());
@@ -124,7 +124,7 @@ Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file,
 
 Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file) {
   JsonReport report(file);
-  const auto root = parseJson(text, report, maxFileBytes);
+  const auto root = parseJson(text, report, mostSetupBytes);
   if (!root) return tl::unexpected(report.error());
   const JsonObject top(report, *root, "", setupKeys);
   TeamSetup setup = readSetup(report, top);
@@ -145,7 +145,7 @@ Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file)
 }
 
 Result<TeamSetup> loadTeamSetup(const std::string& path) {
-  const auto text = readFile(path, maxFileBytes, "The team setup");
+  const auto text = readFile(path, mostSetupBytes, "The team setup");
   if (!text) return tl::unexpected(text.error());
   auto setup = parseTeamSetup(*text, path);
   if (setup && !isBuiltIn(setup->profileName)) {

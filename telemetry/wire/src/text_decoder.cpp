@@ -14,9 +14,9 @@ namespace pitchboard::telemetry {
 namespace {
 
 /// Splits the text at white space, or at another character, while it looks at every byte once.
-class Words {
+class SplitWords {
  public:
-  Words(std::string_view text, char separator)
+  SplitWords(std::string_view text, char separator)
       : m_at(text.data()), m_end(text.data() + text.size()), m_separator(separator) {}
 
   /// The next word; false at the end of the text. Between two semicolons a word may be empty.
@@ -113,7 +113,7 @@ void TextDecoder::decodeWords(std::string_view datagram, DecodedText& out) const
   const std::size_t shown = profile().fields.size();
   const std::string_view end = sent.end;
   out.made.clear();
-  Words words(datagram, sent.separator);
+  SplitWords words(datagram, sent.separator);
   std::string_view word;
   std::size_t read = 0;
   bool more = false, ended = false;

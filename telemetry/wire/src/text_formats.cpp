@@ -8,7 +8,7 @@
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr std::size_t deepest = 16;
+constexpr std::size_t deepestLevel = 16;
 constexpr std::size_t longestPath = 240;
 
 std::string_view trimmed(std::string_view text) {
@@ -21,7 +21,7 @@ std::string_view trimmed(std::string_view text) {
 class Path {
  public:
   bool enter(bool list) {
-    if (m_levels.size() == deepest) return false;
+    if (m_levels.size() == deepestLevel) return false;
     m_levels.push_back({m_text.size(), list, 0});
     return true;
   }

@@ -30,7 +30,7 @@ namespace pitchboard::ui {
 namespace {
 
 const QString folderKey = QStringLiteral("experiments/tests");
-constexpr int usualRuns = 10, usualSpread = 5, mostRuns = 10'000;
+constexpr int usualRuns = 10, usualSpread = 5, mostTestRuns = 10'000;
 constexpr double usualSeconds = 60.0, longest = 3600.0, metre = 100.0;
 constexpr double headingSpread = 5.0;  // degrees, while starts differ at all
 
@@ -100,7 +100,7 @@ void SituationDialog::makeForm() {
   form->addRow(QStringLiteral("What must hold"), makeAssertions());
   form->addRow(QStringLiteral("A run ends after"), makeEnds());
   m_runs->setObjectName(QStringLiteral("testRuns"));
-  m_runs->setRange(1, mostRuns);
+  m_runs->setRange(1, mostTestRuns);
   m_runs->setValue(usualRuns);
   m_runs->setToolTip(QStringLiteral("Each with another seed"));
   m_spread->setObjectName(QStringLiteral("testSpread"));

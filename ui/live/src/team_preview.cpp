@@ -13,10 +13,6 @@ using telemetry::TextDecoder;
 
 constexpr std::size_t mostFields = 12;  // more do not fit into a line
 
-QString text(std::string_view words) {
-  return QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
-}
-
 QString valuesOf(const TextDecoder& decoder, const DecodedText& decoded) {
   QStringList parts;
   const auto& fields = decoder.profile().fields;
@@ -86,7 +82,7 @@ std::vector<PreviewRow> previewOf(const std::vector<Arrival>& arrivals,
     QStringList why;
     for (std::size_t i = 0; decoder && i < telemetry::textErrorCount; ++i) {
       const auto error = static_cast<telemetry::TextError>(i);
-      if (decoded.errors.has(error)) why << text(telemetry::errorWords(error));
+      if (decoded.errors.has(error)) why << QString::fromUtf8(telemetry::errorWords(error));
     }
     if (!listed) why << QStringLiteral("its address is not on the list of senders");
     if (listed && !decoder) why << QStringLiteral("no team sends from there to this port");

@@ -21,11 +21,7 @@
 namespace pitchboard::ui {
 namespace {
 
-const QString fromFile = QStringLiteral("from a file…");
-
-QString text(std::string_view words) {
-  return QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
-}
+const QString profileFromFile = QStringLiteral("from a file…");
 
 QIcon swatch(TeamColor colour) {
   constexpr int side = 16;
@@ -147,7 +143,8 @@ QWidget* TeamsPage::makeForm() {
   m_colour->setObjectName(QStringLiteral("teamColour"));
   m_colour->addItem(QStringLiteral("the referee's"));
   for (const TeamColorInfo& colour : teamColors) {
-    m_colour->addItem(swatch(colour.color), text(colour.name), static_cast<int>(colour.color));
+    m_colour->addItem(swatch(colour.color), QString::fromUtf8(colour.name),
+                      static_cast<int>(colour.color));
   }
   connect(m_colour, &QComboBox::currentIndexChanged, this, &TeamsPage::take);
   auto* numbers = new QHBoxLayout;
@@ -266,7 +263,7 @@ void TeamsPage::fillProfiles() {
     m_profile->addItem(QFileInfo(path).fileName(), path);
     m_profile->setItemData(index, path, Qt::ToolTipRole);
   }
-  m_profile->addItem(fromFile);
+  m_profile->addItem(profileFromFile);
   m_profile->setCurrentIndex(index);
 }
 
@@ -285,7 +282,8 @@ void TeamsPage::chooseProfile(int index) {
     fillProfiles();
     preview();
   };
-  if (m_profile->itemText(index) != fromFile) return use(m_profile->itemData(index).toString());
+  if (m_profile->itemText(index) != profileFromFile)
+    return use(m_profile->itemData(index).toString());
   fillProfiles();
   auto* ask = new QFileDialog(this, QStringLiteral("Profile of messages"), {},
                               QStringLiteral("Profiles (*.json)"));

@@ -20,7 +20,7 @@ constexpr int nameHeight = 14;  // px of the mock
 constexpr int laneHeight = 18;
 constexpr int gap = 4;
 constexpr int comparedHeight = 5;  // at the foot of its lane
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 bool same(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));
@@ -47,7 +47,7 @@ std::vector<LaneStretch> laneStretches(const ColumnView& view, telemetry::TimeRa
   std::vector<telemetry::SeriesBucket> buckets(static_cast<std::size_t>(columns));
   view.group->buckets(view.column, range, buckets);
   const auto before = view.group->at(view.column, range.begin);
-  double held = before ? before->value : nan;
+  double held = before ? before->value : unknown;
   double heldSince = before ? range.begin : known->begin;
   double last = before ? before->time : known->begin;
   const bool exact = view.group->hasEveryRow(range);
@@ -58,7 +58,7 @@ std::vector<LaneStretch> laneStretches(const ColumnView& view, telemetry::TimeRa
     const double begin = range.begin + static_cast<double>(i) * width;
     if (begin - last > longestBridge) {
       extend(all, heldSince, last, held, false);
-      held = nan;
+      held = unknown;
       heldSince = begin;
     }
     last = begin + width;

@@ -11,13 +11,16 @@
 
 namespace pitchboard::ui {
 namespace {
-constexpr double stepFactor = 0.8;   // one notch of the wheel
 constexpr double notch = 120.0;      // eighths of a degree, as Qt counts them
 constexpr double markReach = 4.0;    // px of the mock
 constexpr double smallestBox = 4.0;  // px; less is a click
 constexpr double clickReach = 4.0;   // px; more is a drag
 constexpr double flatBox = 10.0;     // px; lower boxes choose times only
 }  // namespace
+
+double wheelFactor(int turned) {
+  return std::pow(0.8, turned / notch);
+}
 
 TimeGestures::TimeGestures(QWidget* surface, LinkedTime* time, std::function<TimeAxis()> axis)
     : QObject(surface), m_surface(surface), m_time(time), m_axis(std::move(axis)) {
@@ -76,7 +79,7 @@ void TimeGestures::wheel(QWheelEvent* event) {
     m_time->pan(-turned.x() / notch * 0.1 * (axis.shown.end - axis.shown.begin));
     return;
   }
-  const double factor = std::pow(stepFactor, turned.y() / notch);
+  const double factor = wheelFactor(turned.y());
   if (event->modifiers() & Qt::ControlModifier) {
     if (m_hasValues) emit valueZoomed(factor, event->position().y());
     return;

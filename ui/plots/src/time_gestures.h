@@ -22,6 +22,9 @@ class QWidget;
 
 namespace pitchboard::ui {
 
+/// By how much a turn of the wheel (QWheelEvent::angleDelta) zooms; below 1 is closer.
+double wheelFactor(int turned);
+
 class TimeGestures : public QObject {
   Q_OBJECT
  public:

@@ -15,6 +15,7 @@
 #include <ui/base/theme.h>
 #include <ui/sources/linked_time.h>
 
+#include "time_gestures.h"
 #include "value_chart.h"
 
 namespace pitchboard::ui {
@@ -25,8 +26,6 @@ constexpr int pixelsPerStepX = 64;        // px of the mock
 constexpr int pixelsPerStepY = 24;
 // A line with more breaks is shown as points: Qt needs a series for each stretch.
 constexpr std::size_t mostStretches = 100;
-constexpr double stepFactor = 0.8;
-constexpr double notch = 120.0;
 
 /// Widens the axis that has more room, so that a unit is as long on both.
 void equalize(ValueLimits& x, ValueLimits& y, QSizeF size) {
@@ -264,7 +263,7 @@ bool XyPane::eventFilter(QObject*, QEvent* event) {
       auto* wheel = static_cast<QWheelEvent*>(event);
       wheel->accept();
       const QPointF anchor = toValue(wheel->position());
-      const double factor = std::pow(stepFactor, wheel->angleDelta().y() / notch);
+      const double factor = wheelFactor(wheel->angleDelta().y());
       const ValueLimits x{anchor.x() + (m_x.low - anchor.x()) * factor,
                           anchor.x() + (m_x.high - anchor.x()) * factor};
       const ValueLimits y{anchor.y() + (m_y.low - anchor.y()) * factor,

@@ -18,7 +18,7 @@ namespace {
 constexpr int teamPorts = 4;
 constexpr int distanceMessage = 2;  // the kind of team message, and the request in CONTROL_MESSAGES
 
-constexpr double cycle = 0.05;  // s: how soon a referee's word is on the blackboard
+constexpr double listenPeriod = 0.05;  // s: how soon a referee's word is on the blackboard
 
 /// Hears the GameController for one robot, on a UDP port that it shares with others of this
 /// computer: each hears every broadcast. While the port cannot be had it is tried again every few
@@ -116,7 +116,7 @@ class Communication final : public CognitiveProcess {
     sendTelemetry(board);
   }
 
-  double period() const override { return cycle; }
+  double period() const override { return listenPeriod; }
 
  private:
   void tellTeam(Blackboard& board) {
@@ -188,7 +188,7 @@ Result<std::unique_ptr<CognitiveProcess>> makeCommunication(const ProcessOptions
   }
   const auto address = TRY(telemetry::parseAddress(options.udpAddress));
   auto sender = TRY(telemetry::UdpSender::to(address));
-  if (!(options.telemetryPeriod >= cycle && options.telemetryPeriod <= 60.0)) {
+  if (!(options.telemetryPeriod >= listenPeriod && options.telemetryPeriod <= 60.0)) {
     return failure(ErrorCode::InvalidArgument,
                    "telemetry can be sent every 0.05 to 60 seconds, not more often or seldom");
   }

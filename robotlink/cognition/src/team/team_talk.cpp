@@ -12,8 +12,8 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double cycle = 0.2;    // s
-constexpr double silence = 3.0;  // s after which a team-mate is unknown
+constexpr double talkPeriod = 0.2;  // s
+constexpr double silence = 3.0;     // s after which a team-mate is unknown
 constexpr std::string_view header = "PB1";
 
 // One extended team message: "PB1 robot x y theta belief intention state ball", whole numbers; x, y
@@ -73,7 +73,7 @@ class TeamTalk final : public CognitiveProcess {
     }
   }
 
-  double period() const override { return cycle; }
+  double period() const override { return talkPeriod; }
 
   std::unique_ptr<const CognitiveProcess> remembered() const override {
     auto memory = std::make_unique<TeamTalk>(*this);

@@ -5,7 +5,10 @@
 // built-in one, degrees for radians. Any thread.
 
 #include <array>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <simcore/world/noise.h>
 #include <simcore/world/parameters.h>
@@ -22,15 +25,20 @@ nlohmann::ordered_json jsonNumber(double value);
 nlohmann::ordered_json noiseToJson(const sim::NoiseParameters& noise);
 nlohmann::ordered_json robotModelToJson(const sim::RobotModel& model);
 
-/// What differs from `base`, by key.
+/// Numbers as they stand in a file, by key.
+using KeyedNumbers = std::vector<std::pair<std::string_view, double>>;
+nlohmann::ordered_json numbersToJson(const KeyedNumbers& numbers);
+
+/// What differs from `base`.
 template <class Values, class Number, std::size_t N>
-nlohmann::ordered_json differences(const std::array<sim::Parameter<Values, Number>, N>& parameters,
-                                   const Values& value, const Values& base) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::object();
+KeyedNumbers differences(const std::array<sim::Parameter<Values, Number>, N>& parameters,
+                         const Values& value, const Values& base) {
+  KeyedNumbers out;
   for (const auto& p : parameters) {
     const Number stored = value.*p.member;
     if (stored == base.*p.member) continue;
-    out[p.key] = jsonNumber(p.unit.angle ? fileDegrees(stored) : stored);
+    const double number = static_cast<double>(stored);
+    out.emplace_back(p.key, p.unit.angle ? fileDegrees(number) : number);
   }
   return out;
 }

@@ -21,6 +21,8 @@
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 
+#include "../support/menu_entry.h"
+
 namespace field_rig {
 
 using namespace pitchboard;
@@ -61,12 +63,10 @@ class FieldRig {
   bool trigger(const Point& place, const QString& text) {
     auto* menu = menuAt(place);
     if (!menu) return false;
-    const auto actions = menu->findChildren<QAction*>();
-    const auto found = std::find_if(actions.begin(), actions.end(),
-                                    [&](const QAction* action) { return action->text() == text; });
-    if (found != actions.end()) (*found)->trigger();
+    QAction* found = menu_entry::called(menu->findChildren<QAction*>(), text);
+    if (found != nullptr) found->trigger();
     menu->close();
-    return found != actions.end();
+    return found != nullptr;
   }
   bool isChecked(const Point& place, const QString& text) {
     auto* menu = menuAt(place);

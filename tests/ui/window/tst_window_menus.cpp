@@ -21,6 +21,8 @@
 #include <ui/sources/timeline.h>
 #include <ui/window/main_window.h>
 
+#include "studio_rig.h"
+
 namespace tst_window_menus {
 
 using namespace pitchboard;
@@ -29,14 +31,8 @@ using namespace pitchboard::ui;
 class TestWindowMenus : public QObject {
   Q_OBJECT
 
-  struct Studio {
-    QTemporaryDir folder;
-    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-    MatchController controller;
-    MainWindow window;
-    Studio() : controller(options()), window(&controller, &settings) {
-      window.resize(1280, 800);
-      window.show();
+  struct Studio : studio_rig::Studio {
+    Studio() : studio_rig::Studio(options()) {
       controller.open(link::loadScenario("one-robot").value(), true);
     }
     static link::MatchOptions options() {

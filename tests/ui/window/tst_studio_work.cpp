@@ -26,7 +26,9 @@
 #include <ui/sources/match_edits.h>
 #include <ui/window/main_window.h>
 
+#include "../support/menu_entry.h"
 #include "../support/segment_keys.h"
+#include "studio_rig.h"
 
 namespace tst_studio_work {
 
@@ -46,16 +48,8 @@ class TestStudioWork : public QObject {
     made.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
     return made;
   }
-  struct Studio {
-    QTemporaryDir folder;
-    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-    MatchController controller;
-    MainWindow window;
-    explicit Studio(const link::MatchOptions& made)
-        : controller(made), window(&controller, &settings) {
-      window.resize(1280, 800);
-      window.show();
-    }
+  struct Studio : studio_rig::Studio {
+    using studio_rig::Studio::Studio;
     QPushButton* noticeButton(const QString& text) {
       for (auto* button : window.notices()->findChildren<QPushButton*>()) {
         if (button->text() == text && button->isVisible()) return button;
@@ -86,10 +80,10 @@ class TestStudioWork : public QObject {
     QTimer::singleShot(0, table, [&chosen, starts] {
       auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
       if (!menu) return;
-      for (QAction* action : menu->actions()) {
-        if (!action->text().startsWith(starts) || !action->isEnabled()) continue;
+      QAction* entry = menu_entry::beginning(menu->actions(), starts);
+      if (entry != nullptr && entry->isEnabled()) {
         chosen = true;
-        action->trigger();
+        entry->trigger();
       }
       menu->close();
     });

@@ -19,7 +19,9 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
+#include "../support/menu_entry.h"
 #include "../support/segment_keys.h"
+#include "studio_rig.h"
 
 namespace tst_main_window {
 
@@ -29,23 +31,12 @@ using namespace pitchboard::ui;
 class TestMainWindow : public QObject {
   Q_OBJECT
 
-  struct Studio {
-    QTemporaryDir folder;
-    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-    MatchController controller;
-    MainWindow window;
+  struct Studio : studio_rig::Studio {
     explicit Studio(bool paused = true, const link::MatchOptions& how = options(),
                     const char* scenario = "match-3v3")
-        : controller(how), window(&controller, &settings) {
+        : studio_rig::Studio(how) {
       controller.open(link::loadScenario(scenario).value(), paused);
       window.files()->showCurrent(QStringLiteral("match-3v3"));
-      window.resize(1280, 800);
-      window.show();
-    }
-    static link::MatchOptions options() {
-      link::MatchOptions made;
-      made.cognition = link::Cognition::Inline;
-      return made;
     }
     QWidget* button(const char* action) {
       auto* bar = window.findChild<QToolBar*>(QStringLiteral("transportBar"));
@@ -66,10 +57,7 @@ class TestMainWindow : public QObject {
       return false;
     }
     QAction* menuAction(const QString& text) {
-      for (QAction* action : window.findChildren<QAction*>()) {
-        if (action->text().remove(QLatin1Char('&')).startsWith(text)) return action;
-      }
-      return nullptr;
+      return menu_entry::beginning(window.findChildren<QAction*>(), text);
     }
   };
 

@@ -8,6 +8,7 @@
 #include <ui/base/theme.h>
 #include <ui/plots/plots_dock.h>
 
+#include "../support/menu_entry.h"
 #include "chart_pane.h"
 #include "lane_pane.h"
 #include "plot_page.h"
@@ -121,10 +122,7 @@ class TestXyPlots : public QObject {
     QVERIFY(std::abs(ratio() - 1.0) > 0.5);
     QMenu menu;
     xy->extendMenu(&menu);
-    QAction* equal = nullptr;
-    for (QAction* action : menu.actions()) {
-      if (action->text() == QStringLiteral("Equal scales")) equal = action;
-    }
+    QAction* equal = menu_entry::called(menu.actions(), QStringLiteral("Equal scales"));
     QVERIFY(equal && !equal->isChecked());
     equal->trigger();
     QVERIFY(xy->spec().equalScales);

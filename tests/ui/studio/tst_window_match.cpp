@@ -22,6 +22,7 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
+#include "../support/menu_entry.h"
 #include "../support/robot_keys.h"
 #include "field_scene.h"
 #include "menu_actions.h"
@@ -76,10 +77,7 @@ class TestWindowMatch : public QObject {
       return found;
     }
     QAction* entry(const char* name, const QString& text) {
-      for (QAction* action : menu(name)->actions()) {
-        if (action->text().remove(QLatin1Char('&')).startsWith(text)) return action;
-      }
-      return nullptr;
+      return menu_entry::beginning(menu(name)->actions(), text);
     }
     QString facts() {
       menu("matchNumber");

@@ -12,6 +12,7 @@
 #include <QToolButton>
 #include <QtTest>
 
+#include <ui/base/time_axis.h>
 #include <ui/base/words_filter.h>
 #include <ui/log/log_dock.h>
 #include <ui/sources/match_controller.h>
@@ -19,15 +20,14 @@
 #include <ui/sources/timeline.h>
 
 #include "log_model.h"
-#include "processes_model.h"
 
-namespace tst_log_and_processes {
+namespace tst_log {
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using Mode = QAbstractItemModelTester::FailureReportingMode;
 
-class TestLogAndProcesses : public QObject {
+class TestLog : public QObject {
   Q_OBJECT
 
   static std::vector<LogLine> lines(int count, int first = 0) {
@@ -36,14 +36,6 @@ class TestLogAndProcesses : public QObject {
       made.push_back({double(i), "B1 decision", "line " + std::to_string(first + i)});
     }
     return made;
-  }
-  static link::ProcessSummary process(int id, const char* name) {
-    link::ProcessSummary status;
-    status.id = id;
-    status.name = name;
-    status.state = link::ProcessSummary::State::Running;
-    status.pid = 4000 + id;
-    return status;
   }
 
   /// The panel with nothing but what the test says.
@@ -206,61 +198,25 @@ class TestLogAndProcesses : public QObject {
     QVERIFY(QString::fromStdString(line.text).contains(QStringLiteral("42")));
   }
 
-  void processesAreShownEach() {
-    ProcessesModel model;
-    const QAbstractItemModelTester tester(&model, Mode::QtTest);
-    const std::chrono::steady_clock::time_point begin{};
-    link::MatchFrame frame;
-    link::RobotFrame robot;
-    robot.identity = {RobotId{1}, TeamColor::Blue, 1, false};
-    frame.robots.push_back(robot);
-    std::vector<link::ProcessSummary> all{process(1, "decision"), process(2, "communication")};
-    const auto show = [&](std::chrono::seconds later) {
-      if (!frame.robots.empty()) {
-        frame.robots[0].processList =
-            std::make_shared<const std::vector<link::ProcessSummary>>(all);
-      }
-      model.update(frame, begin + later);
-    };
-    const auto text = [&model](int row, int column) {
-      return model.index(row, column).data().toString();
-    };
-    show(std::chrono::seconds(125));
-    QCOMPARE(model.rowCount(), 2);
-    QCOMPARE(text(0, ProcessesModel::State), QStringLiteral("running"));
-    QCOMPARE(text(0, ProcessesModel::Pid), QStringLiteral("4001"));
-    QCOMPARE(text(0, ProcessesModel::Uptime), QStringLiteral("2 min 5 s"));
-    QCOMPARE(text(0, ProcessesModel::Heartbeat), QString());
-    all[0].state = link::ProcessSummary::State::Restarting;
-    all[0].pid = 0;
-    all[0].detail = "exit code 2";
-    all[0].restarts = 3;
-    all[1].heartbeatAge = 0.2;
-    all[1].cpu = 0.125;
-    all[1].memoryBytes = 4'200'000;
-    all[1].lastLines = {"one", "two"};
-    QSignalSpy changed(&model, &QAbstractItemModel::dataChanged);
-    show(std::chrono::seconds(3725));
-    QCOMPARE(changed.count(), 2);
-    QCOMPARE(text(0, ProcessesModel::State), QStringLiteral("restarting (exit code 2)"));
-    QCOMPARE(text(0, ProcessesModel::Uptime), QString());
-    QCOMPARE(text(0, ProcessesModel::Restarts), QStringLiteral("3"));
-    QCOMPARE(text(1, ProcessesModel::Uptime), QStringLiteral("1 h 2 min"));
-    QCOMPARE(text(1, ProcessesModel::Heartbeat), QStringLiteral("0.2 s ago"));
-    QCOMPARE(text(1, ProcessesModel::Cpu), QStringLiteral("12.5 %"));
-    QCOMPARE(text(1, ProcessesModel::Memory), QStringLiteral("4.2 MB"));
-    QCOMPARE(text(1, ProcessesModel::LastOutput), QStringLiteral("two"));
-    all.push_back(process(3, "team"));
-    show(std::chrono::seconds(3726));
-    QCOMPARE(model.rowCount(), 3);
-    frame.robots.clear();
-    show(std::chrono::seconds(3727));
-    QCOMPARE(model.rowCount(), 0);
+  void twoWaysToWriteOneTime() {
+    const QDateTime clock(QDate(2026, 7, 4), QTime(14, 59, 58, 500));
+    QCOMPARE(momentText(2.25, 0, clock), QStringLiteral("15:00:00"));
+    QCOMPARE(momentText(2.25, 1, clock), QStringLiteral("15:00:00.7"));
+    QCOMPARE(momentText(2.25, 3, clock), QStringLiteral("15:00:00.750"));
+    QCOMPARE(momentText(2.25, 1, {}), QStringLiteral("00:02.2"));
+    LogModel log;
+    log.append({{2.25, "B1", "live", LogLevel::Info}}, clock);
+    log.append({{2.25, "B1", "simulated", LogLevel::Info}});
+    const auto time = [&log](int row) { return log.index(row, LogModel::Time).data().toString(); };
+    QCOMPARE(time(0), QStringLiteral("15:00:00.7"));
+    QCOMPARE(time(1), QStringLiteral("00:02.2"));
+    log.setTimesOfDay(false);
+    QCOMPARE(time(0), time(1));
   }
 };
 
-PITCHBOARD_GUI_TEST(TestLogAndProcesses)
+PITCHBOARD_GUI_TEST(TestLog)
 
-}  // namespace tst_log_and_processes
+}  // namespace tst_log
 
-#include "tst_log_and_processes.moc"
+#include "tst_log.moc"

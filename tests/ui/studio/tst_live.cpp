@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QElapsedTimer>
 #include <QtTest>
+#include <optional>
 
 #include <simcore/world/published_frame.h>
 #include <ui/base/notice_bar.h>
@@ -190,12 +191,9 @@ class TestLive : public QObject {
 
   void aTakenPortIsNamedAndTheOthersWork() {
     Studio s;
-    const int stubborn = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    sockaddr_in name{};
-    name.sin_family = AF_INET;
-    name.sin_port = htons(static_cast<std::uint16_t>(s.options.portBase + 5));
-    name.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    QCOMPARE(bind(stubborn, reinterpret_cast<sockaddr*>(&name), sizeof name), 0);
+    std::optional<TestSocket> stubborn;
+    stubborn.emplace(INADDR_LOOPBACK, s.options.portBase + 5);
+    QVERIFY(stubborn->good());
     s.window.showSource(SourceKind::Live);
     QTRY_COMPARE(s.bound(), std::size_t(16));
     QTRY_VERIFY(s.window.notices()->text().contains(QString::number(s.options.portBase + 5)));
@@ -203,7 +201,7 @@ class TestLive : public QObject {
     const Robot robot(s.options, 6);
     QVERIFY(robot.say());
     QTRY_COMPARE(s.robots(), std::size_t(1));
-    close(stubborn);
+    stubborn.reset();
     QTRY_COMPARE_WITH_TIMEOUT(s.bound(), std::size_t(17), 30'000);
   }
 

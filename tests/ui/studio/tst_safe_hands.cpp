@@ -22,6 +22,7 @@
 #include <ui/robots/robots_dock.h>
 #include <ui/sources/match_edits.h>
 
+#include "../support/menu_entry.h"
 #include "../support/mouse_wheel.h"
 #include "../support/robot_keys.h"
 #include "field_keys.h"
@@ -79,13 +80,6 @@ void whenMenuOpens(Answer answer) {
     answer(menu);
     menu->close();
   });
-}
-
-QAction* entryOf(const QMenu* menu, const QString& text) {
-  for (QAction* action : menu->actions()) {
-    if (action->text() == text) return action;
-  }
-  return nullptr;
 }
 
 }  // namespace
@@ -247,10 +241,10 @@ class TestSafeHands : public QObject {
     RobotCard* card = s.window.findChild<RobotsDock*>()->cards().first();
     whenMenuOpens([](QMenu* menu) {
       for (const char* text : {"Order", "Behaviour", "Runtime", "Team", "Remove B1"}) {
-        QVERIFY2(entryOf(menu, QString::fromUtf8(text)), text);
-        QVERIFY2(!entryOf(menu, QString::fromUtf8(text))->isEnabled(), text);
+        QVERIFY2(menu_entry::called(menu->actions(), QString::fromUtf8(text)), text);
+        QVERIFY2(!menu_entry::called(menu->actions(), QString::fromUtf8(text))->isEnabled(), text);
       }
-      QVERIFY(entryOf(menu, QStringLiteral("Follow"))->isEnabled());
+      QVERIFY(menu_entry::called(menu->actions(), QStringLiteral("Follow"))->isEnabled());
     });
     emit card->menuRequested(card->mapToGlobal(QPoint(20, 20)));
     for (const auto order : {&MatchEdits::startProcess, &MatchEdits::stopProcess,
@@ -300,7 +294,8 @@ class TestSafeHands : public QObject {
     QCOMPARE(dock->cards().size(), qsizetype(5));
 
     whenMenuOpens([](QMenu* menu) {
-      QAction* entry = entryOf(menu, QStringLiteral("In a window of its own"));
+      QAction* entry =
+          menu_entry::called(menu->actions(), QStringLiteral("In a window of its own"));
       QVERIFY(entry);
       entry->trigger();
     });

@@ -26,6 +26,7 @@
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/source_switch.h>
 
+#include "../support/menu_entry.h"
 #include "live_rig.h"
 #include "session_rig.h"
 
@@ -239,9 +240,9 @@ void TestSituationTests::theDialogSaysWhatCannotBe() {
   auto* out = dialog->findChildren<QCheckBox*>().at(2);
   QCOMPARE(out->text(), QStringLiteral("ball out"));
   QVERIFY(!out->isChecked());
-  for (QAction* one : in<QToolButton>(dialog, "testTemplates")->menu()->actions()) {
-    if (one->text().startsWith(QStringLiteral("The ball stays"))) one->trigger();
-  }
+  menu_entry::beginning(in<QToolButton>(dialog, "testTemplates")->menu()->actions(),
+                        QStringLiteral("The ball stays"))
+      ->trigger();
   QVERIFY(out->isChecked());
   QVERIFY(assertions->toPlainText().endsWith(QStringLiteral("\nball_out_rate <= 0.1")));
   QVERIFY(save->isEnabled());

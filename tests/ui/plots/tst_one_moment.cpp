@@ -8,6 +8,7 @@
 #include <ui/sources/timeline.h>
 #include <ui/timeline/timeline_actions.h>
 
+#include "../support/menu_entry.h"
 #include "../support/robot_keys.h"
 #include "chart_pane.h"
 #include "legend_bar.h"
@@ -219,10 +220,7 @@ class TestOneMoment : public QObject {
     auto* shown = menu.findChild<QMenu*>(QStringLiteral("eventsShown"));
     const auto entry = [shown](const QString& text) {
       emit shown->aboutToShow();
-      for (QAction* action : shown->actions()) {
-        if (action->text().startsWith(text)) return action;
-      }
-      return static_cast<QAction*>(nullptr);
+      return menu_entry::beginning(shown->actions(), text);
     };
     QVERIFY(entry(QStringLiteral("Kicks the ball (2)")));
     entry(QStringLiteral("Kicks the ball"))->trigger();
@@ -232,10 +230,10 @@ class TestOneMoment : public QObject {
     b.actions.previous()->trigger();
     QCOMPARE(b.timeline.shownTime(), 10.0);
     QVERIFY(!b.timeline.goToNextEvent());
-    entry(QStringLiteral("&All"))->trigger();
+    entry(QStringLiteral("All"))->trigger();
     b.actions.next()->trigger();
     QCOMPARE(b.timeline.shownTime(), 15.0);
-    QVERIFY(!entry(QStringLiteral("&All"))->isEnabled());
+    QVERIFY(!entry(QStringLiteral("All"))->isEnabled());
   }
 };
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the referee says, in words and as a table, and times as time of day or from the beginning:
-// values made by hand, no network.
+// What the referee says, in words and as a table: values made by hand, no network.
 
 #include <QAbstractItemModelTester>
 #include <QtTest>
 
 #include <ui/base/referee_words.h>
-#include <ui/base/time_axis.h>
 
-#include "log_model.h"
 #include "referee_model.h"
 
 namespace tst_referee_panel {
@@ -98,22 +95,6 @@ class TestRefereePanel : public QObject {
     QVERIFY(cell(1, RefereeModel::Robot).isEmpty());
     model.update({}, {});
     QCOMPARE(model.rowCount(), 0);
-  }
-
-  void twoWaysToWriteOneTime() {
-    const QDateTime clock(QDate(2026, 7, 4), QTime(14, 59, 58, 500));
-    QCOMPARE(momentText(2.25, 0, clock), QStringLiteral("15:00:00"));
-    QCOMPARE(momentText(2.25, 1, clock), QStringLiteral("15:00:00.7"));
-    QCOMPARE(momentText(2.25, 3, clock), QStringLiteral("15:00:00.750"));
-    QCOMPARE(momentText(2.25, 1, {}), QStringLiteral("00:02.2"));
-    LogModel log;
-    log.append({{2.25, "B1", "live", LogLevel::Info}}, clock);
-    log.append({{2.25, "B1", "simulated", LogLevel::Info}});
-    const auto time = [&log](int row) { return log.index(row, LogModel::Time).data().toString(); };
-    QCOMPARE(time(0), QStringLiteral("15:00:00.7"));
-    QCOMPARE(time(1), QStringLiteral("00:02.2"));
-    log.setTimesOfDay(false);
-    QCOMPARE(time(0), time(1));
   }
 };
 

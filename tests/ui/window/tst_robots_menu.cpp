@@ -20,7 +20,9 @@
 #include <ui/sources/match_edits.h>
 #include <ui/window/main_window.h>
 
+#include "../support/menu_entry.h"
 #include "../support/robot_keys.h"
+#include "studio_rig.h"
 
 namespace tst_robots_menu {
 
@@ -30,12 +32,8 @@ using namespace pitchboard::ui;
 class TestRobotsMenu : public QObject {
   Q_OBJECT
 
-  struct Studio {
-    QTemporaryDir folder;
-    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-    MatchController controller;
-    MainWindow window;
-    explicit Studio(int more = 0) : controller(options()), window(&controller, &settings) {
+  struct Studio : studio_rig::Studio {
+    explicit Studio(int more = 0) {
       link::Scenario scenario = link::loadScenario("match-3v3").value();
       for (int i = 0; i < more; ++i) {
         link::ScenarioRobot robot;
@@ -45,37 +43,12 @@ class TestRobotsMenu : public QObject {
         scenario.robots.push_back(robot);
       }
       controller.open(scenario, true);
-      window.resize(1280, 800);
-      window.show();
-    }
-    static link::MatchOptions options() {
-      link::MatchOptions made;
-      made.cognition = link::Cognition::Inline;
-      return made;
     }
     RobotsDock* dock() { return window.findChild<RobotsDock*>(); }
     QList<RobotCard*> cards() { return dock()->cards(); }
-    QMenu* robotsMenu() {
-      for (QAction* action : window.menuBar()->actions()) {
-        if (action->text() != QStringLiteral("&Robots")) continue;
-        emit action->menu()->aboutToShow();
-        return action->menu();
-      }
-      return nullptr;
-    }
-    /// Goes down the menu by these texts.
+    /// Of the menu Robots.
     QAction* entry(const QStringList& path) {
-      QMenu* menu = robotsMenu();
-      QAction* found = nullptr;
-      for (const QString& text : path) {
-        found = nullptr;
-        for (QAction* action : menu->actions()) {
-          if (action->text() == text) found = action;
-        }
-        if (found == nullptr) return nullptr;
-        menu = found->menu();
-      }
-      return found;
+      return menu_entry::downFrom(window.menuBar(), QStringList("Robots") + path);
     }
     bool trigger(const QStringList& path) {
       QAction* found = entry(path);

@@ -17,6 +17,7 @@
 #include <ui/sources/replay_controller.h>
 
 #include "../robotlink/frame_difference.h"
+#include "../support/menu_entry.h"
 #include "../support/robot_keys.h"
 #include "chart_pane.h"
 #include "live_rig.h"
@@ -267,11 +268,8 @@ class TestSessionAttached : public QObject {
     QAction* forget = nullptr;
     const auto isOffered = [&] {
       s.window.field()->select({heardAs(2)});  // not before the field has it, too
-      for (QAction* action : s.window.menuBar()->actions()) {
-        if (action->text() != QStringLiteral("&Robots")) continue;
-        emit action->menu()->aboutToShow();
-        forget = action->menu()->findChild<QAction*>(QStringLiteral("forgetRobot"));
-      }
+      const QAction* robots = menu_entry::downFrom(s.window.menuBar(), {"Robots"});
+      forget = robots->menu()->findChild<QAction*>(QStringLiteral("forgetRobot"));
       return forget != nullptr;
     };
     QTRY_VERIFY(isOffered());

@@ -17,6 +17,7 @@
 #include <ui/window/main_window.h>
 
 #include "live_rig.h"
+#include "studio_rig.h"
 
 namespace {
 
@@ -84,15 +85,9 @@ using namespace pitchboard::ui;
 class TestLiveIsSilent : public QObject {
   Q_OBJECT
 
-  struct Studio {
-    QTemporaryDir folder;
-    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-    MatchController controller{link::MatchOptions()};
-    MainWindow window{&controller, &settings};
+  struct Studio : studio_rig::Studio {
     link::LiveOptions options = live_rig::options();
     Studio() {
-      window.resize(1280, 800);
-      window.show();
       window.live()->setOptions(options);
       window.showSource(SourceKind::Live);
     }

@@ -16,6 +16,7 @@
 #include <ui/sources/match_edits.h>
 #include <ui/sources/robot_menus.h>
 
+#include "../support/menu_entry.h"
 #include "../support/segment_keys.h"
 
 namespace tst_runtime_menu {
@@ -72,12 +73,9 @@ class TestRuntimeMenu : public QObject {
     QMenu* runtime = menu.actions().front()->menu();
     runtime->popup(QPoint(20, 20));
     QVERIFY(QTest::qWaitForWindowExposed(runtime));
-    for (QAction* action : runtime->actions()) {
-      if (!action->text().startsWith(starts)) continue;
-      QTest::mouseClick(runtime, Qt::LeftButton, {}, runtime->actionGeometry(action).center());
-      return;
-    }
-    QFAIL(qPrintable(starts));
+    QAction* entry = menu_entry::beginning(runtime->actions(), starts);
+    QVERIFY2(entry, qPrintable(starts));
+    QTest::mouseClick(runtime, Qt::LeftButton, {}, runtime->actionGeometry(entry).center());
   }
 
  private slots:

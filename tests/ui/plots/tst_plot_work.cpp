@@ -16,6 +16,7 @@
 #include <ui/base/theme.h>
 #include <ui/plots/plot_menus.h>
 
+#include "../support/menu_entry.h"
 #include "../support/mouse_wheel.h"
 #include "chart_pane.h"
 #include "curve_dialog.h"
@@ -251,9 +252,7 @@ class TestPlotWork : public QObject {
     b.dock->plotVariables({QStringLiteral("B1/ACTION")});
     QCOMPARE(b.dock->currentPage()->panes().size(), 2);
     const std::unique_ptr<QMenu> menu(makePlotsMenu(b.dock.get()));
-    for (QAction* action : menu->actions()) {
-      if (action->text() == QStringLiteral("Remove all plots of the tab")) action->trigger();
-    }
+    menu_entry::called(menu->actions(), QStringLiteral("Remove all plots of the tab"))->trigger();
     QVERIFY(b.dock->currentPage()->panes().isEmpty());
     b.dock->undoStack()->undo();
     QCOMPARE(b.dock->currentPage()->panes().size(), 2);
