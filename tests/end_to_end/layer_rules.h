@@ -30,7 +30,7 @@ struct SourceFile {
 inline QStringList all(const QString& library) {
   static const QHash<QString, QStringList> rooms{
       {"simcore", {"base", "world", "rules", "physics", "simulation"}},
-      {"telemetry", {"wire", "series", "expression", "mcap", "session"}},
+      {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session"}},
       {"robotlink",
        {"blackboard", "processes", "models", "cognition", "scenario", "frame", "match", "live",
         "session", "report", "experiment", "conformance", "capi"}},
@@ -62,6 +62,8 @@ inline const QList<Room>& table() {
         {simulation, {base, world, "simcore/rules", physics}, {}},
         {"resources", {}, {}},
         {wire, {base, "resources"}, {"google/protobuf/", "messages/", "nlohmann/"}},
+        // Shared with the robot's agent, which is small.
+        {"telemetry/pb2", {base}, {}},
         {series, {base}, {}},
         {"telemetry/expression", {base}, {"muParser.h"}},
         {"telemetry/mcap", {base}, {"zlib.h", "zstd.h"}},
