@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
   constexpr int refused = 2;
   const auto arguments =
       agent::parseArguments(std::span<const char* const>(argv, static_cast<std::size_t>(argc))
-                                .subspan(std::min(argc, 1)));
+                                .subspan(static_cast<std::size_t>(std::min(argc, 1))));
   if (!arguments) {
     std::fprintf(stderr, "error: %s\nRun with --help for the options and an example.\n",
                  arguments.error().text().c_str());

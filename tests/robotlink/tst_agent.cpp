@@ -205,7 +205,9 @@ class TestAgent : public QObject {
     };
     QTRY_VERIFY(heard());
     for (int i = 0; i < 2000; ++i) {
-      QVERIFY(agent.socket().send(ntohs(from.sin_port), std::string(1 + i % 1500, char(i))));
+      QVERIFY(agent.socket().send(
+          ntohs(from.sin_port),
+          std::string(1 + static_cast<std::size_t>(i) % 1500, static_cast<char>(i))));
     }
     const int before = agent.datagrams;
     auto board = SystemVSegments::open(m_key, AttachMode::AttachOnly);
