@@ -20,7 +20,7 @@ DOCUMENTS = ["*.md", "docs/**/*.md"]
 FOREIGN_OPTIONS = {
     "--preset", "--build", "--target", "--install", "--prefix", "--output-on-failure", "--parallel",
     "--recursive", "--array", "--version", "--help", "--benchmark_filter", "--no-install-recommends", "--test-dir",
-    "--benchmark_repetitions", "--benchmark_enable_random_interleaving", "--cflags", "--libs",
+    "--now", "--benchmark_repetitions", "--benchmark_enable_random_interleaving", "--cflags", "--libs",
 }
 SOURCES = (".h", ".cpp", ".py", ".sh", ".json", ".md", ".mjs", ".txt", ".cmake", ".supp", ".dict", ".svg",
            ".png", ".bin", ".mcap")

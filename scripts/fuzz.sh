@@ -67,6 +67,8 @@ printf 'PBD1 3 12\nlayer a/b robot 0.5\ncolour #11223344\nwidth 3\narrow 0 0 1.5
   > "$seeds/drawings/shapes.txt"
 printf '1 450 300 90 12 83 -4 1 1 1 1 1 8 1.57 148 OUT\nPBD1 1\nlayer b belief 2\npolygon 0 0 1 0 1 1\n' \
   > "$seeds/drawings/message.txt"
+printf 'PB2 3 7 4500300 @REFRESH=2000 @WAITING=0 @BLACKBOARD=1 DECISION_ACTION_A=1 IMU_EULER_Z=-1.5707964 VOLTAGE=189 OUT' \
+  > "$seeds/pb2/message.txt"
 grep '^→ ' docs/LEARNING.md | sed 's/^→ //; s/"scenario": "one-robot", //; s/"ticks": [0-9]*/"ticks": 2/' \
   > "$seeds/lines/conversation.txt"
 number=0

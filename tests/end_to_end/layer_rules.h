@@ -30,7 +30,7 @@ struct SourceFile {
 inline QStringList all(const QString& library) {
   static const QHash<QString, QStringList> rooms{
       {"simcore", {"base", "world", "rules", "physics", "simulation"}},
-      {"telemetry", {"wire", "series", "expression", "mcap", "session"}},
+      {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session"}},
       {"robotlink",
        {"blackboard", "processes", "models", "cognition", "scenario", "frame", "match", "live",
         "session", "report", "experiment", "conformance", "capi"}},
@@ -62,6 +62,8 @@ inline const QList<Room>& table() {
         {simulation, {base, world, "simcore/rules", physics}, {}},
         {"resources", {}, {}},
         {wire, {base, "resources"}, {"google/protobuf/", "messages/", "nlohmann/"}},
+        // Shared with the robot's agent, which is small.
+        {"telemetry/pb2", {base}, {}},
         {series, {base}, {}},
         {"telemetry/expression", {base}, {"muParser.h"}},
         {"telemetry/mcap", {base}, {"zlib.h", "zstd.h"}},
@@ -98,6 +100,8 @@ inline const QList<Room>& table() {
         {"app/robot",
          {base, world, wire, board, processes, models, cognition, "app/shared"},
          {"CLI/"}},
+        // For the robot's computer: one small static program without packages.
+        {"app/agent", {base, "telemetry/pb2", wire, board}, {}},
         {"app/cli", belowUi + QStringList{"app/shared"}, {"CLI/", "nlohmann/"}},
         {"app/studio",
          belowUi + QStringList{"ui/base", "ui/sources", "ui/field", "ui/session", "ui/window",
@@ -203,9 +207,10 @@ struct Links {
 
 inline QList<Links> linksOf(const SourceFile& cmake) {
   static const QRegularExpression call(
-      QStringLiteral("pitchboard_(room|program|app_part)\\(([^)]*)\\)"));
+      QStringLiteral("(?:pitchboard|add)_(room|program|app_part|executable)\\(([^)]*)\\)"));
   static const QRegularExpression space(QStringLiteral("\\s+"));
   static const QHash<QString, QString> programs{{"pitchboard", "app/studio"},
+                                                {"pitchboard-agent", "app/agent"},
                                                 {"pitchboard-cli", "app/cli"},
                                                 {"pitchboard-robot", "app/robot"}};
   QList<Links> found;
@@ -213,9 +218,10 @@ inline QList<Links> linksOf(const SourceFile& cmake) {
     const auto match = matches.next();
     const QStringList words = match.captured(2).split(space, Qt::SkipEmptyParts);
     Links links;
-    links.folder = match.captured(1) == "room"      ? words.value(0) + '/' + words.value(1)
-                   : match.captured(1) == "program" ? programs.value(words.value(0), words.value(0))
-                                                    : QStringLiteral("app/shared");
+    links.folder = match.captured(1) == "room" ? words.value(0) + '/' + words.value(1)
+                   : match.captured(1) == "app_part"
+                       ? QStringLiteral("app/shared")
+                       : programs.value(words.value(0), words.value(0));
     QString part;
     for (const QString& word : words) {
       if (QStringList{"SOURCES", "PUBLIC", "PRIVATE", "LIBS"}.contains(word)) {

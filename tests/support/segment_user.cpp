@@ -5,13 +5,18 @@
 //   claim   takes the claim of a bridge, says "y" or "n", stays until it is killed
 //   leave   creates a segment and ends: an orphan
 //   write   writes through a read-only attachment, which must not end well
+//   count   attaches or creates, says "y", writes as fast as it can until it is killed: int 0
+//   counts on from what
+//           stands there, int 1 has four equal bytes, and so have the lower three of float 0
 //   fork    attaches, lets a forked child destroy its copy, says whether the segment is still there
 #include <sys/ipc.h>
 #include <sys/shm.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <bit>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -41,6 +46,19 @@ int forkAndDestroy(int key) {
   return 0;
 }
 
+[[noreturn]] void count(int key) {
+  auto board = SystemVSegments::open(key, AttachMode::AttachOrCreate);
+  std::puts(board ? "y" : "n");
+  std::fflush(stdout);
+  if (!board) std::exit(1);
+  for (std::uint32_t n = static_cast<std::uint32_t>(board->read(IntVar{0}));; ++n) {
+    const std::uint32_t byte = n & 0xffU;
+    board->write(IntVar{0}, static_cast<int>(n));
+    board->write(IntVar{1}, std::bit_cast<int>(byte * 0x01010101U));
+    board->write(FloatVar{0}, std::bit_cast<float>(0x3f000000U | byte * 0x00010101U));
+  }
+}
+
 int writeReadOnly(int key) {
   std::signal(SIGSEGV, SIG_DFL);
   auto board = SystemVSegments::open(key, AttachMode::ReadOnly);
@@ -64,6 +82,7 @@ int main(int argc, char** argv) {
   }
   if (deed == "leave") return shmget(key, 2048, IPC_CREAT | IPC_EXCL | 0600) < 0 ? 1 : 0;
   if (deed == "write") return writeReadOnly(key);
+  if (deed == "count") count(key);
   if (deed == "fork") return forkAndDestroy(key);
   return 2;
 }

@@ -76,4 +76,9 @@ bool SegmentView::isThere() const {
   return info && info->shmid == m_shmid;
 }
 
+bool SegmentView::isShared() const {
+  shmid_ds status{};
+  return shmctl(m_shmid, IPC_STAT, &status) == 0 && status.shm_nattch > 1;
+}
+
 }  // namespace pitchboard::link

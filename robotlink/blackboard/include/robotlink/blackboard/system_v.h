@@ -69,6 +69,8 @@ class SegmentView {
   std::uint32_t word(std::size_t index) const;
   /// False once it was removed, or another one has its key.
   bool isThere() const;
+  /// Whether anybody else has it attached, also after it was removed.
+  bool isShared() const;
 
  private:
   SegmentView(const void* address, int key, int shmid, std::size_t bytes);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The agent's command line. Read by hand: a library for it would be larger than the rest of the
+// program.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <base/result.h>
+#include <robotlink/blackboard/variable_catalog.h>
+#include <telemetry/wire/datagram.h>
+
+namespace pitchboard::agent {
+
+struct Receiver {
+  telemetry::Address address;
+  std::optional<int> port;  ///< nothing: 1340 + the robot's number
+};
+
+struct Arguments {
+  static constexpr double slowest = 1.0, fastest = 100.0;      ///< Hz
+  static constexpr double leastLimit = 16.0, mostLimit = 1e6;  ///< kbit/s
+  static constexpr std::size_t mostReceivers = 16;
+
+  int robot = 0;
+  std::optional<int> key;
+  std::string catalog;  ///< a file; empty: the published map
+  double rate = 20.0;
+  std::vector<std::string> globs;  ///< empty: every variable
+  std::vector<Receiver> receivers;
+  std::optional<double> limit;  ///< kbit/s
+  bool help = false, version = false;
+};
+
+extern const char* const helpText;
+
+/// Without the program's name. Error InvalidArgument with the option and what it should be.
+Result<Arguments> parseArguments(std::span<const char* const> words);
+
+/// `*` stands for any characters, `?` for one.
+bool matchesGlob(std::string_view glob, std::string_view name);
+
+/// Those that match one of the globs, in the catalog's order. Error NotFound for a glob that
+/// matches none, Unsupported for a name that is too long to be sent.
+Result<std::vector<link::Variable>> chosenVariables(const link::VariableCatalog& catalog,
+                                                    std::span<const std::string> globs);
+
+}  // namespace pitchboard::agent

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What pitchboard-agent costs: scripts/agent_cost.py [PROGRAM]
+
+Starts the agent on a blackboard of its own, lets variables change, and prints a table: bandwidth with IP and UDP
+headers, datagrams a second, processor time and memory. PROGRAM: build/release/bin/pitchboard-agent unless given.
+"""
+import ctypes
+import os
+import random
+import socket
+import struct
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+WORDS, FLOAT_OFFSET = 512, 125
+HEADERS = 28  # bytes of IP and UDP
+
+
+class Segment:
+    """A blackboard that nobody else uses."""
+
+    def __init__(self, key):
+        self.libc = ctypes.CDLL(None, use_errno=True)
+        self.libc.shmat.restype = ctypes.c_void_p
+        self.libc.shmat.argtypes = [ctypes.c_int, ctypes.c_void_p, ctypes.c_int]
+        self.key = key
+        self.shmid = self.libc.shmget(key, 4 * WORDS, 0o3600)  # IPC_CREAT | IPC_EXCL | 0600
+        if self.shmid < 0:
+            raise OSError(ctypes.get_errno(), "cannot create blackboard %d" % key)
+        self.words = (ctypes.c_uint32 * WORDS).from_address(self.libc.shmat(self.shmid, None, 0))
+
+    def remove(self):
+        self.libc.shmctl(self.shmid, 0, None)
+
+
+def listener():
+    out = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    out.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
+    out.bind(("127.0.0.1", 0))
+    return out
+
+
+def own_key():
+    return 100 * (10_000_000 + os.getpid())
+
+
+def cpu_seconds(process):
+    fields = Path("/proc/%d/stat" % process).read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def measure(program, names, rate, changing, seconds=6.0, limit=None):
+    segment, ears = Segment(own_key()), listener()
+    agent = None
+    try:
+        command = [str(program), "--robot", "1", "--key", str(segment.key), "--rate", str(rate),
+                   "--to", "127.0.0.1:%d" % ears.getsockname()[1]] + names
+        agent = subprocess.Popen(command + (["--limit", str(limit)] if limit else []), stderr=subprocess.DEVNULL)
+        total = datagrams = 0
+        begin, cpu = time.monotonic() + 2.0, None
+        step = 1.0 / rate
+        while True:
+            now = time.monotonic()
+            if cpu is None and now >= begin:
+                cpu, total, datagrams = cpu_seconds(agent.pid), 0, 0
+            if now >= begin + seconds:
+                break
+            for word in range(WORDS):
+                if random.random() < changing:
+                    number = random.uniform(-300, 300)
+                    segment.words[word] = (int(number) & 0xffffffff if word < FLOAT_OFFSET else
+                                           struct.unpack("I", struct.pack("f", number))[0])
+            ears.settimeout(step)
+            until = now + step
+            while time.monotonic() < until:
+                ears.settimeout(max(until - time.monotonic(), 1e-4))
+                try:
+                    total += len(ears.recv(2000)) + HEADERS
+                    datagrams += 1
+                except socket.timeout:
+                    break
+        cpu = cpu_seconds(agent.pid) - cpu
+        status = Path("/proc/%d/status" % agent.pid).read_text()
+        memory = int(status.split("VmHWM:")[1].split()[0])
+        return total * 8 / 1000 / seconds, datagrams / seconds, 100 * cpu / seconds, memory
+    finally:
+        if agent:
+            agent.kill()
+            agent.wait()
+        segment.remove()
+
+
+def main():
+    program = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build/release/bin/pitchboard-agent"
+    few = ["--variables", "LOCALIZATION_X,LOCALIZATION_Y,LOCALIZATION_THETA,VISION_BALL_DIST,VISION_BALL_ANGLE,"
+           "DECISION_ACTION_?,IMU_EULER_?,VOLTAGE"]
+    print("| variables | changing at each tick | rate | limit | kbit/s | datagrams/s | CPU of a core | memory |")
+    print("|---|---|---|---|---|---|---|---|")
+    for names, label in ((few, "11"), ([], "205")):
+        for rate in (5, 20, 50):
+            for changing in (0.0, 0.1, 1.0):
+                kbit, datagrams, cpu, memory = measure(program, names, rate, changing)
+                print("| %s | %d %% | %d Hz | none | %.0f | %.0f | %.1f %% | %.1f MB |" %
+                      (label, 100 * changing, rate, kbit, datagrams, cpu, memory / 1024), flush=True)
+    kbit, datagrams, cpu, memory = measure(program, [], 20, 1.0, limit=200)
+    print("| 205 | 100 %% | 20 Hz | 200 | %.0f | %.0f | %.1f %% | %.1f MB |" % (kbit, datagrams, cpu, memory / 1024))
+
+
+if __name__ == "__main__":
+    main()

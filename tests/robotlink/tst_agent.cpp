@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// pitchboard-agent beside other programs on a blackboard: what it sends is what they wrote, and
+// nothing that happens to them or comes from the network stops it.
+#include <elf.h>
+
+#include <QFile>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <set>
+
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/blackboard/variable_catalog.h>
+#include <telemetry/pb2/pb2.h>
+
+#include "../support/segment_keys.h"
+#include "../support/test_socket.h"
+
+namespace tst_agent {
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+/// The agent, and who listens to it.
+class Agent {
+ public:
+  explicit Agent(const QStringList& options) {
+    m_process.setProcessChannelMode(QProcess::SeparateChannels);
+    m_process.start(
+        QStringLiteral(PITCHBOARD_BIN "/pitchboard-agent"),
+        QStringList{"--robot", "3", "--to", QStringLiteral("127.0.0.1:%1").arg(m_socket.port())} +
+            options);
+  }
+  ~Agent() {
+    m_process.kill();
+    m_process.waitForFinished();
+  }
+
+  /// All that has come; false when something of it is not a message.
+  bool take() {
+    for (std::string text = m_socket.take(); !text.empty(); text = m_socket.take()) {
+      const auto message = telemetry::parsePb2(text);
+      if (!message) return false;
+      ++datagrams;
+      if (text.size() > telemetry::Pb2Limits::bytes) return false;
+      if (message->status.blackboard) status = message->status;
+      for (const auto& value : message->values) {
+        values[QByteArray(value.name.data(), static_cast<qsizetype>(value.name.size()))].push_back(
+            value.value);
+      }
+    }
+    return true;
+  }
+  bool hasLast(const QByteArray& name, double value) {
+    return take() && !values[name].empty() && values[name].back() == value;
+  }
+  QString said() { return m_said += QString::fromUtf8(m_process.readAllStandardError()); }
+  bool runs() const { return m_process.state() == QProcess::Running; }
+  qint64 process() const { return m_process.processId(); }
+  const TestSocket& socket() const { return m_socket; }
+
+  std::map<QByteArray, std::vector<double>> values;
+  telemetry::Pb2Status status;
+  int datagrams = 0;
+
+ private:
+  TestSocket m_socket;
+  QProcess m_process;
+  QString m_said;
+};
+
+/// A program that uses the segment (tests/support/segment_user.cpp).
+class User {
+ public:
+  User(const char* deed, int key) {
+    m_process.start(SEGMENT_USER, {deed, QString::number(key)});
+    good = m_process.waitForReadyRead(30'000) && m_process.readAll().startsWith("y");
+  }
+  ~User() {
+    m_process.kill();
+    m_process.waitForFinished();
+  }
+  bool good;
+
+ private:
+  QProcess m_process;
+};
+
+/// Names for the words that segment_user writes, one to four bytes.
+QString writeCatalog(const QTemporaryDir& folder, const QByteArray& text) {
+  QFile file(folder.filePath("map.json"));
+  if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size()) return {};
+  return file.fileName();
+}
+
+}  // namespace
+
+class TestAgent : public QObject {
+  Q_OBJECT
+ private slots:
+  void init() { m_key = testKeyBase() + 300 + 100 * m_number++; }
+  void cleanup() { removeSegment(m_key); }
+
+  void itWaitsForTheBlackboard() {
+    Agent agent({"--key", QString::number(m_key)});
+    QTRY_VERIFY(agent.take() && agent.status.blackboard == false);
+    QTRY_VERIFY(agent.said().contains(QStringLiteral("waiting for blackboard %1").arg(m_key)));
+    auto board = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
+    QVERIFY(board);
+    board->write(IntVar{17}, 42);
+    board->write(FloatVar{2}, -1.25F);
+    QTRY_VERIFY(agent.hasLast("DECISION_ACTION_A", 42));
+    QTRY_VERIFY(agent.take() && agent.status.blackboard == true);
+    // Every variable of the published map, under its name.
+    QTRY_COMPARE((agent.take(), agent.values.size()), std::size_t{205});
+    for (const Variable& variable : VariableCatalog::published().variables()) {
+      QVERIFY(agent.values.contains(QByteArray::fromStdString(variable.name)));
+    }
+    QVERIFY(SystemVSegments::info(m_key)->attached == 2);
+  }
+
+  // A removed segment is read on while the robot's programs use it, and left for a new one.
+  void itFollowsANewBlackboard() {
+    auto board = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
+    QVERIFY(board);
+    Agent agent({"--key", QString::number(m_key)});
+    board->write(IntVar{17}, 1);
+    QTRY_VERIFY(agent.hasLast("DECISION_ACTION_A", 1));
+    QVERIFY(SystemVSegments::remove(m_key));
+    board->write(IntVar{17}, 2);
+    QTRY_VERIFY(agent.said().contains("still use it"));
+    board->write(IntVar{17}, 3);
+    QTRY_VERIFY(agent.hasLast("DECISION_ACTION_A", 3));
+    {
+      auto second = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
+      QVERIFY(second && second->created());
+      second->write(IntVar{17}, 4);
+      QTRY_VERIFY(agent.hasLast("DECISION_ACTION_A", 4));
+      board->write(IntVar{17}, 5);
+    }  // removes it, and nobody uses it any more
+    QTRY_VERIFY(agent.take() && agent.status.blackboard == false);
+    const auto third = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
+    QVERIFY(third);
+    QTRY_VERIFY(agent.hasLast("DECISION_ACTION_A", 0));
+    const auto& values = agent.values["DECISION_ACTION_A"];
+    QVERIFY(std::ranges::find(values, 5.0) == values.end());
+    QVERIFY(agent.runs());
+  }
+
+  void aSegmentOfAnotherSizeIsToldOnce() {
+    QVERIFY(shmget(m_key, 4096, IPC_CREAT | IPC_EXCL | 0600) >= 0);
+    Agent agent({"--key", QString::number(m_key)});
+    QTRY_VERIFY(agent.said().contains("has 4096 bytes, not 2048"));
+    QTRY_VERIFY(agent.take() && agent.datagrams >= 2);
+    QCOMPARE(agent.said().count("4096"), 1);
+    removeSegment(m_key);
+    QVERIFY(SystemVSegments::create(m_key));
+    QTRY_VERIFY(agent.take() && agent.status.blackboard == true);
+  }
+
+  // Also while the robot's program is killed and started again.
+  void whatAProgramWritesIsSentInOrderAndWhole() {
+    QTemporaryDir folder;
+    const QString map =
+        writeCatalog(folder, R"({"int": {"COUNT": 0, "BYTES": 1}, "float": {"SINGLE": 0}})");
+    Agent agent({"--key", QString::number(m_key), "--rate", "100", "--catalog", map});
+    for (int start = 0; start < 3; ++start) {
+      const User writer("count", m_key);
+      QVERIFY(writer.good);
+      const std::size_t before = agent.values["COUNT"].size();
+      QTRY_VERIFY(agent.take() && agent.values["COUNT"].size() >= before + 60);
+    }
+    QVERIFY(std::ranges::is_sorted(agent.values["COUNT"]));
+    std::set<double> seen;
+    for (const double value : agent.values["BYTES"]) {
+      const auto word = static_cast<std::uint32_t>(static_cast<std::int32_t>(value));
+      QVERIFY2(word == (word & 0xffU) * 0x01010101U, qPrintable(QString::number(word, 16)));
+      seen.insert(value);
+    }
+    QVERIFY(seen.size() > 20);
+    seen.clear();
+    for (const double value : agent.values["SINGLE"]) {
+      const auto word = std::bit_cast<std::uint32_t>(static_cast<float>(value));
+      QVERIFY2(word == 0 || word == (0x3f000000U | (word & 0xffU) * 0x00010101U),
+               qPrintable(QString::number(word, 16)));
+      seen.insert(value);
+    }
+    QVERIFY(seen.size() > 20);
+  }
+
+  void nothingFromTheNetworkReachesIt() {
+    QVERIFY(SystemVSegments::create(m_key));
+    Agent agent({"--key", QString::number(m_key)});
+    sockaddr_in from{};
+    const auto heard = [&] {
+      char buffer[2000];
+      socklen_t length = sizeof from;
+      return recvfrom(agent.socket().descriptor(), buffer, sizeof buffer, MSG_DONTWAIT,
+                      reinterpret_cast<sockaddr*>(&from), &length) > 0;
+    };
+    QTRY_VERIFY(heard());
+    for (int i = 0; i < 2000; ++i) {
+      QVERIFY(agent.socket().send(
+          ntohs(from.sin_port),
+          std::string(1 + static_cast<std::size_t>(i) % 1500, static_cast<char>(i))));
+    }
+    const int before = agent.datagrams;
+    auto board = SystemVSegments::open(m_key, AttachMode::AttachOnly);
+    QVERIFY(board);
+    board->write(IntVar{17}, 77);
+    QTRY_VERIFY(agent.hasLast("DECISION_ACTION_A", 77));
+    QTRY_VERIFY(agent.take() && agent.datagrams > before + 20);
+    QVERIFY(agent.runs());
+    for (int word = 0; word < 125; ++word) {
+      if (word != 17) QCOMPARE(board->read(IntVar{word}), 0);
+    }
+  }
+
+  // A map of a thousand made-up names, in a segment of its own size.
+  void aThousandNames() {
+    QTemporaryDir folder;
+    QByteArray text = R"({"segment": {"bytes": 8192, "float_offset_words": 1024}, "int": {)";
+    for (int i = 0; i < 1000; ++i) {
+      text += (i == 0 ? "" : ", ") +
+              ('"' + QByteArray("MADE_UP_").append(50, static_cast<char>('A' + i % 26))) +
+              QByteArray::number(i) + "\": " + QByteArray::number(i);
+    }
+    const QString map = writeCatalog(folder, text + "}, \"float\": {}}");
+    const int shmid = shmget(m_key, 8192, IPC_CREAT | IPC_EXCL | 0600);
+    QVERIFY(shmid >= 0);
+    auto* const words = static_cast<std::int32_t*>(shmat(shmid, nullptr, 0));
+    for (int i = 0; i < 1000; ++i) words[i] = i * 7;
+    Agent agent({"--key", QString::number(m_key), "--catalog", map, "--limit", "500"});
+    QTRY_COMPARE((agent.take(), agent.values.size()), std::size_t{1000});
+    for (const auto& [name, values] : agent.values) {
+      QCOMPARE(values.back(), name.mid(58).toInt() * 7.0);
+    }
+    shmdt(words);
+  }
+
+  // What docs/AGENT.md shows is what runs here.
+  void theGuideShowsThesePrograms_data() {
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<QString>("language");
+    QTest::newRow("Python") << "pb2_robot.py"
+                            << "python";
+    QTest::newRow("C++") << "pb2_robot.cpp"
+                         << "cpp";
+  }
+  void theGuideShowsThesePrograms() {
+    QFETCH(QString, file);
+    QFETCH(QString, language);
+    QFile guide(PITCHBOARD_SOURCE_DIR "/docs/AGENT.md");
+    QFile program(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/" + file);
+    QVERIFY(guide.open(QIODevice::ReadOnly) && program.open(QIODevice::ReadOnly));
+    const QByteArray text = program.readAll();
+    QVERIFY(guide.readAll().contains("```" + language.toUtf8() + "\n" + text + "```\n"));
+
+    const TestSocket socket;
+    const QStringList arguments{"5", "127.0.0.1", QString::number(socket.port())};
+    QProcess sender;
+    if (language == "python") {
+      sender.start("python3", QStringList{program.fileName()} + arguments);
+    } else {
+      sender.start(QCoreApplication::applicationDirPath() + "/pb2_robot", arguments);
+    }
+    for (std::uint32_t sequence = 0; sequence < 3; ++sequence) {
+      QTRY_VERIFY(socket.heard());
+      const std::string datagram = socket.take();
+      const auto message = telemetry::parsePb2(datagram);
+      QVERIFY2(message, message ? "" : message.error().text().c_str());
+      QVERIFY(message->robot == 5 && message->sequence == sequence && message->milliseconds > 0);
+      QCOMPARE(message->values.size(), std::size_t{2});
+      QVERIFY(message->values[0].name == "VOLTAGE" && message->values[0].value == 148.0);
+      QVERIFY(message->values[0].whole && !message->values[1].whole);
+      QVERIFY(message->values[1].name == "IMU_EULER_Z" && message->values[1].value == 0.5);
+    }
+    sender.kill();
+    QVERIFY(sender.waitForFinished());
+  }
+
+  void itIsOneSmallStaticProgram() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    QSKIP("with sanitizers it is neither");
+#endif
+    QFile program(PITCHBOARD_BIN "/pitchboard-agent");
+    QVERIFY(program.open(QIODevice::ReadOnly));
+    QVERIFY2(program.size() < 2'000'000, qPrintable(QString::number(program.size())));
+    const QByteArray elf = program.readAll();
+    const auto* const head = reinterpret_cast<const Elf64_Ehdr*>(elf.constData());
+    const auto* const parts = reinterpret_cast<const Elf64_Phdr*>(elf.constData() + head->e_phoff);
+    for (int i = 0; i < head->e_phnum; ++i) QVERIFY2(parts[i].p_type != PT_INTERP, "not static");
+    // All that it ever takes, with every variable changing at 50 Hz.
+    auto board = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
+    QVERIFY(board);
+    Agent agent({"--key", QString::number(m_key), "--rate", "50"});
+    int value = 0;
+    const auto busy = [&] {
+      ++value;
+      for (int i = 0; i < 80; ++i) board->write(IntVar{i}, value);
+      for (int i = 0; i < 120; ++i) board->write(FloatVar{i}, 0.1F * static_cast<float>(value));
+      return agent.take() && agent.datagrams > 100;
+    };
+    QTRY_VERIFY(busy());
+    QFile status(QStringLiteral("/proc/%1/status").arg(agent.process()));
+    QVERIFY(status.open(QIODevice::ReadOnly));
+    static const QRegularExpression most("VmHWM:\\s+(\\d+) kB");
+    const auto found = most.match(QString::fromUtf8(status.readAll()));
+    QVERIFY(found.hasMatch());
+    QVERIFY2(found.captured(1).toInt() <= 4096, qPrintable(found.captured()));
+  }
+
+ private:
+  int m_key = 0, m_number = 0;
+};
+
+}  // namespace tst_agent
+
+QTEST_GUILESS_MAIN(tst_agent::TestAgent)
+
+#include "tst_agent.moc"
