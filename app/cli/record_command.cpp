@@ -155,7 +155,7 @@ Result<int> recordLive(const Options& options) {
   watch.stopObserving(recorder);
   details = watch.details();
   std::string refused = refusedText(details.team, details.refusedReferees);
-  const LiveRows::Refused& rows = recorder->refused();
+  const LiveRows::Refused& rows = details.rows;
   if (rows.rows + rows.values > 0) {
     refused += (refused.empty() ? "; refused: " : ", ") + std::to_string(rows.rows) + " rows and " +
                std::to_string(rows.values) + " values beyond the limits";

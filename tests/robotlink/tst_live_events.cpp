@@ -3,7 +3,7 @@
 #include <QtTest>
 
 #include "../support/robot_keys.h"
-#include "live_events.h"
+#include <robotlink/live/live_events.h>
 
 namespace tst_live_events {
 
