@@ -108,26 +108,9 @@ Result<int> recordMatch(const Options& options) {
 }
 
 Result<int> recordLive(const Options& options) {
-  auto setup = TRY(listenSetup(options.network));
-  link::LiveOptions live;
-  live.bind = setup.receiver.bind;
-  live.portBase = options.network.portBase;
-  live.robots = options.network.robots;
-  live.refereePort = options.network.refereePort;
-  live.profile = std::move(setup.profile);
-  live.team.senders = std::move(setup.monitor.senders);
-  live.team.teams = std::move(setup.monitor.teams);
-  live.refereeSenders = std::move(setup.referees);
-  live.refereeVersion = options.network.refereeVersion;
-  TRY(link::validate(live));
+  const link::LiveOptions live = TRY(liveOptions(options.network));
   link::LiveWatch watch(live);
-  link::LiveDetails details = watch.details();
-  for (; details.network.ports.empty(); details = watch.details()) {
-    if (!details.networkProblem.empty()) {
-      return failure(ErrorCode::SystemError, details.networkProblem);
-    }
-    std::this_thread::sleep_for(pollInterval);
-  }
+  link::LiveDetails details = TRY(whenListening(watch));
   const auto& ports = details.network.ports;
   if (std::ranges::none_of(ports, [](const PortStatus& port) { return port.bound; })) {
     return failure(ErrorCode::SystemError, ports.front().problem, options.network.bind);
@@ -137,7 +120,7 @@ Result<int> recordLive(const Options& options) {
   const auto recorder =
       TRY(link::LiveRecorder::create(options.output, live, watch.began(), recording));
   watch.observe(recorder);
-  sayListening(options.network, setup.receiver.ports);
+  sayListening(live, details.network);
   {
     Health health(options.progress);
     std::map<std::size_t, std::string> told;
@@ -154,12 +137,7 @@ Result<int> recordLive(const Options& options) {
   }
   watch.stopObserving(recorder);
   details = watch.details();
-  std::string refused = refusedText(details.team, details.refusedReferees);
-  const LiveRows::Refused& rows = details.rows;
-  if (rows.rows + rows.values > 0) {
-    refused += (refused.empty() ? "; refused: " : ", ") + std::to_string(rows.rows) + " rows and " +
-               std::to_string(rows.values) + " values beyond the limits";
-  }
+  const std::string refused = refusedText(details);
   if (!refused.empty()) std::fprintf(stderr, "%s\n", refused.c_str() + 2);
   const auto finished = recorder->finish();
   return ended(recorder->path(), recorder->status(), finished);
