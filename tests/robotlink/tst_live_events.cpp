@@ -263,7 +263,7 @@ class TestLiveEvents : public QObject {
     s.robot(1);
     s.referee();
     const auto first = s.at(1.0);
-    s.events.clear();
+    s.events = {};
     QCOMPARE(kindsOf(s.at(2.0)), kindsOf(first));
   }
 
