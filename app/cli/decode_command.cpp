@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <memory>
 
 #include <base/read_file.h>
 #include <base/try.h>
-#include <robotlink/live/live_teams.h>
+#include <robotlink/live/live_pipeline.h>
 #include <telemetry/wire/message_format.h>
 
 #include "commands.h"
@@ -61,44 +62,6 @@ void forEachLine(std::string_view text, Visit visit) {
   }
 }
 
-void put(const DecodeOptions& options, Json json, const Json& body, const std::string& line) {
-  json.update(body);
-  std::printf("%s\n", options.json ? dump(json).c_str() : line.c_str());
-}
-
-Result<int> decodeStoredMessages(const DecodeOptions& options, const TextDecoder& decoder);
-
-Result<int> decodeTelemetry(const DecodeOptions& options) {
-  Profile profile = publishedProfile();
-  if (!options.profile.empty()) {
-    profile = TRY(loadProfile(options.profile));
-  }
-  const TextDecoder decoder(std::move(profile), link::surroundingsOf(sim::FieldSpec{}));
-  if (!isTextFormat(decoder.profile().format)) return decodeStoredMessages(options, decoder);
-  auto decoded = std::make_unique<DecodedText>();
-  int exitCode = 0;
-  for (const std::string& file : options.files) {
-    const auto text = TRY(readAll(file));
-    if (text.empty()) {
-      return failure(ErrorCode::ParseError, "The file is empty.", file);
-    }
-    forEachLine(text, [&](std::string_view line, std::size_t number) {
-      const CapturedLine captured = splitLine(line);
-      decoder.decode(captured.datagram, *decoded);
-      Json head{{"file", file}, {"line", number}};
-      if (captured.time) {
-        head["time"] = *captured.time;
-        head["sender"] = printable(captured.sender);
-      }
-      put(options, std::move(head),
-          telemetryJson(decoder, *decoded, captured.datagram, decoded->robot),
-          telemetryLine(decoder, *decoded, captured.datagram, decoded->robot));
-      if (!decoded->accepted()) exitCode = 1;
-    });
-  }
-  return exitCode;
-}
-
 /// A file with one packet, or lines of JSON with the packet's bytes under "hex".
 struct StoredPacket {
   std::string bytes;
@@ -134,47 +97,93 @@ Result<std::vector<StoredPacket>> storedPackets(const std::string& file, const s
   return packets;
 }
 
-/// Messages that are no text: one in a file, or lines of JSON.
-Result<int> decodeStoredMessages(const DecodeOptions& options, const TextDecoder& decoder) {
-  auto decoded = std::make_unique<DecodedText>();
-  int exitCode = 0;
+/// Prints what a pipeline makes of datagrams.
+class Decoder : public link::LiveObserver {
+ public:
+  Decoder(link::LiveOptions options, bool json)
+      : m_json(json), m_pipeline(std::move(options), WallTime{}) {
+    // It owns the pipeline, not the other way round.
+    m_pipeline.observe(std::shared_ptr<LiveObserver>(std::shared_ptr<void>(), this), WallTime{});
+  }
+
+  /// `head`: what stands before it; without a time it comes a second after the one before.
+  void take(Json head, std::string_view payload, bool ofReferee, std::optional<double> time = {},
+            telemetry::Sender sender = {}) {
+    constexpr double mostSeconds = 9e9;
+    m_head = std::move(head);
+    m_time = std::clamp(time.value_or(m_time + 1.0), -mostSeconds, mostSeconds);
+    const auto port = ofReferee ? m_pipeline.options().refereePort : 0;
+    const auto after = std::chrono::duration<double>(m_time);
+    m_pipeline.take({WallTime(std::chrono::duration_cast<Duration>(after)), sender,
+                     static_cast<std::uint16_t>(port), false, payload});
+  }
+
+  void heard(const link::LiveDatagram& datagram) override {
+    if (!isGood(datagram)) m_exitCode = 1;
+    if (m_json) m_head.update(messageJson(datagram, m_pipeline.options()));
+    const std::string line = m_json ? dump(m_head) : messageLine(datagram, m_pipeline.options());
+    std::printf("%s\n", line.c_str());
+  }
+
+  int exitCode() const { return m_exitCode; }
+  const link::LiveOptions& options() const { return m_pipeline.options(); }
+
+ private:
+  const bool m_json;
+  link::LivePipeline m_pipeline;
+  Json m_head;
+  double m_time = 0.0;  // s
+  int m_exitCode = 0;
+};
+
+Json headOf(const std::string& file, std::size_t line) {
+  Json head{{"file", file}};
+  if (line > 0) head["line"] = line;
+  return head;
+}
+
+/// One in a file, or lines of JSON.
+Result<int> decodeStored(const DecodeOptions& options, Decoder& decoder, bool ofReferee) {
   for (const std::string& file : options.files) {
     const auto bytes = TRY(readAll(file));
-    const auto messages = TRY(storedPackets(file, bytes));
-    for (const StoredPacket& stored : messages) {
-      decoder.decode(stored.bytes, *decoded);
-      Json head{{"file", file}};
-      if (stored.line > 0) head["line"] = stored.line;
-      put(options, std::move(head), telemetryJson(decoder, *decoded, stored.bytes, decoded->robot),
-          telemetryLine(decoder, *decoded, stored.bytes, decoded->robot));
-      if (!decoded->accepted()) exitCode = 1;
+    for (const StoredPacket& stored : TRY(storedPackets(file, bytes))) {
+      decoder.take(headOf(file, stored.line), stored.bytes, ofReferee);
     }
   }
-  return exitCode;
+  return decoder.exitCode();
+}
+
+Result<int> decodeTelemetry(const DecodeOptions& options) {
+  link::LiveOptions live;
+  if (!options.profile.empty()) live.profile = TRY(loadProfile(options.profile));
+  Decoder decoder(std::move(live), options.json);
+  if (!isTextFormat(decoder.options().profile.format)) {
+    return decodeStored(options, decoder, false);
+  }
+  for (const std::string& file : options.files) {
+    const auto text = TRY(readAll(file));
+    if (text.empty()) {
+      return failure(ErrorCode::ParseError, "The file is empty.", file);
+    }
+    forEachLine(text, [&](std::string_view line, std::size_t number) {
+      const CapturedLine captured = splitLine(line);
+      Json head = headOf(file, number);
+      if (captured.time) {
+        head["time"] = *captured.time;
+        head["sender"] = printable(captured.sender);
+      }
+      const std::string_view address = captured.sender.substr(0, captured.sender.find(':'));
+      const auto sender = parseAddress(std::string(address));
+      decoder.take(std::move(head), captured.datagram, false, captured.time,
+                   {sender ? *sender : Address{}, 0});
+    });
+  }
+  return decoder.exitCode();
 }
 
 Result<int> decodeGameController(const DecodeOptions& options) {
-  int exitCode = 0;
-  for (const std::string& file : options.files) {
-    const auto text = TRY(readAll(file));
-    const auto packets = TRY(storedPackets(file, text));
-    for (const StoredPacket& stored : packets) {
-      Json head{{"file", file}};
-      if (stored.line > 0) head["line"] = stored.line;
-      const auto packet = decodeReferee(stored.bytes);
-      if (packet) {
-        put(options, std::move(head), refereeJson(*packet), refereeLine(*packet));
-        continue;
-      }
-      exitCode = 1;
-      put(options, std::move(head),
-          Json{{"error", packet.error().message},
-               {"bytes", stored.bytes.size()},
-               {"text", printable(stored.bytes)}},
-          file + ": " + packet.error().message);
-    }
-  }
-  return exitCode;
+  Decoder decoder({}, options.json);
+  return decodeStored(options, decoder, true);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <condition_variable>
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <mutex>
 
-#include <robotlink/live/live_teams.h>
-#include <telemetry/wire/monitor_request.h>
-#include <telemetry/wire/team_monitor.h>
-#include <telemetry/wire/udp_receiver.h>
+#include <base/try.h>
+#include <robotlink/live/live_watch.h>
+#include <robotlink/session/session_events.h>
 
 #include "commands.h"
 #include "interrupt.h"
@@ -16,8 +17,6 @@
 namespace pitchboard::cli {
 namespace {
 
-using namespace telemetry;
-
 struct PrintOptions {
   ListenOptions network;
   std::optional<double> duration;
@@ -25,183 +24,167 @@ struct PrintOptions {
   bool json = false;
 };
 
-/// Prints what arrives.
-class Printer {
+/// Prints what the watch hears: its thread writes the lines, the main thread prints them.
+class Printer : public link::LiveObserver {
  public:
-  Printer(ListenSetup setup, const ListenOptions& options, bool json)
-      : m_monitor(std::move(setup.profile), std::move(setup.monitor)),
-        m_referees(std::move(setup.referees)),
-        m_refereePort(static_cast<std::uint16_t>(options.refereePort)),
-        m_refereeVersion(options.refereeVersion),
-        m_json(json) {}
+  Printer(const link::LiveOptions& options, telemetry::WallTime began, bool json)
+      : m_options(options), m_began(began), m_json(json) {}
 
-  /// False when nobody reads the output any more.
-  bool print(const DatagramBatch& batch) {
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const DatagramView datagram = batch[i];
-      if (datagram.localPort == m_refereePort || datagram.localPort == robotStatesPort) {
-        printReferee(datagram);
-      } else {
-        printTelemetry(datagram);
-      }
+  void heard(const link::LiveDatagram& datagram) override {
+    const auto* state = datagram.state();
+    const int version = m_options.refereeVersion;
+    if (datagram.isStranger() || (state && version != 0 && state->version != version)) return;
+    if (!m_json) {
+      put(datagram.view.time, datagram.view.sender.text(), messageLine(datagram, m_options));
+      return;
     }
+    Json json{{"type", typeOf(datagram)},
+              {"time", unixSeconds(datagram.view.time)},
+              {"sender", datagram.view.sender.text()},
+              {"port", datagram.view.localPort},
+              {"bytes", datagram.view.payload.size()}};
+    json.update(messageJson(datagram, m_options));
+    put(dump(json) + "\n");
+  }
+
+  void happened(const link::MatchEvent& event) override {
+    const auto after = std::chrono::duration<double>(event.time);
+    const auto time = m_began + std::chrono::duration_cast<telemetry::Duration>(after);
+    const telemetry::SessionEvent told = link::sessionEvent(event);
+    if (!m_json) return put(time, "event", told.text);
+    put(dump({{"type", "event"},
+              {"time", unixSeconds(time)},
+              {"kind", told.kind},
+              {"name", told.group},
+              {"text", told.text}}) +
+        "\n");
+  }
+
+  /// Prints what has come, or waits so long for it. False when nobody reads the output any more.
+  bool print(telemetry::Duration wait) {
+    std::unique_lock lock(m_mutex);
+    m_come.wait_for(lock, wait, [this] { return !m_lines.empty(); });
+    const std::string lines = std::exchange(m_lines, {});
+    lock.unlock();
+    std::fwrite(lines.data(), 1, lines.size(), stdout);
     return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   }
 
-  std::string nameOf(const RobotKey& robot) const {
-    return link::robotName(robot, link::teamsOf(m_monitor.options().teams));
-  }
-  TeamStatus status(WallTime now) const { return m_monitor.status(now); }
-  std::uint64_t unknownReferee() const { return m_unknownReferee; }
-  std::uint64_t refusedReferees() const { return m_refusedReferees; }
-
   /// How every robot is heard.
-  void printHealth(WallTime now) const {
+  void printHealth(const telemetry::TeamStatus& team) {
     if (!m_json) return;
-    for (const RobotStatus& robot : m_monitor.status(now).robots) {
-      std::printf("%s\n", dump(healthJson(robot, nameOf(robot.key), now)).c_str());
+    for (const telemetry::RobotStatus& robot : team.robots) {
+      put(dump(healthJson(robot, nameOf(robot.key, m_options), team.time)) + "\n");
     }
-    std::fflush(stdout);
+  }
+
+  /// Datagrams and events that came faster than they could be printed.
+  std::uint64_t left() const {
+    const std::lock_guard lock(m_mutex);
+    return m_left;
   }
 
  private:
-  void put(const char* type, const DatagramView& datagram, const Json& body,
-           const std::string& line) {
-    if (!m_json) {
-      std::printf("%.6f %-21s %s\n", unixSeconds(datagram.time), datagram.sender.text().c_str(),
-                  line.c_str());
-      return;
-    }
-    Json json{{"type", type},
-              {"time", unixSeconds(datagram.time)},
-              {"sender", datagram.sender.text()},
-              {"port", datagram.localPort},
-              {"bytes", datagram.payload.size()}};
-    json.update(body);
-    std::printf("%s\n", dump(json).c_str());
+  static constexpr std::size_t mostBytes = std::size_t{64} << 20;  // waiting
+
+  void put(telemetry::WallTime time, const std::string& sender, const std::string& line) {
+    char head[64];
+    std::snprintf(head, sizeof head, "%.6f %-21s ", unixSeconds(time), sender.c_str());
+    put(head + line + "\n");
   }
 
-  void printTelemetry(const DatagramView& datagram) {
-    const auto verdict = m_monitor.take(datagram);
-    if (verdict == TeamMonitor::Verdict::SenderRefused) return;
-    const TextDecoder& decoder = m_monitor.decoder();
-    const DecodedText& decoded = m_monitor.decoded();
-    const int number = decoded.robot;
-    const TeamSetup* team =
-        number > 0 ? setupAt(decoded.place, m_monitor.options().teams) : nullptr;
-    const std::string title = team != nullptr ? team->title() : std::string();
-    Json json;
-    if (m_json) {
-      json = telemetryJson(decoder, decoded, datagram.payload, number, title);
-      if (number > 0) json["name"] = nameOf({decoded.place, number, 0});
+  void put(const std::string& line) {
+    {
+      const std::lock_guard lock(m_mutex);
+      if (m_lines.size() + line.size() > mostBytes) {
+        ++m_left;
+        return;
+      }
+      m_lines += line;
     }
-    put("telemetry", datagram, json,
-        m_json ? std::string() : telemetryLine(decoder, decoded, datagram.payload, number, title));
+    m_come.notify_one();
   }
 
-  void printReferee(const DatagramView& datagram) {
-    if (!m_referees.allows(datagram.sender.address)) {
-      ++m_refusedReferees;
-      return;
-    }
-    const auto packet = decodeReferee(datagram.payload);
-    if (packet) {
-      const auto* state = std::get_if<RefereeState>(&*packet);
-      if (state && m_refereeVersion != 0 && state->version != m_refereeVersion) return;
-      put("referee", datagram, m_json ? refereeJson(*packet) : Json(),
-          m_json ? std::string() : refereeLine(*packet));
-      return;
-    }
-    ++m_unknownReferee;
-    put("referee", datagram,
-        Json{{"error", packet.error().message}, {"text", printable(datagram.payload)}},
-        "[" + packet.error().message + "]");
-  }
-
-  TeamMonitor m_monitor;
-  SenderFilter m_referees;
-  std::uint16_t m_refereePort;
-  int m_refereeVersion;
-  bool m_json;
-  std::uint64_t m_unknownReferee = 0, m_refusedReferees = 0;
+  const link::LiveOptions m_options;
+  const telemetry::WallTime m_began;
+  const bool m_json;
+  mutable std::mutex m_mutex;  // of what follows
+  std::condition_variable m_come;
+  std::string m_lines;
+  std::uint64_t m_left = 0;
 };
 
-void reportEnd(const ReceiverStatus& network, const Printer& printer, WallTime now) {
-  const TeamStatus team = printer.status(now);
-  const std::uint64_t unknown = printer.unknownReferee();
+void reportEnd(const link::LiveDetails& details, const link::LiveOptions& live,
+               std::uint64_t left) {
+  const telemetry::TeamStatus& team = details.team;
+  const telemetry::ReceiverStatus& network = details.network;
   std::fprintf(stderr,
                "%llu datagrams from %zu robots; lost: %llu in the kernel, %llu here; bad: %llu%s",
                static_cast<unsigned long long>(network.datagrams()), team.robots.size(),
                static_cast<unsigned long long>(network.kernelDrops()),
-               static_cast<unsigned long long>(network.queueDrops),
-               static_cast<unsigned long long>(team.errors.messages() + unknown),
-               refusedText(team, printer.refusedReferees()).c_str());
-  for (const RobotStatus& robot : team.robots) {
-    std::fprintf(stderr, "\n  %s", healthLine(robot, printer.nameOf(robot.key)).c_str());
+               static_cast<unsigned long long>(network.queueDrops + left),
+               static_cast<unsigned long long>(team.errors.messages() + details.unknownReferee),
+               refusedText(details).c_str());
+  for (const telemetry::RobotStatus& robot : team.robots) {
+    std::fprintf(stderr, "\n  %s", healthLine(robot, nameOf(robot.key, live)).c_str());
   }
-  for (std::size_t i = 0; i < textErrorCount; ++i) {
-    const auto error = static_cast<TextError>(i);
+  for (std::size_t i = 0; i < telemetry::textErrorCount; ++i) {
+    const auto error = static_cast<telemetry::TextError>(i);
     if (team.errors.count(error) == 0) continue;
     std::fprintf(stderr, "\n  %s: %llu, e.g. %s", std::string(errorWords(error)).c_str(),
                  static_cast<unsigned long long>(team.errors.count(error)),
                  team.errors.sample(error).c_str());
   }
-  if (unknown > 0) {
+  if (details.unknownReferee > 0) {
     std::fprintf(stderr, "\n  unknown packets on the referee's port: %llu",
-                 static_cast<unsigned long long>(unknown));
+                 static_cast<unsigned long long>(details.unknownReferee));
   }
   std::fputc('\n', stderr);
 }
 
-int listenToRobots(const PrintOptions& options) {
+Result<int> listenToRobots(const PrintOptions& options) {
   using Clock = std::chrono::steady_clock;
-  auto setup = listenSetup(options.network);
-  if (!setup) return reportError(setup.error());
-  ReceiverOptions& receiver = setup->receiver;
-  std::optional<Address> referee;
-  if (!options.monitor.empty()) {
-    const auto address = parseAddress(options.monitor);
-    if (!address) return reportError(address.error());
-    referee = *address;
-    receiver.ports.push_back(robotStatesPort);
-  }
+  using std::chrono::milliseconds;
+  link::LiveOptions live = TRY(liveOptions(options.network));
+  if (!options.monitor.empty()) live.monitor = TRY(telemetry::parseAddress(options.monitor));
 
   const InterruptGuard signals;
-  const std::vector<std::uint16_t> ports = receiver.ports;
-  const auto clock = std::make_shared<const LiveClock>();
-  receiver.clock = clock;
-  auto network = UdpReceiver::start(std::move(receiver));
-  if (!network) return reportError(network.error());
-  Printer printer(std::move(*setup), options.network, options.json);
+  link::LiveWatch watch(live);
+  const link::LiveDetails begun = TRY(whenListening(watch));
+  const auto printer = std::make_shared<Printer>(live, watch.began(), options.json);
+  watch.observe(printer);
+  sayListening(live, begun.network);
   std::map<std::size_t, std::string> told;
-  sayListening(options.network, ports);
-  DatagramBatch batch;
   const auto begin = Clock::now();
-  auto nextRequest = begin;
-  auto nextHealth = begin + std::chrono::seconds(1);
+  auto nextLook = begin, nextHealth = begin + std::chrono::seconds(1);
   const std::chrono::duration<double> limit(options.duration.value_or(0.0));
   while (!interrupted) {
-    reportPorts((*network)->status(), told);
-    if (referee && Clock::now() >= nextRequest) {
-      if (const auto sent = sendMonitorRequest(*referee); !sent) return reportError(sent.error());
-      nextRequest = Clock::now() + std::chrono::seconds(1);
+    const auto now = Clock::now();
+    if (now >= nextLook) {
+      nextLook = now + milliseconds(100);
+      const link::LiveDetails details = watch.details();
+      reportPorts(details.network, told);
+      if (!details.monitorProblem.empty()) {
+        return failure(ErrorCode::SystemError, details.monitorProblem);
+      }
+      if (now >= nextHealth) {
+        nextHealth += std::chrono::seconds(1);
+        printer->printHealth(details.team);
+      }
     }
-    Duration wait = std::chrono::milliseconds(100);
+    telemetry::Duration wait = milliseconds(100);
     if (options.duration) {
-      const auto left = std::chrono::duration_cast<Duration>(limit - (Clock::now() - begin));
-      if (left <= Duration::zero()) break;
+      const auto left = std::chrono::duration_cast<telemetry::Duration>(limit - (now - begin));
+      if (left <= telemetry::Duration::zero()) break;
       wait = std::min(wait, left);
     }
-    if ((*network)->take(batch, wait) && !printer.print(batch)) break;
-    if (Clock::now() >= nextHealth) {
-      printer.printHealth(clock->now());
-      nextHealth += std::chrono::seconds(1);
-    }
+    if (!printer->print(wait)) break;
   }
-  (*network)->stop();
-  if ((*network)->take(batch)) printer.print(batch);
-  printer.printHealth(clock->now());
-  reportEnd((*network)->status(), printer, clock->now());
+  watch.stopObserving(printer);
+  const link::LiveDetails details = watch.details();
+  printer->printHealth(details.team);
+  printer->print({});
+  reportEnd(details, live, printer->left());
   return 0;
 }
 
@@ -226,7 +209,7 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
   command->add_flag("--json", options->json,
                     "One JSON object per message, and how each robot is heard\n"
                     "once a second and at the end (\"type\": \"health\")");
-  command->callback([options, &exitCode] { exitCode = listenToRobots(*options); });
+  whenChosen(*command, options, exitCode, listenToRobots);
 }
 
 }  // namespace pitchboard::cli

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "listen_options.h"
 
+#include <chrono>
 #include <cstdio>
+#include <thread>
 
-#include <robotlink/live/live_teams.h>
+#include <base/try.h>
 
 namespace pitchboard::cli {
 
@@ -58,44 +60,42 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
                      "Only a referee at these addresses or networks; may be repeated");
 }
 
-Result<ListenSetup> listenSetup(const ListenOptions& options) {
-  ListenSetup setup;
-  const auto bind = parseAddress(options.bind);
-  if (!bind) return tl::unexpected(bind.error());
-  setup.receiver.bind = *bind;
-  auto teams = loadTeams(options.teams);
-  if (!teams) return tl::unexpected(teams.error());
-  setup.monitor.teams = std::move(*teams);
-  setup.monitor.field = link::surroundingsOf(sim::FieldSpec{});
-  auto ports =
-      teamPorts(setup.monitor.teams, options.portBase, options.robots, options.refereePort);
-  if (!ports) return tl::unexpected(ports.error());
-  setup.receiver.ports = std::move(*ports);
-  setup.profile = publishedProfile();
-  if (!options.profile.empty()) {
-    auto loaded = loadProfile(options.profile);
-    if (!loaded) return tl::unexpected(loaded.error());
-    setup.profile = std::move(*loaded);
-  }
-  for (const std::string& sender : options.senders) {
-    if (const auto added = setup.monitor.senders.add(sender); !added)
-      return tl::unexpected(added.error());
-  }
-  for (const std::string& sender : options.refereeSenders) {
-    if (const auto added = setup.referees.add(sender); !added) return tl::unexpected(added.error());
-  }
-  return setup;
+Result<link::LiveOptions> liveOptions(const ListenOptions& options) {
+  link::LiveOptions live;
+  live.bind = TRY(parseAddress(options.bind));
+  live.portBase = options.portBase;
+  live.robots = options.robots;
+  live.refereePort = options.refereePort;
+  live.refereeVersion = options.refereeVersion;
+  live.team.teams = TRY(loadTeams(options.teams));
+  if (!options.profile.empty()) live.profile = TRY(loadProfile(options.profile));
+  for (const std::string& sender : options.senders) TRY(live.team.senders.add(sender));
+  for (const std::string& sender : options.refereeSenders) TRY(live.refereeSenders.add(sender));
+  TRY(link::validate(live));
+  return live;
 }
 
-void sayListening(const ListenOptions& options, const std::vector<std::uint16_t>& ports) {
-  if (options.teams.empty()) {
-    std::fprintf(stderr, "listening at %s on UDP ports %d to %d and %d\n", options.bind.c_str(),
+Result<link::LiveDetails> whenListening(const link::LiveWatch& watch) {
+  while (true) {
+    link::LiveDetails details = watch.details();
+    if (!details.networkProblem.empty()) {
+      return failure(ErrorCode::SystemError, details.networkProblem);
+    }
+    if (!details.network.ports.empty()) return details;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+void sayListening(const link::LiveOptions& options, const ReceiverStatus& network) {
+  const std::string address = options.bind.text();
+  if (options.team.teams.empty()) {
+    std::fprintf(stderr, "listening at %s on UDP ports %d to %d and %d\n", address.c_str(),
                  options.portBase + 1, options.portBase + options.robots, options.refereePort);
     return;
   }
   std::string text;
-  for (const std::uint16_t port : ports) text += " " + std::to_string(port);
-  std::fprintf(stderr, "listening at %s on UDP ports%s\n", options.bind.c_str(), text.c_str());
+  for (const PortStatus& port : network.ports) text += " " + std::to_string(port.port);
+  std::fprintf(stderr, "listening at %s on UDP ports%s\n", address.c_str(), text.c_str());
 }
 
 void reportPorts(const ReceiverStatus& status, std::map<std::size_t, std::string>& told) {
@@ -113,15 +113,17 @@ void reportPorts(const ReceiverStatus& status, std::map<std::size_t, std::string
   }
 }
 
-std::string refusedText(const TeamStatus& team, std::uint64_t referees) {
+std::string refusedText(const link::LiveDetails& details) {
   std::string out;
   const auto add = [&out](std::uint64_t count, const char* what) {
     if (count == 0) return;
     out += (out.empty() ? "; refused: " : ", ") + std::to_string(count) + what;
   };
-  add(team.refusedByFilter, " of senders that --from does not name");
-  add(referees, " of referees that --referee-from does not name");
-  add(team.refusedRobots, " of more robots than are kept");
+  add(details.team.refusedByFilter, " of senders that --from does not name");
+  add(details.refusedReferees, " of referees that --referee-from does not name");
+  add(details.team.refusedRobots, " of more robots than are kept");
+  add(details.rows.rows, " rows beyond the limits");
+  add(details.rows.values, " values beyond the limits");
   return out;
 }
 

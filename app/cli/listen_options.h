@@ -9,9 +9,7 @@
 #include <vector>
 
 #include <base/result.h>
-#include <telemetry/wire/profile.h>
-#include <telemetry/wire/team_monitor.h>
-#include <telemetry/wire/udp_receiver.h>
+#include <robotlink/live/live_watch.h>
 
 namespace pitchboard::cli {
 
@@ -33,19 +31,15 @@ Result<std::vector<telemetry::TeamSetup>> loadTeams(const std::vector<std::strin
 
 void addListenOptions(CLI::App& command, ListenOptions& options);
 
-struct ListenSetup {
-  telemetry::ReceiverOptions receiver;
-  telemetry::Profile profile;
-  telemetry::MonitorOptions monitor;
-  telemetry::SenderFilter referees;
-};
-Result<ListenSetup> listenSetup(const ListenOptions& options);
+Result<link::LiveOptions> liveOptions(const ListenOptions& options);
+/// How it stands once the watch has tried its ports. Fails where nothing at all can be received.
+Result<link::LiveDetails> whenListening(const link::LiveWatch& watch);
 
 /// Tells on stderr what is received.
-void sayListening(const ListenOptions& options, const std::vector<std::uint16_t>& ports);
+void sayListening(const link::LiveOptions& options, const telemetry::ReceiverStatus& network);
 /// Says on stderr which ports are not received, once for each change.
 void reportPorts(const telemetry::ReceiverStatus& status, std::map<std::size_t, std::string>& told);
 /// "; refused: 12 of senders that are not on the list, ...": nothing where nothing was.
-std::string refusedText(const telemetry::TeamStatus& team, std::uint64_t referees);
+std::string refusedText(const link::LiveDetails& details);
 
 }  // namespace pitchboard::cli

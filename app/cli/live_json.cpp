@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include <base/actions.h>
+#include <robotlink/live/live_teams.h>
 
 namespace pitchboard::cli {
 namespace {
@@ -47,13 +48,21 @@ std::string replyLine(const RobotReply& reply) {
          std::to_string(reply.team) + " player " + std::to_string(reply.player);
 }
 
-}  // namespace
+/// The title of its setup; empty without setups.
+std::string teamOf(const RobotKey& robot, const link::LiveOptions& options) {
+  const TeamSetup* team = robot.number > 0 ? setupAt(robot.team, options.team.teams) : nullptr;
+  return team != nullptr ? team->title() : std::string();
+}
 
-Json telemetryJson(const TextDecoder& decoder, const DecodedText& message,
-                   std::string_view datagram, int number, const std::string& team) {
+/// {"robot": 1, "values": {"X": 258, ...}, "errors": [...]}; "text" is added when there are errors.
+Json telemetryJson(const link::LiveDatagram& datagram, const std::string& team,
+                   const std::string& robot) {
+  const TextDecoder& decoder = *datagram.decoder;
+  const DecodedText& message = *datagram.decoded;
   Json json;
-  json["robot"] = number > 0 ? Json(number) : Json(nullptr);
+  json["robot"] = robot.empty() ? Json(nullptr) : Json(datagram.robot.number);
   if (!team.empty()) json["team"] = team;
+  if (!robot.empty()) json["name"] = robot;
   json["accepted"] = message.accepted();
   Json values = Json::object();
   const auto& fields = decoder.profile().fields;
@@ -77,16 +86,18 @@ Json telemetryJson(const TextDecoder& decoder, const DecodedText& message,
     json["action"] = actionWords(static_cast<int>(*action));
   }
   json["errors"] = errorList(message.errors);
-  if (!message.errors.empty()) json["text"] = printable(datagram);
+  if (!message.errors.empty()) json["text"] = printable(datagram.view.payload);
   return json;
 }
 
-std::string telemetryLine(const TextDecoder& decoder, const DecodedText& message,
-                          std::string_view datagram, int number, const std::string& team) {
+std::string telemetryLine(const link::LiveDatagram& datagram, const std::string& team,
+                          const std::string& robot) {
+  const TextDecoder& decoder = *datagram.decoder;
+  const DecodedText& message = *datagram.decoded;
   std::string out;
   if (message.accepted()) {
     if (!team.empty()) out = team + "  ";
-    if (number > 0) out += "robot " + std::to_string(number);
+    out += robot;
     for (std::size_t i = 0; i < message.count; ++i) {
       if (message.words[i].empty()) continue;
       out += "  " + decoder.name(message, i) + " " + printable(message.words[i], 40);
@@ -102,7 +113,59 @@ std::string telemetryLine(const TextDecoder& decoder, const DecodedText& message
     out += (first ? "" : ", ") + std::string(errorWords(error));
     first = false;
   }
-  return out + "] " + printable(datagram, 120);
+  return out + "] " + printable(datagram.view.payload, 120);
+}
+
+std::string refereeLine(const RefereePacket& packet) {
+  if (const auto* state = std::get_if<RefereeState>(&packet)) return stateLine(*state);
+  if (const auto* reply = std::get_if<RobotReply>(&packet)) return replyLine(*reply);
+  const auto* forwarded = std::get_if<ForwardedReply>(&packet);
+  return forwarded ? replyLine(forwarded->reply) + " at " + Address{forwarded->robot}.text()
+                   : "request for true data";
+}
+
+}  // namespace
+
+const char* typeOf(const link::LiveDatagram& datagram) {
+  if (datagram.referee) return "referee";
+  return datagram.decoded ? "telemetry" : "drawing";
+}
+
+bool isGood(const link::LiveDatagram& datagram) {
+  if (datagram.referee) return datagram.referee->has_value();
+  return datagram.decoded ? datagram.decoded->accepted() : !datagram.drawingProblem;
+}
+
+std::string nameOf(const RobotKey& robot, const link::LiveOptions& options) {
+  return robot.number > 0 ? link::robotName(robot, link::teamsOf(options.team.teams))
+                          : std::string();
+}
+
+Json messageJson(const link::LiveDatagram& datagram, const link::LiveOptions& options) {
+  if (datagram.referee) {
+    if (*datagram.referee) return refereeJson(**datagram.referee);
+    return {{"error", datagram.referee->error().message},
+            {"bytes", datagram.view.payload.size()},
+            {"text", printable(datagram.view.payload)}};
+  }
+  const std::string robot = nameOf(datagram.robot, options);
+  if (datagram.decoded) return telemetryJson(datagram, teamOf(datagram.robot, options), robot);
+  Json json{{"robot", robot.empty() ? Json(nullptr) : Json(datagram.robot.number)}};
+  if (!robot.empty()) json["name"] = robot;
+  if (datagram.drawingProblem) json["error"] = *datagram.drawingProblem;
+  json["text"] = datagram.view.payload;
+  return json;
+}
+
+std::string messageLine(const link::LiveDatagram& datagram, const link::LiveOptions& options) {
+  if (datagram.referee) {
+    return *datagram.referee ? refereeLine(**datagram.referee)
+                             : "[" + datagram.referee->error().message + "]";
+  }
+  const std::string robot = nameOf(datagram.robot, options);
+  if (datagram.decoded) return telemetryLine(datagram, teamOf(datagram.robot, options), robot);
+  if (datagram.drawingProblem) return "[drawing: " + *datagram.drawingProblem + "]";
+  return robot + "  drawing, " + std::to_string(datagram.view.payload.size()) + " bytes";
 }
 
 Json healthJson(const RobotStatus& robot, const std::string& name, WallTime now) {
@@ -142,14 +205,6 @@ std::string healthLine(const RobotStatus& robot, const std::string& name) {
   out += ", " + std::to_string(robot.duplicates) + " twice";
   if (robot.loss) out += ", " + std::to_string(robot.late) + " late";
   return out;
-}
-
-std::string refereeLine(const RefereePacket& packet) {
-  if (const auto* state = std::get_if<RefereeState>(&packet)) return stateLine(*state);
-  if (const auto* reply = std::get_if<RobotReply>(&packet)) return replyLine(*reply);
-  const auto* forwarded = std::get_if<ForwardedReply>(&packet);
-  return forwarded ? replyLine(forwarded->reply) + " at " + Address{forwarded->robot}.text()
-                   : "request for true data";
 }
 
 std::string dump(const Json& json) {

@@ -6,31 +6,28 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include <telemetry/wire/datagram.h>
-#include <telemetry/wire/gamecontroller.h>
+#include <robotlink/live/live_watch.h>
 #include <telemetry/wire/referee_json.h>
-#include <telemetry/wire/team_monitor.h>
-#include <telemetry/wire/text_decoder.h>
 
 namespace pitchboard::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// {"robot": 1, "values": {"X": 258, ...}, "errors": [...]}; "text" is added when there are errors.
-/// `number`: of the robot in its team; `team`: its title, empty without setups.
-Json telemetryJson(const telemetry::TextDecoder& decoder, const telemetry::DecodedText& message,
-                   std::string_view datagram, int number, const std::string& team = {});
-std::string telemetryLine(const telemetry::TextDecoder& decoder,
-                          const telemetry::DecodedText& message, std::string_view datagram,
-                          int number, const std::string& team = {});
+/// "telemetry", "drawing" or "referee".
+const char* typeOf(const link::LiveDatagram& datagram);
+/// It could be read.
+bool isGood(const link::LiveDatagram& datagram);
+/// As everywhere: "B1", "Robot 1"; empty for number 0.
+std::string nameOf(const RobotKey& robot, const link::LiveOptions& options);
+/// What a datagram says (docs/LIVE.md). What stands in it when it could not be read is "text".
+Json messageJson(const link::LiveDatagram& datagram, const link::LiveOptions& options);
+std::string messageLine(const link::LiveDatagram& datagram, const link::LiveOptions& options);
 
 /// {"type": "health", "robot": 1, "name": "B1", "received": 900, "lost": 300, ...}: docs/LIVE.md.
 Json healthJson(const telemetry::RobotStatus& robot, const std::string& name,
                 telemetry::WallTime now);
 /// "B1: 900 received, 300 lost (25.0 %), 0 twice, 0 late"
 std::string healthLine(const telemetry::RobotStatus& robot, const std::string& name);
-
-std::string refereeLine(const telemetry::RefereePacket& packet);
 
 /// Text of any bytes: what is not UTF-8 is replaced.
 std::string dump(const Json& json);

@@ -107,26 +107,9 @@ Result<int> recordMatch(const RecordOptions& options) {
 }
 
 Result<int> recordLive(const RecordOptions& options) {
-  auto setup = TRY(listenSetup(options.network));
-  link::LiveOptions live;
-  live.bind = setup.receiver.bind;
-  live.portBase = options.network.portBase;
-  live.robots = options.network.robots;
-  live.refereePort = options.network.refereePort;
-  live.profile = std::move(setup.profile);
-  live.team.senders = std::move(setup.monitor.senders);
-  live.team.teams = std::move(setup.monitor.teams);
-  live.refereeSenders = std::move(setup.referees);
-  live.refereeVersion = options.network.refereeVersion;
-  TRY(link::validate(live));
+  const link::LiveOptions live = TRY(liveOptions(options.network));
   link::LiveWatch watch(live);
-  link::LiveDetails details = watch.details();
-  for (; details.network.ports.empty(); details = watch.details()) {
-    if (!details.networkProblem.empty()) {
-      return failure(ErrorCode::SystemError, details.networkProblem);
-    }
-    std::this_thread::sleep_for(healthInterval);
-  }
+  link::LiveDetails details = TRY(whenListening(watch));
   const auto& ports = details.network.ports;
   if (std::ranges::none_of(ports, [](const PortStatus& port) { return port.bound; })) {
     return failure(ErrorCode::SystemError, ports.front().problem, options.network.bind);
@@ -136,7 +119,7 @@ Result<int> recordLive(const RecordOptions& options) {
   const auto recorder =
       TRY(link::LiveRecorder::create(options.output, live, watch.began(), recording));
   watch.observe(recorder);
-  sayListening(options.network, setup.receiver.ports);
+  sayListening(live, details.network);
   {
     Health health(options.progress);
     std::map<std::size_t, std::string> told;
@@ -153,12 +136,7 @@ Result<int> recordLive(const RecordOptions& options) {
   }
   watch.stopObserving(recorder);
   details = watch.details();
-  std::string refused = refusedText(details.team, details.refusedReferees);
-  const LiveRows::Refused& rows = recorder->refused();
-  if (rows.rows + rows.values > 0) {
-    refused += (refused.empty() ? "; refused: " : ", ") + std::to_string(rows.rows) + " rows and " +
-               std::to_string(rows.values) + " values beyond the limits";
-  }
+  const std::string refused = refusedText(details);
   if (!refused.empty()) std::fprintf(stderr, "%s\n", refused.c_str() + 2);
   const auto finished = recorder->finish();
   return ended(recorder->path(), recorder->status(), finished);

@@ -20,7 +20,7 @@
 #include <random>
 #include <string>
 
-#include <robotlink/live/live_books.h>
+#include <robotlink/live/live_pipeline.h>
 #include <robotlink/session/live_recorder.h>
 #include <telemetry/series/series_store.h>
 #include <telemetry/session/session_reader.h>
@@ -110,15 +110,15 @@ int make(const std::string& file, const Day& day) {
     std::fprintf(stderr, "error: %s\n", recorder.error().text().c_str());
     return 2;
   }
-  link::LiveBooks books(options);
+  link::LivePipeline pipeline(options, zero);
   std::vector<Player> players;
   for (int i = 1; i <= day.robots; ++i) players.emplace_back(i);
   const double period = 1.0 / day.rate;
   const auto at = [&](double time) {
     return zero + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(time));
   };
-  double referee = 0.0, report = 0.0, remember = 0.0;
-  (*recorder)->remembered(0.0, books.text(options, 0.0, zero));
+  double referee = 0.0, frame = 0.0;
+  pipeline.observe(*recorder, zero);
   for (std::uint64_t step = 0; static_cast<double>(step) * period < day.hours * 3600.0; ++step) {
     for (std::size_t i = 0; i < players.size(); ++i) {
       const double time =
@@ -131,28 +131,18 @@ int make(const std::string& file, const Day& day) {
                                              static_cast<std::uint16_t>(1240 + number),
                                              false,
                                              text};
-      if (books.monitor.take(datagram) != telemetry::TeamMonitor::Verdict::Used) return 2;
-      (*recorder)->heard(books.monitor.used(), time, datagram, books.monitor.decoder(),
-                         books.monitor.decoded());
+      pipeline.take(datagram);
     }
     const double time = static_cast<double>(step + 1) * period;
     if (time >= referee) {
       referee += 0.5;
       const std::string bytes = refereePacket(time);
       const telemetry::DatagramView datagram{at(time), {{0x0A0000FEU}, 3838}, 3838, false, bytes};
-      const auto packet = telemetry::decodeReferee(bytes);
-      if (!packet) return 2;
-      books.takeReferee(*packet, datagram);
-      (*recorder)->refereeHeard(time, datagram, std::get<telemetry::RefereeState>(*packet));
-      (*recorder)->frameMade(books.frame(options, books.monitor.status(at(time)), time));
+      pipeline.take(datagram);
     }
-    if (time >= report) {
-      report += 0.25;
-      (*recorder)->reported(books.monitor.status(at(time)));
-    }
-    if (time >= remember) {
-      remember += 15.0;
-      (*recorder)->remembered(time, books.text(options, time, zero));
+    if (time >= frame) {
+      frame += 0.25;
+      (void)pipeline.frame(at(time));
     }
   }
   if (const auto done = (*recorder)->finish(); !done) {

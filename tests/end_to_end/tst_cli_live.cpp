@@ -72,7 +72,7 @@ class Listener {
       if (!process.canReadLine() && !process.waitForReadyRead(60'000)) break;
       while (process.canReadLine()) {
         const QJsonObject object = QJsonDocument::fromJson(process.readLine()).object();
-        if (object["type"] != "health") list << object;
+        if (object["type"] != "health" && object["type"] != "event") list << object;
       }
     }
     return list;
@@ -188,12 +188,35 @@ class TestCliLive : public QObject {
     QCOMPARE(listener.interrupt(), 0);
     QList<QByteArray> lines = listener.process.readAllStandardOutput().trimmed().split('\n');
     const QByteArray last = lines.last();
-    QVERIFY2(last.startsWith(R"({"type":"health","robot":1,"name":"Robot 1","received":900,)"
-                             R"("lost":300,"duplicates":1,"late":1,"loss":0.25,)"),
-             last.constData());
+    QVERIFY2(
+        last.startsWith(R"({"type":"health","robot":1,"name":"Robot 1","received":900,"lost":300,)"
+                        R"("duplicates":1,"late":1,"loss":0.25,)"),
+        last.constData());
     QVERIFY(lines.size() >= 2);
     QVERIFY2(listener.err.contains("Robot 1: 900 received, 300 lost (25.0 %), 1 twice, 1 late"),
              listener.err.constData());
+  }
+
+  void aDrawingIsNoBadMessage() {
+    Listener listener;
+    QVERIFY(listener.start());
+    const TestSocket robot;
+    const auto port = static_cast<std::uint16_t>(listener.base + 1);
+    const std::string drawing = "PBD1 1\nlayer a\ncircle 0.4 0.1 0.1\n";
+    const std::string words = "1 450 300 90 12.5 80 10 1 1 1 1 1 8 0.5 189 OUT";
+    QVERIFY(robot.send(port, drawing) && robot.send(port, words + "\n" + drawing));
+    const QList<QJsonObject> heard = listener.read(2);
+    QCOMPARE(heard.value(0)["type"].toString(), "drawing");
+    QCOMPARE(heard.value(0)["name"].toString(), "Robot 1");
+    QCOMPARE(heard.value(1)["type"].toString(), "telemetry");
+    QVERIFY(heard.value(1)["errors"].toArray().isEmpty());
+    QCOMPARE(listener.interrupt(), 0);
+    QVERIFY2(listener.err.contains("2 datagrams from 1 robots") && listener.err.contains("bad: 0"),
+             listener.err.constData());
+    const Outcome outcome = run({"decode", "telemetry", "--json", "-"},
+                                QByteArray::fromStdString(words) + "\nPBD1 1\n");
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.objects().value(0)["name"].toString(), "Robot 1");
   }
 
   void theRefereeHasAListOfItsOwn() {

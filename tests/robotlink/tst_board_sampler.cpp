@@ -9,7 +9,8 @@
 #include <fstream>
 #include <random>
 
-#include <robotlink/session/board_sampler.h>
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/live/attached_robots.h>
 #include <telemetry/series/series_store.h>
 
 #include "../support/segment_keys.h"
@@ -29,6 +30,33 @@ struct Segment {
   ~Segment() { removeSegment(key); }
 };
 
+/// One attached blackboard, and its rows.
+struct Sampled {
+  Sampled(int key, double rate) {
+    AttachedBoard board;
+    board.key = key;
+    board.rate = rate;
+    robots.set({board});
+  }
+  /// With the rows that have come.
+  AttachedStatus status() {
+    robots.takeRows([this](const auto& group, auto rows) { keeper.take(group, rows); });
+    return robots.status().front();
+  }
+  double newest() {
+    status();
+    return store->groups() == 0 ? 0.0
+                                : store->view(0)->range().value_or(telemetry::TimeRange{}).end;
+  }
+
+  const std::chrono::steady_clock::time_point zero = std::chrono::steady_clock::now();
+  std::shared_ptr<SeriesStore> store = std::make_shared<SeriesStore>();
+  BoardRowKeeper keeper{store};
+  AttachedRobots robots{[this] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - zero).count();
+  }};
+};
+
 }  // namespace
 
 class TestBoardSampler : public QObject {
@@ -43,24 +71,18 @@ class TestBoardSampler : public QObject {
                              QString::number(segment.key), "count", "i:17", "200"});
     QVERIFY(writer.waitForReadyRead(20'000));
 
-    auto store = std::make_shared<SeriesStore>();
-    const auto zero = std::chrono::steady_clock::now();
-    auto sampler =
-        BoardSampler::start(segment.key, store, {.rate = 1000.0, .group = "peer", .zero = zero},
-                            VariableCatalog::published());
-    QVERIFY2(sampler, sampler ? "" : sampler.error().message.c_str());
-    const auto id = store->find("peer", "DECISION_ACTION_A");  // int 17
+    Sampled sampled(segment.key, 1000.0);
+    QTRY_VERIFY_WITH_TIMEOUT(sampled.newest() > 2.0, 30'000);
+    const AttachedStatus status = sampled.status();
+    const auto& store = sampled.store;
+    const auto id = store->find(store->view(0)->info().name, "DECISION_ACTION_A");  // int 17
     QVERIFY(id);
-    QTRY_VERIFY_WITH_TIMEOUT(
-        store->view(id->group)->range().value_or(telemetry::TimeRange{}).end > 2.0, 30'000);
-    const BoardSamplerStatus status = (*sampler)->status();
-    sampler->reset();
     writer.kill();
     writer.waitForFinished();
 
     const auto view = store->view(id->group);
-    QVERIFY(status.attached && status.message.empty());
-    QVERIFY(status.samples <= view->rows());
+    QVERIFY(status.attached && status.problem.empty());
+    QCOMPARE(status.samples, std::uint64_t{view->rows()});
     QVERIFY2(status.rate > 10.0 && status.rate < 1010.0, qPrintable(QString::number(status.rate)));
     std::vector<telemetry::Sample> samples;
     view->samples(id->column, {0.0, 1e9}, samples);
@@ -85,10 +107,8 @@ class TestBoardSampler : public QObject {
     for (auto& byte : before) byte = static_cast<unsigned char>(random());
     std::ranges::copy(before, bytes);
 
-    auto store = std::make_shared<SeriesStore>();
-    auto sampler =
-        BoardSampler::start(segment.key, store, {.rate = 1000.0}, VariableCatalog::published());
-    QVERIFY(sampler);
+    Sampled sampled(segment.key, 1000.0);
+    QTRY_VERIFY_WITH_TIMEOUT(sampled.status().attached, 20'000);
     // The kernel says so as well: the sampler's mapping cannot be written to.
     char name[32];
     std::snprintf(name, sizeof name, "/SYSV%08x", static_cast<unsigned>(segment.key));
@@ -99,17 +119,15 @@ class TestBoardSampler : public QObject {
         ++readOnly;
     }
     QCOMPARE(readOnly, 1);
-    QTRY_VERIFY_WITH_TIMEOUT((*sampler)->status().samples > 100, 20'000);
-    QVERIFY(std::ranges::equal(before, std::span(bytes, before.size())));
-    const auto group = (*sampler)->group();
-    sampler->reset();
+    QTRY_VERIFY_WITH_TIMEOUT(sampled.status().samples > 100, 20'000);
+    sampled.robots.set({});
     QVERIFY(std::ranges::equal(before, std::span(bytes, before.size())));
 
     // And every word arrived as it is, NaN and all.
     double time = 0.0;
     std::vector<std::uint32_t> words;
     std::vector<double> values;
-    QVERIFY(store->view(group)->rowAt(1e9, time, words, values));
+    QVERIFY(sampled.store->view(0)->rowAt(1e9, time, words, values));
     const auto variables = VariableCatalog::published().variables();
     QCOMPARE(words.size(), variables.size());
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -125,38 +143,39 @@ class TestBoardSampler : public QObject {
   void saysThatTheSegmentIsGone() {
     const Segment segment;
     QVERIFY(SystemVSegments::create(segment.key));
-    auto store = std::make_shared<SeriesStore>();
-    auto sampler =
-        BoardSampler::start(segment.key, store, {.rate = 500.0}, VariableCatalog::published());
-    QVERIFY(sampler);
-    QTRY_VERIFY_WITH_TIMEOUT((*sampler)->status().samples > 0, 20'000);
+    Sampled sampled(segment.key, 500.0);
+    QTRY_VERIFY_WITH_TIMEOUT(sampled.status().samples > 0, 20'000);
     QVERIFY(SystemVSegments::remove(segment.key));
-    QTRY_VERIFY_WITH_TIMEOUT(!(*sampler)->status().attached, 20'000);
-    const BoardSamplerStatus gone = (*sampler)->status();
-    QVERIFY(QString::fromStdString(gone.message).contains(QString::number(segment.key)));
-    QTRY_COMPARE_WITH_TIMEOUT((*sampler)->status().rate, 0.0, 20'000);
-    QCOMPARE((*sampler)->status().samples, gone.samples);
+    QTRY_VERIFY_WITH_TIMEOUT(!sampled.status().attached, 20'000);
+    const AttachedStatus gone = sampled.status();
+    QVERIFY(QString::fromStdString(gone.problem).contains(QString::number(segment.key)));
+    QTRY_COMPARE_WITH_TIMEOUT(sampled.status().rate, 0.0, 20'000);
+    QCOMPARE(sampled.status().samples, gone.samples);
 
     auto fresh = SystemVSegments::open(segment.key, AttachMode::AttachOrCreate);
     QVERIFY(fresh);
     fresh->write(IntVar{17}, 5);
-    const auto id = *store->find("key " + std::to_string(segment.key), "DECISION_ACTION_A");
-    QTRY_COMPARE_WITH_TIMEOUT(store->view(id.group)->latest(id.column)->value, 5.0, 20'000);
-    QVERIFY((*sampler)->status().attached && (*sampler)->status().message.empty());
+    const auto& store = sampled.store;
+    const auto id = *store->find(store->view(0)->info().name, "DECISION_ACTION_A");
+    const auto newest = [&] {
+      sampled.status();
+      return store->view(id.group)->latest(id.column)->value;
+    };
+    QTRY_COMPARE_WITH_TIMEOUT(newest(), 5.0, 20'000);
+    QVERIFY(sampled.status().attached && sampled.status().problem.empty());
   }
 
   void refusals() {
     const Segment segment;
-    auto store = std::make_shared<SeriesStore>();
-    const auto& catalog = VariableCatalog::published();
-    const auto none = BoardSampler::start(segment.key, store, {}, catalog);
-    QVERIFY(!none && none.error().code == ErrorCode::NotFound);
+    Sampled none(segment.key, 100.0);
+    QTRY_VERIFY_WITH_TIMEOUT(!none.status().problem.empty(), 20'000);
     QVERIFY(!SystemVSegments::info(segment.key));  // looking did not create it
+    AttachedBoard board;
     for (const double rate : {0.0, -1.0, 1001.0, std::numeric_limits<double>::quiet_NaN()}) {
-      const auto wrong = BoardSampler::start(segment.key, store, {.rate = rate}, catalog);
-      QVERIFY(!wrong && wrong.error().code == ErrorCode::InvalidArgument);
+      board.rate = rate;
+      QCOMPARE(validate({board}).error().code, ErrorCode::InvalidArgument);
     }
-    QCOMPARE(store->groups(), std::size_t{0});
+    QCOMPARE(none.store->groups(), std::size_t{0});
   }
 };
 

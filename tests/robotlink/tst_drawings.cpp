@@ -94,7 +94,7 @@ class TestDrawings : public QObject {
     QTRY_COMPARE(watch.details().network.ports.size(), std::size_t{3});
     auto recorder = LiveRecorder::create(path, options, watch.began());
     QVERIFY(recorder);
-    const auto memory = std::make_shared<LiveMemory>(options.refereePort);
+    const auto memory = std::make_shared<LiveMemory>();
     const auto screen = std::make_shared<Screen>();
     watch.observe(*recorder);
     watch.observe(memory);

@@ -3,7 +3,7 @@
 #include <QtTest>
 
 #include "../support/robot_keys.h"
-#include "live_events.h"
+#include <robotlink/live/live_events.h>
 
 namespace tst_live_events {
 
@@ -263,7 +263,7 @@ class TestLiveEvents : public QObject {
     s.robot(1);
     s.referee();
     const auto first = s.at(1.0);
-    s.events.clear();
+    s.events = {};
     QCOMPARE(kindsOf(s.at(2.0)), kindsOf(first));
   }
 

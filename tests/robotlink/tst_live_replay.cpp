@@ -36,15 +36,7 @@ class Screen : public LiveObserver {
     MatchFrame frame;
     std::size_t datagrams;
   };
-  void heard(const RobotKey&, double time, const telemetry::DatagramView&,
-             const telemetry::TextDecoder&, const telemetry::DecodedText&) override {
-    note(time);
-  }
-  void refereeHeard(double time, const telemetry::DatagramView&,
-                    const telemetry::RefereeState&) override {
-    note(time);
-  }
-  void unusedHeard(double time, const telemetry::DatagramView&) override { note(time); }
+  void heard(const LiveDatagram& datagram) override { note(datagram.time); }
   void frameMade(const MatchFrame& frame) override {
     const std::lock_guard lock(m_mutex);
     m_seen.push_back({frame, m_times.size()});
@@ -123,7 +115,7 @@ class TestLiveReplay : public QObject {
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
     auto recorder = LiveRecorder::create(m_path, options, watch.began());
     QVERIFY(recorder);
-    m_memory = std::make_shared<LiveMemory>(options.refereePort);
+    m_memory = std::make_shared<LiveMemory>();
     watch.observe(*recorder);
     watch.observe(m_memory);
     watch.observe(m_screen);

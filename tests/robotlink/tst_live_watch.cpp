@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include <robotlink/live/live_watch.h>
+#include <telemetry/series/series_store.h>
 #include <telemetry/wire/text_protocol.h>
 
 #include "../support/recorded_packets.h"
@@ -42,21 +43,21 @@ std::size_t bound(const LiveWatch& watch) {
 /// Counts what the watch's thread tells.
 class Witness : public LiveObserver {
  public:
-  void heard(const RobotKey& robot, double time, const telemetry::DatagramView& datagram,
-             const telemetry::TextDecoder&, const telemetry::DecodedText& decoded) override {
-    const std::lock_guard lock(mutex);
-    ids.push_back(robot.number);
-    numbers.push_back(decoded.robot);
-    times.push_back(time);
-    payloads.emplace_back(datagram.payload);
+  void heard(const LiveDatagram& datagram) override {
+    if (datagram.state() != nullptr) {
+      ++referee;
+    } else if (datagram.verdict == LiveDatagram::Verdict::Used) {
+      const std::lock_guard lock(mutex);
+      ids.push_back(datagram.robot.number);
+      numbers.push_back(datagram.decoded->robot);
+      times.push_back(datagram.time);
+      payloads.emplace_back(datagram.view.payload);
+    } else if (!datagram.isStranger()) {
+      ++unused;
+    }
   }
-  void refereeHeard(double, const telemetry::DatagramView&,
-                    const telemetry::RefereeState&) override {
-    ++referee;
-  }
-  void unusedHeard(double, const telemetry::DatagramView&) override { ++unused; }
-  void reported(const telemetry::TeamStatus&) override { ++reports; }
   void frameMade(const MatchFrame&) override { ++frames; }
+  std::shared_ptr<telemetry::RowSink> rows() override { return store; }
 
   std::size_t count() {
     const std::lock_guard lock(mutex);
@@ -67,7 +68,8 @@ class Witness : public LiveObserver {
   std::vector<int> ids, numbers;
   std::vector<double> times;
   std::vector<std::string> payloads;
-  std::atomic<int> referee = 0, unused = 0, reports = 0, frames = 0;
+  std::atomic<int> referee = 0, unused = 0, frames = 0;
+  std::shared_ptr<telemetry::SeriesStore> store = std::make_shared<telemetry::SeriesStore>();
 };
 
 }  // namespace
@@ -151,7 +153,18 @@ class TestLiveWatch : public QObject {
     QCOMPARE(gone->count(), std::size_t{1});
     QCOMPARE(gone->frames.load(), frames);
     QCOMPARE(gone.use_count(), 1L);
-    QTRY_VERIFY(there->reports.load() > 0);
+    // One who joins later gets the rows from then on.
+    const auto late = std::make_shared<Witness>();
+    watch.observe(late);
+    QVERIFY(robot.send(portOf(options, 2), message(2, 302)));
+    const auto rowsOf = [](const Witness& one, std::string_view group) {
+      const auto id = one.store->findGroup(group);
+      return id ? one.store->view(*id)->rows() : std::size_t{0};
+    };
+    QTRY_COMPARE(rowsOf(*late, "Robot 2"), std::size_t{1});
+    QTRY_VERIFY(rowsOf(*late, "Robot 2 link") > 0);
+    QCOMPARE(rowsOf(*there, "Robot 2"), std::size_t{3});
+    QCOMPARE(rowsOf(*gone, "Robot 2"), std::size_t{1});
   }
 
   void theRefereeIsHeard() {

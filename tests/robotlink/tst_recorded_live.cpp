@@ -3,7 +3,7 @@
 
 #include <QtTest>
 
-#include <robotlink/live/live_books.h>
+#include <robotlink/live/live_pipeline.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/moment_reader.h>
 #include <robotlink/session/moment_scenario.h>
@@ -24,25 +24,23 @@ class TestRecordedLive : public QObject {
     LiveOptions live;
     const telemetry::WallTime zero = std::chrono::system_clock::now();
     auto recorder = LiveRecorder::create(path, live, zero).value();
-    LiveBooks known(live);
-    telemetry::TeamMonitor& monitor = known.monitor;
-    // As a watch does when it is observed.
-    recorder->remembered(0.5, known.text(live, 0.5, zero));
+    LivePipeline pipeline(live, zero);
+    pipeline.observe(recorder, zero + std::chrono::milliseconds(500));
     const auto hear = [&](double time, std::string text) {
       telemetry::DatagramView datagram;
       datagram.time = zero + std::chrono::nanoseconds(static_cast<std::int64_t>(time * 1e9));
       datagram.sender = {{0x7f000001}, 5000};
       datagram.localPort = 1241;
       datagram.payload = text;
-      QVERIFY(monitor.take(datagram) == telemetry::TeamMonitor::Verdict::Used);
-      recorder->heard({0, 1, 0}, time, datagram, monitor.decoder(), monitor.decoded());
+      pipeline.take(datagram);
     };
     hear(1.0, "1 450 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT");
-    recorder->reported(monitor.status(zero + std::chrono::milliseconds(1500)));
+    (void)pipeline.frame(zero + std::chrono::milliseconds(1500));
     hear(2.0, "1 460 300 90 12.5 80.0 10.0 1 1 1 1 1 8 0.5 189 OUT");
     telemetry::DatagramView packet;
     packet.payload = std::string_view("RGme\0\xff", 6);
-    recorder->refereeHeard(2.0, packet, {});
+    const Result<telemetry::RefereePacket> state = telemetry::RefereeState{};
+    recorder->heard({.time = 2.0, .view = packet, .referee = &state});
     MatchFrame frame;
     frame.snapshot.time = 2.0;
     frame.referee.emplace();
@@ -60,7 +58,8 @@ class TestRecordedLive : public QObject {
     const auto session = telemetry::SessionReader::open(path).value();
     QCOMPARE(session.count(telemetry::SessionStream::Telemetry), std::uint64_t{2});
     QCOMPARE(session.count(telemetry::SessionStream::RefereeRaw), std::uint64_t{1});
-    QCOMPARE(session.events().size(), std::size_t{1});
+    // The robot was heard; and a port was lost.
+    QCOMPARE(session.events().size(), std::size_t{2});
     RecordedFrames frames(backdropOf(session));
     const MatchFrame seen = frames.frameAt(session, 2.1);
     QVERIFY(!seen.truthKnown && !seen.ballKnown);
@@ -70,7 +69,8 @@ class TestRecordedLive : public QObject {
     QVERIFY(robot.lamps[3].state == telemetry::ProcessState::Working);
     QVERIFY(robot.link && robot.ball && !robot.timedOut());
     // What it said stands in the frame as it did in Live.
-    const telemetry::TeamStatus team = monitor.status(zero + std::chrono::milliseconds(2100));
+    const telemetry::TeamStatus team =
+        pipeline.details(zero + std::chrono::milliseconds(2100)).team;
     QVERIFY(robot.battery && robot.battery == team.robots.at(0).battery);
     QCOMPARE(robot.link->sender.address, team.robots[0].sender.address);
     QCOMPARE(robot.values.size(), team.robots[0].words.size());
@@ -97,8 +97,9 @@ class TestRecordedLive : public QObject {
     for (const int second : {1, 2, 3}) {
       const std::string text =
           "1 4" + std::to_string(second) + "0 300 90 12 80 10 1 1 1 1 1 8 0 189 OUT";
-      recorder->unusedHeard(
-          second, {zero + std::chrono::seconds(second), {{0x7f000001}, 5000}, 1241, false, text});
+      const telemetry::DatagramView datagram{
+          zero + std::chrono::seconds(second), {{0x7f000001}, 5000}, 1241, false, text};
+      recorder->heard({.time = static_cast<double>(second), .view = datagram});
     }
     recorder->remembered(3.5, LiveBooks(live).text(live, 3.5, zero));
     QVERIFY(recorder->finish());

@@ -24,11 +24,11 @@ bool readNumber(std::string_view text, Number& out) {
 
 }  // namespace
 
-Result<BoardMap> mapOf(const AttachedBoard& board) {
+Result<BoardMap> mapOf(const AttachedBoard& board, const VariableCatalog& usual) {
   SegmentLayout layout;
   if (board.bytes != 0) layout.bytes = board.bytes;
   const bool isPublished = board.catalogFile.empty();
-  VariableCatalog catalog = TRY(isPublished ? Result<VariableCatalog>(VariableCatalog::published())
+  VariableCatalog catalog = TRY(isPublished ? Result<VariableCatalog>(usual)
                                             : VariableCatalog::fromFile(board.catalogFile, layout));
   if (board.bytes != 0 && layout.bytes != board.bytes) {
     return failure(ErrorCode::Conflict,
@@ -119,14 +119,16 @@ std::string attachedBoardText(const AttachedBoard& board) {
   return text;
 }
 
-std::vector<std::string> boardNames(const std::vector<AttachedBoard>& boards) {
+std::vector<std::string> boardNames(const std::vector<AttachedBoard>& boards,
+                                    const std::vector<std::string>& taken) {
   std::vector<std::string> names;
   for (const AttachedBoard& board : boards) {
     sim::RobotIdentity identity;
     identity.team = board.team;
     identity.number = board.number();
     std::string name = identity.name();
-    if (std::find(names.begin(), names.end(), name) != names.end()) {
+    if (std::ranges::find(names, name) != names.end() ||
+        std::ranges::find(taken, name) != taken.end()) {
       name += " key " + std::to_string(board.key);
     }
     names.push_back(std::move(name));

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/live/attached_robots.h>
 
+#include <time.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -25,8 +26,22 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto lookInterval = 100ms;    // is it still the segment of this key?
+constexpr auto lookInterval = 100ms;  // is it still the segment of this key?
+constexpr auto longestSleep = 50ms;   // so that stopping takes no longer
+constexpr auto rateWindow = 1s;
 constexpr std::size_t mostRows = 4096;  // waiting; older ones are lost, counted
+
+/// More even than a condition variable. The clock is CLOCK_MONOTONIC in the standard libraries of
+/// Linux.
+void sleepUntil(Clock::time_point until) {
+  const auto since = until.time_since_epoch();
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(since);
+  timespec at{};
+  at.tv_sec = static_cast<time_t>(seconds.count());
+  at.tv_nsec = static_cast<long>(std::chrono::nanoseconds(since - seconds).count());
+  // An interrupted sleep is taken up by the caller's loop.
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
+}
 
 }  // namespace
 
@@ -114,10 +129,9 @@ class AttachedRobots::Reader {
     const auto period = std::chrono::duration_cast<Clock::duration>(
         std::chrono::duration<double>(1.0 / m_board.rate));
     std::optional<SegmentView> view;
-    auto due = Clock::now(), nextLook = due;
-    std::mutex idle;
-    std::condition_variable_any ending;
-    std::unique_lock idling(idle);
+    auto due = Clock::now(), nextLook = due, windowStart = due;
+    std::uint64_t inWindow = 0;
+    bool isFirst = true;
     while (!stop.stop_requested()) {
       auto now = Clock::now();
       if (now >= nextLook) {
@@ -126,6 +140,7 @@ class AttachedRobots::Reader {
       }
       if (view && now >= due) {
         sample(*view);
+        ++inWindow;
         due += period;
         if (now > due) {
           const auto late = (now - due) / period + 1;
@@ -134,8 +149,19 @@ class AttachedRobots::Reader {
           m_status.missed += static_cast<std::uint64_t>(late);
         }
       }
-      const auto wake = view ? std::min(due, nextLook) : nextLook;
-      ending.wait_until(idling, stop, wake, [] { return false; });
+      now = Clock::now();
+      const auto elapsed = now - windowStart;
+      if (elapsed >= rateWindow || (isFirst && elapsed > period)) {  // the first one as it grows
+        const std::lock_guard lock(m_mutex);
+        m_status.rate =
+            static_cast<double>(inWindow) / std::chrono::duration<double>(elapsed).count();
+      }
+      if (elapsed >= rateWindow) {
+        isFirst = false;
+        windowStart = now;
+        inWindow = 0;
+      }
+      sleepUntil(std::min(view ? std::min(due, nextLook) : nextLook, now + longestSleep));
       if (!view) due = Clock::now();
     }
   }
@@ -167,6 +193,7 @@ class AttachedRobots::Reader {
     const std::lock_guard lock(m_mutex);
     m_newest = row;
     m_lamps = m_works.note(reader(), row.time);
+    m_columns.makeHoles(row.words);
     if (m_rows.size() == mostRows) {
       m_rows.erase(m_rows.begin(), m_rows.begin() + mostRows / 4);
       m_status.missed += mostRows / 4;
@@ -184,7 +211,7 @@ class AttachedRobots::Reader {
   std::array<std::optional<std::size_t>, telemetry::fieldMeaningCount> m_wanted;
 
   mutable std::mutex m_mutex;  // of what follows
-  AttachedStatus m_status{m_board, false, {}, 0, 0};
+  AttachedStatus m_status{m_board, false, {}, 0, 0, 0.0};
   BoardRow m_newest;
   LampMemory m_works;
   LampMemory::Lamps m_lamps{};
@@ -200,14 +227,16 @@ telemetry::LinkHealth boardLink(double age, double rate, bool gone) {
   return link;
 }
 
-AttachedRobots::AttachedRobots(std::function<double()> seconds) : m_seconds(std::move(seconds)) {}
+AttachedRobots::AttachedRobots(std::function<double()> seconds, VariableCatalog catalog)
+    : m_seconds(std::move(seconds)), m_catalog(std::move(catalog)) {}
 AttachedRobots::~AttachedRobots() = default;
 
-void AttachedRobots::set(const std::vector<AttachedBoard>& boards) {
+void AttachedRobots::set(const std::vector<AttachedBoard>& boards,
+                         const std::vector<std::string>& taken) {
   std::erase_if(m_readers, [&boards](const auto& reader) {
     return std::find(boards.begin(), boards.end(), reader->board()) == boards.end();
   });
-  const std::vector<std::string> names = boardNames(boards);
+  const std::vector<std::string> names = boardNames(boards, taken);
   for (std::size_t i = 0; i < boards.size(); ++i) {
     if (std::ranges::any_of(m_readers, [&](const auto& reader) {
           return reader->board() == boards[i] && reader->group().name == names[i];
@@ -216,7 +245,7 @@ void AttachedRobots::set(const std::vector<AttachedBoard>& boards) {
     }
     // One that goes on under another name begins anew.
     std::erase_if(m_readers, [&](const auto& reader) { return reader->board() == boards[i]; });
-    if (auto map = mapOf(boards[i])) {
+    if (auto map = mapOf(boards[i], m_catalog)) {
       m_readers.push_back(
           std::make_unique<Reader>(boards[i], names[i], std::move(*map), m_seconds));
     }

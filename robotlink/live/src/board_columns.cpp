@@ -40,8 +40,12 @@ void BoardColumns::read(const Blackboard& board, std::span<std::uint32_t> out) c
   std::array<std::uint32_t, Blackboard::words> words;
   board.copyWords(words);
   for (std::size_t i = 0; i < m_words.size(); ++i) out[i] = words[m_words[i]];
+  makeHoles(out);
+}
+
+void BoardColumns::makeHoles(std::span<std::uint32_t> words) const {
   for (const Hole& one : m_holes) {
-    if (out[one.column] == one.absent) out[one.column] = hole;
+    if (words[one.column] == one.absent) words[one.column] = hole;
   }
 }
 

@@ -14,6 +14,7 @@ struct BoardMap {
 };
 
 /// Errors name the catalog and what does not fit.
-Result<BoardMap> mapOf(const AttachedBoard& board);
+Result<BoardMap> mapOf(const AttachedBoard& board,
+                       const VariableCatalog& usual = VariableCatalog::published());
 
 }  // namespace pitchboard::link

@@ -117,13 +117,15 @@ std::optional<telemetry::TeamMonitor::Verdict> LiveBooks::takeRobot(
     if (!monitor.renamings().empty()) drawings.rename(monitor.renamings());
     return verdict;
   };
+  lastDrawer.reset();
   const telemetry::DatagramParts parts = telemetry::partsOf(datagram.payload);
   if (parts.drawing.empty()) return take(datagram);
   if (auto drawing = telemetry::parseDrawing(parts.drawing); !drawing) {
     // For a stranger's there is no need of a sentence.
     if (monitor.placeOf(datagram, {})) (void)drawings.take(parts.drawing, time);
   } else if (const auto place = monitor.placeOf(datagram, drawing->team)) {
-    (void)drawings.take(std::move(*drawing), time, *place);
+    const RobotKey robot{*place, drawing->robot, 0};
+    if (drawings.take(std::move(*drawing), time, *place)) lastDrawer = robot;
   }
   if (parts.message.empty()) return std::nullopt;
   telemetry::DatagramView message = datagram;

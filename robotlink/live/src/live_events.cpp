@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "live_events.h"
+#include <robotlink/live/live_events.h>
 
 #include <algorithm>
 #include <chrono>

@@ -20,31 +20,15 @@ std::size_t bytesOf(const LiveRecord& record) {
 
 }  // namespace
 
-void LiveRecords::keep(SessionStream stream, double time, const telemetry::DatagramView& datagram) {
+void LiveRecords::heard(const LiveDatagram& datagram) {
+  if (datagram.isStranger()) return;
   LiveRecord record;
-  record.stream = stream;
-  record.time = time;
-  record.datagram = {time, datagram.sender, datagram.localPort, std::string(datagram.payload)};
+  record.stream = datagram.referee ? SessionStream::RefereeRaw : SessionStream::Telemetry;
+  record.time = datagram.time;
+  record.datagram = {datagram.time, datagram.view.sender, datagram.view.localPort,
+                     std::string(datagram.view.payload)};
   keep(std::move(record));
-}
-
-void LiveRecords::heard(const RobotKey& /*robot*/, double time,
-                        const telemetry::DatagramView& datagram,
-                        const telemetry::TextDecoder& /*decoder*/,
-                        const telemetry::DecodedText& /*decoded*/) {
-  keep(SessionStream::Telemetry, time, datagram);
-}
-
-void LiveRecords::refereeHeard(double time, const telemetry::DatagramView& datagram,
-                               const telemetry::RefereeState& state) {
-  keep(SessionStream::RefereeRaw, time, datagram);
-  m_refereeNews = state;
-}
-
-void LiveRecords::unusedHeard(double time, const telemetry::DatagramView& datagram) {
-  const bool ofRobot =
-      datagram.localPort != m_refereePort && datagram.localPort != telemetry::robotStatesPort;
-  keep(ofRobot ? SessionStream::Telemetry : SessionStream::RefereeRaw, time, datagram);
+  if (const telemetry::RefereeState* state = datagram.state()) m_refereeNews = *state;
 }
 
 void LiveRecords::frameMade(const MatchFrame& frame) {

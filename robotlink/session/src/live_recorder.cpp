@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <robotlink/live/live_teams.h>
 #include <robotlink/session/session_events.h>
 #include <telemetry/wire/referee_json.h>
 
@@ -50,26 +49,10 @@ Result<std::shared_ptr<LiveRecorder>> LiveRecorder::create(const std::string& pa
                                                  options.writer);
   if (!writer) return tl::unexpected(writer.error());
   (*writer)->attach(profileAttachment, "application/json", telemetry::profileText(live.profile));
-  return std::shared_ptr<LiveRecorder>(new LiveRecorder(std::move(*writer), zero, live));
+  return std::shared_ptr<LiveRecorder>(new LiveRecorder(std::move(*writer)));
 }
-
-LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
-                           telemetry::WallTime zero, const LiveOptions& live)
-    : LiveRecords(live.refereePort),
-      m_writer(std::move(writer)),
-      m_zero(zero),
-      m_rows(m_writer, rowsOptions(live, zero)),
-      m_boards(m_writer) {}
 
 LiveRecorder::~LiveRecorder() = default;
-
-void LiveRecorder::heard(const RobotKey& robot, double time,
-                         const telemetry::DatagramView& datagram,
-                         const telemetry::TextDecoder& decoder,
-                         const telemetry::DecodedText& decoded) {
-  LiveRecords::heard(robot, time, datagram, decoder, decoded);
-  m_rows.take(datagram, decoded, decoder, robot);
-}
 
 void LiveRecorder::keep(LiveRecord record) {
   appendRecord(*m_writer, record);
@@ -77,18 +60,6 @@ void LiveRecorder::keep(LiveRecord record) {
 
 void LiveRecorder::happened(const MatchEvent& event) {
   m_writer->append(sessionEvent(event));
-}
-
-void LiveRecorder::adopted(const LiveOptions& options, const std::vector<Renaming>& renamings) {
-  m_rows.setOptions(rowsOptions(options, m_zero), renamings);
-}
-
-void LiveRecorder::renamed(const std::vector<Renaming>& renamings) {
-  m_rows.rename(renamings);
-}
-
-void LiveRecorder::reported(const telemetry::TeamStatus& team) {
-  m_rows.report(team);
 }
 
 void appendRecord(telemetry::SessionWriter& writer, const LiveRecord& record) {

@@ -245,13 +245,15 @@ class TestLiveSettings : public QObject {
     // What is refused is shown.
     details.team.refusedByFilter = 5;
     details.refusedReferees = 6;
-    model.update(details, {7, 8});
+    details.rows = {7, 8};
+    model.update(details);
     QCOMPARE(model.rowCount(), 8);
     for (int row = 4; row < 8; ++row) {
       QCOMPARE(model.index(row, BadMessagesModel::Count).data().toString(),
                QString::number(row + 1));
     }
     details.team.refusedByFilter = details.refusedReferees = 0;
+    details.rows = {};
     model.update(details);
     details.unknownReferee = 3;
     QSignalSpy changed(&model, &QAbstractItemModel::dataChanged);

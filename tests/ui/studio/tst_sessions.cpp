@@ -208,9 +208,11 @@ class TestSessions : public QObject {
     const auto say = [&](double time, int port, std::string_view payload) {
       const telemetry::Duration after(static_cast<std::int64_t>(time * 1e9));
       const auto from = static_cast<std::uint16_t>(4000 + port);
-      recorder->unusedHeard(
-          time,
-          {zero + after, {{0x7f000001}, from}, static_cast<std::uint16_t>(port), false, payload});
+      const telemetry::DatagramView datagram{
+          zero + after, {{0x7f000001}, from}, static_cast<std::uint16_t>(port), false, payload};
+      const auto packet = telemetry::decodeReferee(payload);
+      const bool isReferee = port == options.refereePort;
+      recorder->heard({.time = time, .view = datagram, .referee = isReferee ? &packet : nullptr});
     };
     for (int robot = 1; robot <= 10; ++robot) {
       telemetry::TextMessage message = live_rig::message(robot);

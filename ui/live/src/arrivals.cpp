@@ -9,12 +9,7 @@ namespace pitchboard::ui {
 
 class Arrivals::Keeper : public link::LiveObserver {
  public:
-  void heard(const RobotKey&, double, const telemetry::DatagramView& datagram,
-             const telemetry::TextDecoder&, const telemetry::DecodedText&) override {
-    take(datagram);
-  }
-  void unusedHeard(double, const telemetry::DatagramView& datagram) override { take(datagram); }
-  void strangerHeard(const telemetry::DatagramView& datagram) override { take(datagram); }
+  void heard(const link::LiveDatagram& datagram) override { take(datagram.view); }
 
   void take(const telemetry::DatagramView& datagram) {
     if (datagram.payload.size() > longestPayload) return;

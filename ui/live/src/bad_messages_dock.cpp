@@ -48,7 +48,7 @@ class BadMessagesDock : public QStackedWidget {
 
  private:
   void refresh() {
-    m_model->update(m_live->details(), m_live->refusedRows());
+    m_model->update(m_live->details());
     m_empty->setText(
         m_live->isListening()
             ? QStringLiteral(

@@ -16,8 +16,7 @@ void BadMessagesModel::add(std::vector<Row>& rows, const QString& who,
   }
 }
 
-void BadMessagesModel::update(const link::LiveDetails& details,
-                              const telemetry::LiveRows::Refused& kept) {
+void BadMessagesModel::update(const link::LiveDetails& details) {
   std::vector<Row> rows;
   add(rows, QStringLiteral("everybody"), details.team.errors);
   for (const telemetry::RobotStatus& robot : details.team.robots) {
@@ -46,9 +45,9 @@ void BadMessagesModel::update(const link::LiveDetails& details,
   count(QStringLiteral("robots"), QStringLiteral("of more robots than are kept (64)"),
         details.team.refusedRobots);
   count(QStringLiteral("curves"), QStringLiteral("messages of more robots than are kept (64)"),
-        kept.rows);
+        details.rows.rows);
   count(QStringLiteral("curves"), QStringLiteral("values in more fields than are kept"),
-        kept.values);
+        details.rows.values);
   count(QStringLiteral("network"), QStringLiteral("lost because nobody took them in time"),
         details.network.queueDrops);
   for (const telemetry::PortStatus& port : details.network.ports) {

@@ -20,7 +20,7 @@ class BadMessagesModel : public QAbstractTableModel {
   enum Column { Who, Kind, Count, Sample, columns };
   using QAbstractTableModel::QAbstractTableModel;
 
-  void update(const link::LiveDetails& details, const telemetry::LiveRows::Refused& rows = {});
+  void update(const link::LiveDetails& details);
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;
   QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;

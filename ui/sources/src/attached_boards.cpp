@@ -3,86 +3,81 @@
 
 #include <algorithm>
 
-#include <robotlink/live/attached_robots.h>
+#include <base/try.h>
+#include <robotlink/blackboard/system_v.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_memory.h>
 
 namespace pitchboard::ui {
+namespace {
+constexpr int takeInterval = 20;  // ms
+const char* const noMatch = "open a match first: what is sampled is kept beside its rows";
+}  // namespace
 
 AttachedBoards::AttachedBoards(MatchController* controller, QObject* parent)
     : QObject(parent), m_controller(controller) {
   connect(controller, &MatchController::restarted, this, &AttachedBoards::follow);
+  connect(&m_take, &QTimer::timeout, this, [this] {
+    m_robots->takeRows([this](const auto& group, auto rows) { m_rows->take(group, rows); });
+  });
 }
 
 AttachedBoards::~AttachedBoards() = default;
 
-// As in Live, unless a robot of the match has the name.
-QString AttachedBoards::groupName(int key) const {
+Result<void> AttachedBoards::attach(int key, double rate) {
   link::AttachedBoard board;
   board.key = key;
-  std::string name = link::boardNames({board}).front();
-  const auto& robots = m_controller->scenario().robots;
-  if (std::ranges::any_of(robots,
-                          [&name](const auto& robot) { return robot.identity.name() == name; })) {
-    name += " key " + std::to_string(key);
-  }
-  return QString::fromStdString(name);
-}
-
-Result<std::unique_ptr<link::BoardSampler>> AttachedBoards::start(int key, double rate) const {
-  auto rows = m_controller->memory()->rowsBeside();
-  if (!rows) {
-    return failure(ErrorCode::NotFound,
-                   "open a match first: what is sampled is kept beside its rows");
-  }
-  link::BoardSamplerOptions options;
-  options.rate = rate;
-  options.group = groupName(key).toStdString();
-  return link::BoardSampler::start(key, std::move(rows), options, m_controller->catalog());
-}
-
-Result<void> AttachedBoards::attach(int key, double rate) {
-  // Two samplers must not write one group: the old one ends first, and comes back if need be.
-  const auto known = m_boards.find(key);
-  if (known != m_boards.end()) known->second.sampler.reset();
-  auto sampler = start(key, rate);
-  if (!sampler) {
-    if (known != m_boards.end()) {
-      if (auto again = start(key, known->second.rate)) known->second.sampler = std::move(*again);
-    }
-    return tl::unexpected(sampler.error());
-  }
-  m_boards.insert_or_assign(key, Board{rate, std::move(*sampler), {}});
-  emit changed();
+  board.rate = rate;
+  TRY(link::validate({board}));
+  TRY(link::SegmentView::attach(key, link::SegmentLayout().bytes));
+  if (!m_controller->memory()->rowsBeside()) return failure(ErrorCode::NotFound, noMatch);
+  detach(key);
+  m_boards.push_back(board);
+  m_robots ? set() : follow();
   return {};
 }
 
 void AttachedBoards::detach(int key) {
-  if (m_boards.erase(key) != 0) emit changed();
+  if (std::erase_if(m_boards, [key](const auto& board) { return board.key == key; }) != 0) set();
 }
 
-// Another match has rows of its own.
+bool AttachedBoards::contains(int key) const {
+  return std::ranges::find(m_boards, key, &link::AttachedBoard::key) != m_boards.end();
+}
+
+// Another match has rows and a catalog of its own.
 void AttachedBoards::follow() {
-  for (auto& [key, board] : m_boards) {
-    board.sampler.reset();
-    auto sampler = start(key, board.rate);
-    if (sampler) board.sampler = std::move(*sampler);
-    board.problem = sampler ? std::string() : sampler.error().text();
+  m_take.stop();
+  m_robots.reset();
+  const MatchMemory* memory = m_controller->memory();
+  auto rows = memory->rowsBeside();
+  if (rows) {
+    m_rows = std::make_unique<link::BoardRowKeeper>(std::move(rows));
+    m_robots =
+        std::make_unique<link::AttachedRobots>(memory->timeBeside(), m_controller->catalog());
   }
-  emit changed();
+  set();
 }
 
-std::map<int, link::BoardSamplerStatus> AttachedBoards::status() const {
-  std::map<int, link::BoardSamplerStatus> all;
-  for (const auto& [key, board] : m_boards) {
-    if (board.sampler) {
-      all.emplace(key, board.sampler->status());
-    } else {
-      link::BoardSamplerStatus waiting;
-      waiting.message = board.problem;
-      all.emplace(key, waiting);
-    }
+void AttachedBoards::set() {
+  std::vector<std::string> taken;
+  for (const auto& robot : m_controller->scenario().robots) taken.push_back(robot.identity.name());
+  const std::vector<std::string> names = link::boardNames(m_boards, taken);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    m_names[m_boards[i].key] = QString::fromStdString(names[i]);
   }
+  if (m_robots) m_robots->set(m_boards, taken);
+  if (m_robots && !m_boards.empty()) {
+    m_take.start(takeInterval);
+  } else {
+    m_take.stop();
+  }
+}
+
+std::vector<link::AttachedStatus> AttachedBoards::status() const {
+  if (m_robots) return m_robots->status();
+  std::vector<link::AttachedStatus> all;
+  for (const link::AttachedBoard& board : m_boards) all.push_back({board, false, noMatch});
   return all;
 }
 

@@ -2,9 +2,7 @@
 #include <ui/sources/live_controller.h>
 
 #include <algorithm>
-#include <atomic>
 
-#include <robotlink/live/live_teams.h>
 #include <telemetry/series/series_store.h>
 
 namespace pitchboard::ui {
@@ -12,41 +10,6 @@ namespace {
 constexpr qint64 framePeriod = 32;  // ms, while many are heard
 constexpr std::size_t fewRobots = 8;
 }  // namespace
-
-/// Every message as a row of the store. Lives in the watch's thread once it observes.
-class RowKeeper : public link::LiveObserver {
- public:
-  RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, const link::LiveOptions& options,
-            telemetry::WallTime zero)
-      : m_zero(zero), m_rows(store, link::rowsOptions(options, zero)), m_boards(store) {}
-  void heard(const RobotKey& robot, double, const telemetry::DatagramView& datagram,
-             const telemetry::TextDecoder& decoder,
-             const telemetry::DecodedText& decoded) override {
-    m_rows.take(datagram, decoded, decoder, robot);
-    const auto& refused = m_rows.refused();
-    m_refusedRows.store(refused.rows, std::memory_order_relaxed);
-    m_refusedValues.store(refused.values, std::memory_order_relaxed);
-  }
-  void sampled(const telemetry::GroupInfo& group, std::span<const link::BoardRow> rows) override {
-    m_boards.take(group, rows);
-  }
-  void renamed(const std::vector<Renaming>& renamings) override { m_rows.rename(renamings); }
-  void reported(const telemetry::TeamStatus& status) override { m_rows.report(status); }
-  void adopted(const link::LiveOptions& options, const std::vector<Renaming>& renamings) override {
-    m_rows.setOptions(link::rowsOptions(options, m_zero), renamings);
-  }
-  /// Any thread.
-  telemetry::LiveRows::Refused refused() const {
-    return {m_refusedRows.load(std::memory_order_relaxed),
-            m_refusedValues.load(std::memory_order_relaxed)};
-  }
-
- private:
-  const telemetry::WallTime m_zero;
-  telemetry::LiveRows m_rows;
-  link::BoardRowKeeper m_boards;
-  std::atomic<std::uint64_t> m_refusedRows = 0, m_refusedValues = 0;
-};
 
 LiveController::LiveController(QObject* parent) : FrameSource(parent) {
   m_nextFrame.setSingleShot(true);
@@ -72,7 +35,6 @@ void LiveController::stop() {
   if (!m_watch) return;
   m_watch.reset();
   m_frame.reset();
-  m_rows.reset();
   m_series.reset();
   m_memory.reset();
   emit restarted();
@@ -115,22 +77,15 @@ void LiveController::forget(const RobotKey& robot) {
   if (m_watch) m_watch->forget(robot);
 }
 
-telemetry::LiveRows::Refused LiveController::refusedRows() const {
-  return m_rows ? m_rows->refused() : telemetry::LiveRows::Refused{};
-}
-
 void LiveController::setMemoryBudget(std::size_t bytes) {
   m_memoryBudget = bytes;
   if (m_series) m_series->setMemoryBudget(bytes);
 }
 
 void LiveController::keepRows() {
-  if (m_rows) m_watch->stopObserving(m_rows);
   if (m_memory) m_watch->stopObserving(m_memory);
   m_series = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_memoryBudget});
-  m_rows = std::make_shared<RowKeeper>(m_series, m_options, m_watch->began());
-  m_watch->observe(m_rows);
-  m_memory = std::make_shared<link::LiveMemory>(m_options.refereePort);
+  m_memory = std::make_shared<link::LiveMemory>(m_series);
   m_moments = std::make_unique<link::LiveMoments>();
   link::FrameSettings backdrop;
   backdrop.field = m_options.field;

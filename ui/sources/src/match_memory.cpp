@@ -55,6 +55,10 @@ std::shared_ptr<telemetry::RowSink> MatchMemory::rowsBeside() const {
   return m_rows ? MatchRows::beside(m_rows) : nullptr;
 }
 
+std::function<double()> MatchMemory::timeBeside() const {
+  return [rows = m_rows] { return rows ? rows->timeBeside() : 0.0; };
+}
+
 void MatchMemory::setSampling(int everyNth) {
   if (everyNth == m_everyNth || everyNth < 1) return;
   m_everyNth = everyNth;

@@ -5,24 +5,6 @@
 
 namespace pitchboard::ui {
 
-class MatchRows::Beside : public telemetry::RowSink {
- public:
-  explicit Beside(std::shared_ptr<MatchRows> rows) : m_rows(std::move(rows)) {}
-  telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override {
-    return m_rows->addGroup(info);
-  }
-  void append(telemetry::GroupId group, const telemetry::RowView& row) override {
-    m_rows->m_store.append(group, {m_rows->timeBeside(), row.words, row.values});
-  }
-
- private:
-  std::shared_ptr<MatchRows> m_rows;
-};
-
-std::shared_ptr<telemetry::RowSink> MatchRows::beside(std::shared_ptr<MatchRows> rows) {
-  return std::make_shared<Beside>(std::move(rows));
-}
-
 telemetry::GroupId MatchRows::addGroup(const telemetry::GroupInfo& info) {
   return m_store.addGroup(info);
 }

@@ -28,13 +28,15 @@ class MatchRows : public telemetry::RowSink {
   const telemetry::SeriesStore& store() const { return m_store; }
   void setMemoryBudget(std::size_t bytes) { m_store.setMemoryBudget(bytes); }
 
-  /// For what is sampled beside the match; keeps `rows`.
-  static std::shared_ptr<telemetry::RowSink> beside(std::shared_ptr<MatchRows> rows);
+  /// Of what is sampled beside the match, s.
+  double timeBeside();
+  /// Where its rows go; keeps `rows`.
+  static std::shared_ptr<telemetry::RowSink> beside(const std::shared_ptr<MatchRows>& rows) {
+    return {rows, &rows->m_store};
+  }
 
  private:
-  class Beside;
   using Clock = std::chrono::steady_clock;
-  double timeBeside();
 
   std::mutex m_mutex;  // of the time
   telemetry::SeriesStore m_store;

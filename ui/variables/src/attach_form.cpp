@@ -8,7 +8,7 @@
 #include <QSpinBox>
 #include <limits>
 
-#include <robotlink/session/board_sampler.h>
+#include <robotlink/live/attached_robots.h>
 #include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 
@@ -22,7 +22,7 @@ AttachForm::AttachForm(QWidget* parent)
   m_key->setValue(100);
   m_key->setAccessibleName(QStringLiteral("Key of the blackboard"));
   m_rate->setObjectName(QStringLiteral("attachRate"));
-  m_rate->setRange(link::BoardSamplerOptions::slowest, link::BoardSamplerOptions::fastest);
+  m_rate->setRange(link::AttachedBoard::slowest, link::AttachedBoard::fastest);
   m_rate->setDecimals(1);
   m_rate->setValue(60);
   m_rate->setSuffix(QStringLiteral(" /s"));

@@ -40,18 +40,20 @@ void GuestBoards::detach(int key) {
 }
 
 void GuestBoards::refresh() {
-  for (const auto& [key, status] : m_boards->status()) {
+  for (const link::AttachedStatus& status : m_boards->status()) {
+    const int key = status.board.key;
+    const bool isGone = !status.problem.empty();
     const QString group = m_boards->groupName(key);
     m_model->setNote(group,
-                     {status.attached ? QString() : QStringLiteral("removed, waiting"),
+                     {isGone ? QStringLiteral("removed, waiting") : QString(),
                       status.missed == 0 ? QString()
                                          : QStringLiteral("%1 samples were left out, because the "
                                                           "computer was busy.")
                                                .arg(status.missed),
-                      status.attached ? status.rate : 0.0});
-    if (!status.attached && m_removed.insert(key).second) {
-      m_message->say(InPlaceMessage::Tone::Warning, QString::fromStdString(status.message));
-    } else if (status.attached) {
+                      isGone ? 0.0 : status.rate});
+    if (isGone && m_removed.insert(key).second) {
+      m_message->say(InPlaceMessage::Tone::Warning, QString::fromStdString(status.problem));
+    } else if (!isGone) {
       m_removed.erase(key);
     }
   }

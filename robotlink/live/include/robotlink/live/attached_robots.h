@@ -2,9 +2,9 @@
 #pragma once
 
 // Robots whose blackboard lies on this computer: any System V segment, looked at and never written,
-// each sampled by a thread of its own at its own rate, in real time. LiveWatch owns them and shows
-// them as it shows robots that are heard. A segment that is removed is said, and taken up when it
-// comes again.
+// each sampled by a thread of its own at its own rate, at fixed times. LiveWatch shows them as it
+// shows robots that are heard; beside a simulated match they are rows. A segment that is removed is
+// said, and taken up when it comes again.
 
 #include <algorithm>
 #include <functional>
@@ -41,8 +41,9 @@ std::string attachedBoardText(const AttachedBoard& board);
 Result<void> validate(const std::vector<AttachedBoard>& boards);
 
 /// Names of their groups of rows, as a simulation would call the robots ("B3"); of two with one
-/// name the second one has its key behind it.
-std::vector<std::string> boardNames(const std::vector<AttachedBoard>& boards);
+/// name the second one has its key behind it. So has one whose name is among `taken`.
+std::vector<std::string> boardNames(const std::vector<AttachedBoard>& boards,
+                                    const std::vector<std::string>& taken = {});
 
 /// How a robot is heard whose blackboard is read `rate` times a second; `gone`: it was removed.
 telemetry::LinkHealth boardLink(double age, double rate, bool gone);
@@ -58,6 +59,7 @@ struct AttachedStatus {
   bool attached = false;
   std::string problem;  ///< why it is not attached; empty when it is
   std::uint64_t samples = 0, missed = 0;
+  double rate = 0.0;  ///< samples per second reached over the last second
 };
 
 /// Takes the rows of a board; called with each batch.
@@ -66,12 +68,14 @@ using BoardRowsTaker =
 
 class AttachedRobots {
  public:
-  /// `seconds`: the time of the rows, s; called on any thread.
-  explicit AttachedRobots(std::function<double()> seconds);
+  /// `seconds`: the time of the rows, s; called on any thread. `catalog`: of boards that name none.
+  explicit AttachedRobots(std::function<double()> seconds,
+                          VariableCatalog catalog = VariableCatalog::published());
   ~AttachedRobots();
 
   /// Attaches these and no others; a board that stays as it is goes on. They must be valid.
-  void set(const std::vector<AttachedBoard>& boards);
+  /// `taken`: names that their groups must not have.
+  void set(const std::vector<AttachedBoard>& boards, const std::vector<std::string>& taken = {});
   /// Adds each board that was ever attached as a robot of the frame.
   void addTo(MatchFrame& frame) const;
   /// The rows since the last call.
@@ -81,6 +85,7 @@ class AttachedRobots {
  private:
   class Reader;
   const std::function<double()> m_seconds;
+  const VariableCatalog m_catalog;
   std::vector<std::unique_ptr<Reader>> m_readers;
 };
 

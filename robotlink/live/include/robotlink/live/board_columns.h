@@ -25,6 +25,8 @@ class BoardColumns {
   /// The words of the columns, in their order; `out` has size() words. A float that says "not seen"
   /// (VariableMeanings::absent) is NaN, so that it is a hole in every curve.
   void read(const Blackboard& board, std::span<std::uint32_t> out) const;
+  /// The same for words that were read elsewhere.
+  void makeHoles(std::span<std::uint32_t> words) const;
   /// What stood on the blackboard where the row of a float has this word: a hole is "not seen"
   /// again, every other word is itself.
   static std::uint32_t boardWord(std::string_view name, std::uint32_t word);

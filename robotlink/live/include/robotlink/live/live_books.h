@@ -24,6 +24,8 @@ struct LiveBooks {
   telemetry::TeamMonitor monitor;
   telemetry::RefereeTracker referee;
   telemetry::DrawingBook drawings;
+  /// Who drew the datagram that was taken last; empty: nobody that can be shown.
+  std::optional<RobotKey> lastDrawer;
 
   /// As MonitorOptions, and what is drawn goes on with its robot: monitor.renamings().
   void setTeams(const telemetry::MonitorOptions& options);

@@ -64,6 +64,7 @@ class LiveRows {
   /// From time to time (a few times a second): rows of the link groups, where they are due.
   void report(const TeamStatus& status);
   const Refused& refused() const { return m_refused; }
+  void clearRefused() { m_refused = {}; }
 
  private:
   struct Robot;

@@ -15,7 +15,9 @@
 #include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/live/attached_robots.h>
+#include <robotlink/live/live_rows.h>
 #include <simcore/simulation/simulation.h>
+#include <telemetry/wire/gamecontroller.h>
 #include <telemetry/wire/live_clock.h>
 #include <telemetry/wire/monitor_request.h>
 #include <telemetry/wire/referee_tracker.h>
@@ -58,6 +60,7 @@ struct LiveDetails {
   std::vector<AttachedStatus> boards;
   std::uint64_t refusedReferees = 0;  ///< datagrams of senders that are not on the referee's list
   std::string monitorProblem;         ///< why the last monitor request was not sent
+  telemetry::LiveRows::Refused rows;  ///< rows and values beyond the limits, since clear()
 };
 
 /// What is new since it was asked for the last time, in the order in which it is to be shown.
@@ -67,38 +70,43 @@ struct LiveNews {
   std::shared_ptr<const MatchFrame> frame;       ///< the newest one; null before the first
 };
 
-/// Sees every datagram that is used, for rows and recording. Called on the watch's thread: must not
-/// wait.
+/// A datagram and what it turned out to be. All of it is valid during the call only.
+struct LiveDatagram {
+  using Verdict = telemetry::TeamMonitor::Verdict;
+  double time = 0.0;  ///< s since the beginning, of the arrival
+  const telemetry::DatagramView& view;
+  const Result<telemetry::RefereePacket>* referee = nullptr;  ///< null: it came to a robot's port
+  /// Of the message of a robot. Empty: it only draws.
+  std::optional<Verdict> verdict{};
+  const telemetry::TextDecoder* decoder = nullptr;  ///< null without a verdict
+  const telemetry::DecodedText* decoded = nullptr;  ///< null without a verdict
+  /// As in the frames; number 0 if it does not say who it is.
+  RobotKey robot{};
+  std::optional<std::string> drawingProblem{};  ///< why its drawing cannot be shown
+
+  bool isStranger() const { return verdict == Verdict::SenderRefused; }
+  /// The referee's state; null if it is none.
+  const telemetry::RefereeState* state() const {
+    return referee && *referee ? std::get_if<telemetry::RefereeState>(&**referee) : nullptr;
+  }
+};
+
+/// Sees everything that a LivePipeline takes and makes, for recording and printing. Called on the
+/// thread of the pipeline (that of the watch): must not wait.
 class LiveObserver {
  public:
   virtual ~LiveObserver() = default;
-  /// `time`: seconds since the watch began, of the arrival. `decoded` and the datagram are valid
-  /// during the call only. `robot` as in the frames.
-  virtual void heard(const RobotKey& /*robot*/, double /*time*/, const telemetry::DatagramView&,
-                     const telemetry::TextDecoder&, const telemetry::DecodedText&) {}
-  virtual void refereeHeard(double /*time*/, const telemetry::DatagramView&,
-                            const telemetry::RefereeState&) {}
-  /// A datagram of an allowed sender that gave no values: it could not be decoded, is no state, or
-  /// only draws.
-  virtual void unusedHeard(double /*time*/, const telemetry::DatagramView&) {}
-  /// A datagram on a robot's port whose sender is on no list, or that is of no team.
-  virtual void strangerHeard(const telemetry::DatagramView&) {}
+  /// Every datagram, but those of senders that may not be the referee.
+  virtual void heard(const LiveDatagram&) {}
   virtual void happened(const MatchEvent&) {}
-  /// The next datagram says whose these robots are: they have other keys from now on.
-  virtual void renamed(const std::vector<Renaming>&) {}
-  /// How everybody is heard, a few times a second.
-  virtual void reported(const telemetry::TeamStatus&) {}
-  /// What was read of an attached blackboard since the last frame.
-  virtual void sampled(const telemetry::GroupInfo& /*group*/, std::span<const BoardRow>) {}
   /// Whenever a frame was made.
   virtual void frameMade(const MatchFrame&) {}
-  /// Other options are used from the next datagram on: teams, names, profile; and robots have other
-  /// keys then, all at the same time.
-  virtual void adopted(const LiveOptions& /*options*/, const std::vector<Renaming>&) {}
   /// Everything that is known at this moment (LiveBooks::text): at once, on the observing thread,
   /// then every 15 s and whenever options have changed or everything was forgotten. Nothing else is
   /// told at the same time.
   virtual void remembered(double /*time*/, std::string_view /*books*/) {}
+  /// Where to put the rows of robots, links and attached blackboards; null: nowhere.
+  virtual std::shared_ptr<telemetry::RowSink> rows() { return nullptr; }
 };
 
 class LiveWatch {

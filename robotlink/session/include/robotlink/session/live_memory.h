@@ -16,13 +16,7 @@ namespace pitchboard::link {
 /// Makes records of what a watch tells, in its thread.
 class LiveRecords : public LiveObserver {
  public:
-  explicit LiveRecords(int refereePort) : m_refereePort(refereePort) {}
-
-  void heard(const RobotKey& robot, double time, const telemetry::DatagramView& datagram,
-             const telemetry::TextDecoder& decoder, const telemetry::DecodedText& decoded) override;
-  void refereeHeard(double time, const telemetry::DatagramView& datagram,
-                    const telemetry::RefereeState& state) override;
-  void unusedHeard(double time, const telemetry::DatagramView& datagram) override;
+  void heard(const LiveDatagram& datagram) override;
   void frameMade(const MatchFrame& frame) override;
   void remembered(double time, std::string_view books) override;
 
@@ -30,9 +24,6 @@ class LiveRecords : public LiveObserver {
   virtual void keep(LiveRecord record) = 0;
 
  private:
-  void keep(telemetry::SessionStream stream, double time, const telemetry::DatagramView& datagram);
-
-  const int m_refereePort;
   std::optional<telemetry::RefereeState> m_refereeNews;  // not in a frame yet
 };
 
@@ -61,11 +52,18 @@ class RecordMemory : public LiveHistory {
 /// Of a live match.
 class LiveMemory : public LiveRecords, public RecordMemory {
  public:
-  explicit LiveMemory(int refereePort, std::size_t bytes = std::size_t{128} << 20)
-      : LiveRecords(refereePort), RecordMemory(bytes) {}
+  /// `rows`: where the rows go; null: nowhere.
+  explicit LiveMemory(std::shared_ptr<telemetry::RowSink> rows = nullptr,
+                      std::size_t bytes = std::size_t{128} << 20)
+      : RecordMemory(bytes), m_rows(std::move(rows)) {}
+
+  std::shared_ptr<telemetry::RowSink> rows() override { return m_rows; }
 
  protected:
   void keep(LiveRecord record) override { remember(std::move(record)); }
+
+ private:
+  const std::shared_ptr<telemetry::RowSink> m_rows;
 };
 
 }  // namespace pitchboard::link

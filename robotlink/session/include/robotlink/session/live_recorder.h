@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 
-#include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_watch.h>
 #include <robotlink/session/live_memory.h>
 #include <robotlink/session/match_recorder.h>
@@ -29,7 +28,7 @@ telemetry::SessionInfo liveSessionInfo(const LiveOptions& live, telemetry::WallT
 class LiveRecorder : public LiveRecords {
  public:
   /// `zero`: the moment that counts as 0 s, as in LiveObserver's times. Errors as
-  /// SessionWriter::create(). Hand it to LiveWatch::observe().
+  /// SessionWriter::create(). Hand it to observe() of a watch or a pipeline, which makes its rows.
   static Result<std::shared_ptr<LiveRecorder>> create(const std::string& path,
                                                       const LiveOptions& live,
                                                       telemetry::WallTime zero,
@@ -37,15 +36,8 @@ class LiveRecorder : public LiveRecords {
   ~LiveRecorder() override;
 
   // The watch's thread.
-  void heard(const RobotKey& robot, double time, const telemetry::DatagramView& datagram,
-             const telemetry::TextDecoder& decoder, const telemetry::DecodedText& decoded) override;
   void happened(const MatchEvent& event) override;
-  void renamed(const std::vector<Renaming>& renamings) override;
-  void adopted(const LiveOptions& options, const std::vector<Renaming>& renamings) override;
-  void reported(const telemetry::TeamStatus& team) override;
-  void sampled(const telemetry::GroupInfo& group, std::span<const BoardRow> rows) override {
-    m_boards.take(group, rows);
-  }
+  std::shared_ptr<telemetry::RowSink> rows() override { return m_writer; }
 
   // Any thread.
   telemetry::SessionStatus status() const { return m_writer->status(); }
@@ -53,20 +45,15 @@ class LiveRecorder : public LiveRecords {
   void append(const MatchEvent& event) { happened(event); }
   /// Call after LiveWatch::stopObserving().
   Result<void> finish() { return m_writer->finish(); }
-  /// The same: rows and values that the limits of LiveRows kept out of the file.
-  const telemetry::LiveRows::Refused& refused() const { return m_rows.refused(); }
 
  protected:
   void keep(LiveRecord record) override;
 
  private:
-  LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero,
-               const LiveOptions& live);
+  explicit LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer)
+      : m_writer(std::move(writer)) {}
 
   std::shared_ptr<telemetry::SessionWriter> m_writer;
-  const telemetry::WallTime m_zero;
-  telemetry::LiveRows m_rows;
-  BoardRowKeeper m_boards;
 };
 
 /// A record of any kind, into a session.

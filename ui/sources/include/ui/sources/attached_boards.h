@@ -4,18 +4,19 @@
 // Blackboards of this computer that a person asked to look at beside those of the match: only read,
 // each at its own rate. They are taken along from match to match. UI thread only.
 
+#include <QHash>
 #include <QObject>
-#include <map>
+#include <QTimer>
 #include <memory>
+#include <vector>
 
-#include <robotlink/session/board_sampler.h>
+#include <robotlink/live/attached_robots.h>
 
 namespace pitchboard::ui {
 
 class MatchController;
 
 class AttachedBoards : public QObject {
-  Q_OBJECT
  public:
   explicit AttachedBoards(MatchController* controller, QObject* parent = nullptr);
   ~AttachedBoards() override;
@@ -24,26 +25,22 @@ class AttachedBoards : public QObject {
   /// with the reason and leaves everything as it was.
   Result<void> attach(int key, double rate);
   void detach(int key);
-  bool contains(int key) const { return m_boards.count(key) != 0; }
-  /// Of every attached board, by key. A board that waits for a match or for its segment says so.
-  std::map<int, link::BoardSamplerStatus> status() const;
-  /// Of its rows, in the match that there is.
-  QString groupName(int key) const;
-
- signals:
-  void changed();
+  bool contains(int key) const;
+  /// Of every attached board. One that waits for a match or for its segment says so.
+  std::vector<link::AttachedStatus> status() const;
+  /// Of its rows, in the match that there is; also once it is detached.
+  QString groupName(int key) const { return m_names.value(key); }
 
  private:
-  struct Board {
-    double rate = 0.0;
-    std::unique_ptr<link::BoardSampler> sampler;  // none: to be tried again
-    std::string problem;
-  };
-  Result<std::unique_ptr<link::BoardSampler>> start(int key, double rate) const;
   void follow();
+  void set();
 
   MatchController* m_controller;
-  std::map<int, Board> m_boards;
+  std::vector<link::AttachedBoard> m_boards;
+  QHash<int, QString> m_names;                     // by key
+  std::unique_ptr<link::BoardRowKeeper> m_rows;    // of the match that there is
+  std::unique_ptr<link::AttachedRobots> m_robots;  // null without a match
+  QTimer m_take;
 };
 
 }  // namespace pitchboard::ui

@@ -19,8 +19,6 @@
 
 namespace pitchboard::ui {
 
-class RowKeeper;
-
 class LiveController : public FrameSource {
   Q_OBJECT
  public:
@@ -62,8 +60,6 @@ class LiveController : public FrameSource {
 
   /// Ports, senders, errors: copied from the watch, so not for every frame.
   link::LiveDetails details() const;
-  /// Rows and values that are not kept because of the limits of LiveRows.
-  telemetry::LiveRows::Refused refusedRows() const;
   /// "UDP 1241–1256".
   QString portsText() const;
   void observe(std::shared_ptr<link::LiveObserver> observer);
@@ -89,7 +85,6 @@ class LiveController : public FrameSource {
   std::shared_ptr<link::LiveMemory> m_memory;
   std::unique_ptr<link::LiveMoments> m_moments;
   std::unique_ptr<link::RecordedFrames> m_boardFrames;
-  std::shared_ptr<RowKeeper> m_rows;
   std::shared_ptr<telemetry::SeriesStore> m_series;
 };
 

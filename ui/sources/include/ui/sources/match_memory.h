@@ -48,9 +48,11 @@ class MatchMemory : public QObject {
   int sampling() const { return m_everyNth; }
   /// Of the match that is open: whoever wants its rows is added to it, on the match's thread.
   std::shared_ptr<link::MatchSampler> sampler() const { return m_sampler; }
-  /// Where other blackboards of this computer are sampled to: their rows get the match's time.
-  /// Another one after the controller's `restarted`; null while there is no match.
+  /// Where other blackboards of this computer are sampled to: others after the controller's
+  /// `restarted`; null while there is no match.
   std::shared_ptr<telemetry::RowSink> rowsBeside() const;
+  /// The match's time for these rows, s; any thread.
+  std::function<double()> timeBeside() const;
   /// The exact states of the recent past; another one after `restarted`, null while there is no
   /// match.
   std::shared_ptr<const link::StateArchive> archive() const { return m_archive; }

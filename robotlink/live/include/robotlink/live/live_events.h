@@ -2,8 +2,8 @@
 #pragma once
 
 // Makes the events of a live match by comparing each frame with the one before: game states, goals,
-// penalties, robots that fall silent or come back, ports. Private to robotlink; used by LiveWatch
-// under its lock. Times are those of the frames, s.
+// penalties, robots that fall silent or come back, ports. Part of a LivePipeline. Times are those
+// of the frames, s.
 
 #include <map>
 #include <string>
@@ -22,7 +22,6 @@ class LiveEvents {
   /// The computer's clock is off by this much since the beginning; a second or more is told.
   std::vector<MatchEvent> compareClock(telemetry::Duration setBy, double time);
   void rename(const std::vector<Renaming>& renamings) { pitchboard::rename(m_robots, renamings); }
-  void clear() { *this = {}; }
 
  private:
   struct Known {

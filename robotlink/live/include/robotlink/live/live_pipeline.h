@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The one path of a live match from datagrams and samples of blackboards to robots, events, health,
+// drawings and rows. The watch feeds it from sockets, the command line also from files. It has no
+// thread, no socket and no clock; times are seconds since a moment of the source. Not thread-safe.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <robotlink/live/attached_robots.h>
+#include <robotlink/live/live_books.h>
+#include <robotlink/live/live_events.h>
+#include <robotlink/live/live_rows.h>
+#include <robotlink/live/live_watch.h>
+
+namespace pitchboard::link {
+
+/// Hands rows to any number of sinks. Each one learns of a group with its first row.
+class RowFan : public telemetry::RowSink {
+ public:
+  void add(std::shared_ptr<telemetry::RowSink> sink) { m_sinks.push_back({std::move(sink), {}}); }
+  void remove(const std::shared_ptr<telemetry::RowSink>& sink);
+  bool isEmpty() const { return m_sinks.empty(); }
+
+  telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override;
+  telemetry::GroupId renameGroup(std::string_view from, const telemetry::GroupInfo& to) override;
+  void append(telemetry::GroupId group, const telemetry::RowView& row) override;
+
+ private:
+  struct Sink {
+    std::shared_ptr<telemetry::RowSink> rows;
+    std::vector<std::optional<telemetry::GroupId>> groups;  // place as in m_groups
+  };
+  std::size_t placeOf(std::string_view name) const;
+
+  std::vector<telemetry::GroupInfo> m_groups;
+  std::vector<Sink> m_sinks;
+};
+
+class LivePipeline {
+ public:
+  /// `zero`: the moment that counts as 0 s. The options must be valid.
+  LivePipeline(LiveOptions options, telemetry::WallTime zero);
+
+  const LiveOptions& options() const { return m_options; }
+  /// Robots and counters stay.
+  void setOptions(LiveOptions options, telemetry::WallTime now);
+  /// Forgets robots, referee and counters.
+  void clear(telemetry::WallTime now);
+  /// Forgets one robot, or one of two programs that send its number.
+  void forget(const RobotKey& robot, telemetry::WallTime now);
+
+  /// A datagram of any port; the port says whether it is the referee's.
+  void take(const telemetry::DatagramView& datagram);
+  /// The frame of this moment, with the robots of `boards`, whose rows are taken.
+  MatchFrame frame(telemetry::WallTime now, AttachedRobots* boards = nullptr);
+  /// By how much the computer's clock was set since the beginning, and how the ports are doing.
+  void noticeClock(telemetry::Duration setBy, double time);
+  void noticePorts(const telemetry::ReceiverStatus& network, double time);
+
+  /// What is new since the last call; without the frame.
+  LiveNews takeNews() { return std::exchange(m_news, {}); }
+  /// What the pipeline knows; the watch adds what it knows.
+  LiveDetails details(telemetry::WallTime now) const;
+
+  void observe(std::shared_ptr<LiveObserver> observer, telemetry::WallTime now);
+  void stopObserving(const std::shared_ptr<LiveObserver>& observer);
+
+ private:
+  double seconds(telemetry::WallTime time) const { return telemetry::secondsOf(time - m_zero); }
+  void takeReferee(const telemetry::DatagramView& datagram);
+  void tell(const LiveDatagram& datagram);
+  void tell(const std::vector<MatchEvent>& events);
+  void tellBooks(telemetry::WallTime now);
+  void noteRenamings();
+
+  LiveOptions m_options;
+  const telemetry::WallTime m_zero;
+  LiveBooks m_books;
+  LiveEvents m_events;
+  std::shared_ptr<RowFan> m_fan = std::make_shared<RowFan>();
+  telemetry::LiveRows m_rows;
+  BoardRowKeeper m_boardRows;
+  double m_nextReport = 0.0, m_nextBooks = 0.0;  // s
+  std::uint64_t m_serial = 0, m_unknownReferee = 0, m_refusedReferees = 0;
+  std::string m_unknownReason, m_unknownSample;
+  LiveNews m_news;
+  std::vector<std::shared_ptr<LiveObserver>> m_observers;
+};
+
+}  // namespace pitchboard::link
