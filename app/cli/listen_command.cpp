@@ -49,7 +49,9 @@ class Printer {
   }
 
   std::string nameOf(const RobotKey& robot) const {
-    return link::robotName(robot, link::teamsOf(m_monitor.options().teams));
+    link::LiveOptions options;
+    options.team = m_monitor.options();
+    return link::robotName(robot, link::teamsOf(options, m_state ? &*m_state : nullptr));
   }
   TeamStatus status(WallTime now) const { return m_monitor.status(now); }
   std::uint64_t unknownReferee() const { return m_unknownReferee; }
@@ -108,6 +110,7 @@ class Printer {
     if (packet) {
       const auto* state = std::get_if<RefereeState>(&*packet);
       if (state && m_refereeVersion != 0 && state->version != m_refereeVersion) return;
+      if (state) m_state = *state;
       put("referee", datagram, m_json ? refereeJson(*packet) : Json(),
           m_json ? std::string() : refereeLine(*packet));
       return;
@@ -119,6 +122,7 @@ class Printer {
   }
 
   TeamMonitor m_monitor;
+  std::optional<RefereeState> m_state;  // the last one
   SenderFilter m_referees;
   std::uint16_t m_refereePort;
   int m_refereeVersion;

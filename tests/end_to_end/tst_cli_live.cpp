@@ -121,9 +121,9 @@ class TestCliLive : public QObject {
       const int robot = object["robot"].toInt();
       QCOMPARE(object["port"].toInt(), listener.base + robot);
       const QJsonObject values = object["values"].toObject();
-      QCOMPARE(values["X"].toInt(), 100 + messages[robot]++);
-      QCOMPARE(values["THETA"].toInt(), -45);
-      QCOMPARE(values["BALL_DIST"].toDouble(), 80.25);
+      QCOMPARE(values["LOCALIZATION_X"].toInt(), 100 + messages[robot]++);
+      QCOMPARE(values["LOCALIZATION_THETA"].toInt(), -45);
+      QCOMPARE(values["VISION_BALL_DIST"].toDouble(), 80.25);
       QCOMPARE(values["LOCALIZATION"].toInt(), 0);
       QCOMPARE(object["action"].toString(), "turn right");
       QVERIFY(object["errors"].toArray().isEmpty());
@@ -188,9 +188,10 @@ class TestCliLive : public QObject {
     QCOMPARE(listener.interrupt(), 0);
     QList<QByteArray> lines = listener.process.readAllStandardOutput().trimmed().split('\n');
     const QByteArray last = lines.last();
-    QVERIFY2(last.startsWith(R"({"type":"health","robot":1,"received":900,"lost":300,)"
-                             R"("duplicates":1,"late":1,"loss":0.25,)"),
-             last.constData());
+    QVERIFY2(
+        last.startsWith(R"({"type":"health","robot":1,"name":"Robot 1","received":900,"lost":300,)"
+                        R"("duplicates":1,"late":1,"loss":0.25,)"),
+        last.constData());
     QVERIFY(lines.size() >= 2);
     QVERIFY2(listener.err.contains("Robot 1: 900 received, 300 lost (25.0 %), 1 twice, 1 late"),
              listener.err.constData());
@@ -269,7 +270,7 @@ class TestCliLive : public QObject {
     const QList<QJsonObject> objects = outcome.objects();
     QCOMPARE(objects.size(), 60);
     QCOMPARE(objects[0]["sender"].toString(), "127.0.0.1:41708");
-    QCOMPARE(objects[0]["values"].toObject()["BELIEF"].toDouble(), 56.3184547424);
+    QCOMPARE(objects[0]["values"].toObject()["LOCALIZATION_RBT01_X"].toDouble(), 56.3184547424);
   }
 
   void decodesWithATeamsProfile() {

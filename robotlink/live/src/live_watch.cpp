@@ -89,10 +89,9 @@ struct LiveWatch::Impl {
     pending.reset();
     if (!(old.profile == options.profile)) monitor.setProfile(options.profile);
     books.setTeams(monitorOptions(options));
-    noteRenamings();
     boards.set(options.boards);
     referee.setOptions(LiveBooks::refereeOptions(options));
-    for (const auto& observer : observers) observer->adopted(options, monitor.renamings());
+    noteTeams(monitor.renamings());
     tellBooks();
     monitorProblem.clear();
     const auto before = receiverOptions(old, clock), after = receiverOptions(options, clock);
@@ -110,6 +109,7 @@ struct LiveWatch::Impl {
     if (!std::exchange(clearAsked, false)) return;
     books.clear(options);
     happened.clear();
+    noteTeams({});
     unknownReferee = refusedReferees = 0;
     unknownReason.clear();
     unknownSample.clear();
@@ -130,6 +130,7 @@ struct LiveWatch::Impl {
       return;
     }
     books.takeReferee(*packet, datagram);
+    if (books.teams(options) != teams) noteTeams({});
     if (const auto* state = std::get_if<RefereeState>(&*packet)) {
       for (const auto& observer : observers) {
         observer->refereeHeard(arrival(datagram.time), datagram, *state);
@@ -153,10 +154,7 @@ struct LiveWatch::Impl {
         continue;
       }
       const auto verdict = books.takeRobot(datagram, arrival(datagram.time));
-      if (verdict && !monitor.renamings().empty()) {
-        noteRenamings();
-        for (const auto& observer : observers) observer->renamed(monitor.renamings());
-      }
+      if (verdict && !monitor.renamings().empty()) noteTeams(monitor.renamings());
       if (verdict == TeamMonitor::Verdict::SenderRefused) {
         for (const auto& observer : observers) observer->strangerHeard(datagram);
         continue;
@@ -208,10 +206,13 @@ struct LiveWatch::Impl {
     for (const auto& observer : observers) observer->remembered(time, text);
   }
 
-  void noteRenamings() {
-    if (monitor.renamings().empty()) return;
-    happened.rename(monitor.renamings());
-    news.renamings.push_back(monitor.renamings());
+  /// Robots are called otherwise from now on, and these have other keys.
+  void noteTeams(const std::vector<Renaming>& renamings) {
+    teams = books.teams(options);
+    for (const auto& observer : observers) observer->adopted(options, teams, renamings);
+    if (renamings.empty()) return;
+    happened.rename(renamings);
+    news.renamings.push_back(renamings);
   }
 
   void tell(const std::vector<MatchEvent>& what) {
@@ -272,6 +273,7 @@ struct LiveWatch::Impl {
   TeamMonitor& monitor = books.monitor;
   telemetry::RefereeTracker& referee = books.referee;
   LiveEvents happened;
+  Teams teams = books.teams(options);
   std::uint64_t serial = 0, unknownReferee = 0, refusedReferees = 0;
   std::string networkProblem, unknownReason, unknownSample, monitorProblem;
   LiveNews news;
@@ -337,6 +339,7 @@ void LiveWatch::observe(std::shared_ptr<LiveObserver> observer) {
   const std::lock_guard lock(m_impl->mutex);
   const double now = m_impl->clock->seconds(m_impl->clock->now());
   observer->remembered(now, m_impl->books.text(m_impl->options, now, m_impl->clock->began()));
+  observer->adopted(m_impl->options, m_impl->teams, {});
   m_impl->observers.push_back(std::move(observer));
 }
 

@@ -58,7 +58,7 @@ LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
     : LiveRecords(live.refereePort),
       m_writer(std::move(writer)),
       m_zero(zero),
-      m_rows(m_writer, rowsOptions(live, zero)),
+      m_rows(m_writer, rowsOptions(live, teamsOf(live, nullptr), zero)),
       m_boards(m_writer) {}
 
 LiveRecorder::~LiveRecorder() = default;
@@ -79,12 +79,9 @@ void LiveRecorder::happened(const MatchEvent& event) {
   m_writer->append(sessionEvent(event));
 }
 
-void LiveRecorder::adopted(const LiveOptions& options, const std::vector<Renaming>& renamings) {
-  m_rows.setOptions(rowsOptions(options, m_zero), renamings);
-}
-
-void LiveRecorder::renamed(const std::vector<Renaming>& renamings) {
-  m_rows.rename(renamings);
+void LiveRecorder::adopted(const LiveOptions& options, const Teams& teams,
+                           const std::vector<Renaming>& renamings) {
+  m_rows.setOptions(rowsOptions(options, teams, m_zero), renamings);
 }
 
 void LiveRecorder::reported(const telemetry::TeamStatus& team) {

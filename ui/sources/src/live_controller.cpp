@@ -16,9 +16,8 @@ constexpr std::size_t fewRobots = 8;
 /// Every message as a row of the store. Lives in the watch's thread once it observes.
 class RowKeeper : public link::LiveObserver {
  public:
-  RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, const link::LiveOptions& options,
-            telemetry::WallTime zero)
-      : m_zero(zero), m_rows(store, link::rowsOptions(options, zero)), m_boards(store) {}
+  RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, telemetry::WallTime zero)
+      : m_zero(zero), m_rows(store, {zero, {}, {}}), m_boards(store) {}
   void heard(const RobotKey& robot, double, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder,
              const telemetry::DecodedText& decoded) override {
@@ -30,10 +29,10 @@ class RowKeeper : public link::LiveObserver {
   void sampled(const telemetry::GroupInfo& group, std::span<const link::BoardRow> rows) override {
     m_boards.take(group, rows);
   }
-  void renamed(const std::vector<Renaming>& renamings) override { m_rows.rename(renamings); }
   void reported(const telemetry::TeamStatus& status) override { m_rows.report(status); }
-  void adopted(const link::LiveOptions& options, const std::vector<Renaming>& renamings) override {
-    m_rows.setOptions(link::rowsOptions(options, m_zero), renamings);
+  void adopted(const link::LiveOptions& options, const link::Teams& teams,
+               const std::vector<Renaming>& renamings) override {
+    m_rows.setOptions(link::rowsOptions(options, teams, m_zero), renamings);
   }
   /// Any thread.
   telemetry::LiveRows::Refused refused() const {
@@ -128,7 +127,7 @@ void LiveController::keepRows() {
   if (m_rows) m_watch->stopObserving(m_rows);
   if (m_memory) m_watch->stopObserving(m_memory);
   m_series = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_memoryBudget});
-  m_rows = std::make_shared<RowKeeper>(m_series, m_options, m_watch->began());
+  m_rows = std::make_shared<RowKeeper>(m_series, m_watch->began());
   m_watch->observe(m_rows);
   m_memory = std::make_shared<link::LiveMemory>(m_options.refereePort);
   m_moments = std::make_unique<link::LiveMoments>();

@@ -35,7 +35,7 @@ struct LiveOptions {
   telemetry::Profile profile = telemetry::publishedProfile();
   telemetry::MonitorOptions team;
   int ourTeam = 0;                     ///< the referee's number of our team; 0: not chosen
-  TeamColor colour = TeamColor::Blue;  ///< of our robots while the referee says none
+  TeamColor colour = TeamColor::Blue;  ///< to draw our robots in while nobody says theirs
   bool colourByNumber = false;         ///< as the published telemetry: a colour for each number
   sim::FieldSpec field;
   std::vector<AttachedBoard> boards;          ///< of robots that are this computer
@@ -84,17 +84,17 @@ class LiveObserver {
   /// A datagram on a robot's port whose sender is on no list, or that is of no team.
   virtual void strangerHeard(const telemetry::DatagramView&) {}
   virtual void happened(const MatchEvent&) {}
-  /// The next datagram says whose these robots are: they have other keys from now on.
-  virtual void renamed(const std::vector<Renaming>&) {}
   /// How everybody is heard, a few times a second.
   virtual void reported(const telemetry::TeamStatus&) {}
   /// What was read of an attached blackboard since the last frame.
   virtual void sampled(const telemetry::GroupInfo& /*group*/, std::span<const BoardRow>) {}
   /// Whenever a frame was made.
   virtual void frameMade(const MatchFrame&) {}
-  /// Other options are used from the next datagram on: teams, names, profile; and robots have other
-  /// keys then, all at the same time.
-  virtual void adopted(const LiveOptions& /*options*/, const std::vector<Renaming>&) {}
+  /// From the next datagram on options or teams are others (a setup was applied, the referee has
+  /// said a colour), and these robots have other keys, all at the same time. Also at once on
+  /// observing.
+  virtual void adopted(const LiveOptions& /*options*/, const Teams&, const std::vector<Renaming>&) {
+  }
   /// Everything that is known at this moment (LiveBooks::text): at once, on the observing thread,
   /// then every 15 s and whenever options have changed or everything was forgotten. Nothing else is
   /// told at the same time.

@@ -40,8 +40,8 @@ class LiveRecorder : public LiveRecords {
   void heard(const RobotKey& robot, double time, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder, const telemetry::DecodedText& decoded) override;
   void happened(const MatchEvent& event) override;
-  void renamed(const std::vector<Renaming>& renamings) override;
-  void adopted(const LiveOptions& options, const std::vector<Renaming>& renamings) override;
+  void adopted(const LiveOptions& options, const Teams& teams,
+               const std::vector<Renaming>& renamings) override;
   void reported(const telemetry::TeamStatus& team) override;
   void sampled(const telemetry::GroupInfo& group, std::span<const BoardRow> rows) override {
     m_boards.take(group, rows);
