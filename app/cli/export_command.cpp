@@ -80,7 +80,7 @@ int exportSession(const ExportOptions& options) {
   ExportSelection selection;
   selection.range.begin = part->from.value_or(selection.range.begin);
   selection.range.end = part->until.value_or(selection.range.end);
-  selection.robots = options.robots;
+  selection.robots = link::groupsNamed(*session, options.robots);
   if (const auto good = checkSelection(*session, selection); !good) {
     return reportError(good.error());
   }

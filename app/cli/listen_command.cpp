@@ -71,10 +71,10 @@ class Printer : public link::LiveObserver {
   }
 
   /// How every robot is heard.
-  void printHealth(const telemetry::TeamStatus& team) {
+  void printHealth(const link::LiveDetails& details) {
     if (!m_json) return;
-    for (const telemetry::RobotStatus& robot : team.robots) {
-      put(dump(healthJson(robot, nameOf(robot.key, m_options), team.time)) + "\n");
+    for (const telemetry::RobotStatus& robot : details.team.robots) {
+      put(dump(healthJson(robot, nameOf(robot.key, details.teams), details.team.time)) + "\n");
     }
   }
 
@@ -114,8 +114,7 @@ class Printer : public link::LiveObserver {
   std::uint64_t m_left = 0;
 };
 
-void reportEnd(const link::LiveDetails& details, const link::LiveOptions& live,
-               std::uint64_t left) {
+void reportEnd(const link::LiveDetails& details, std::uint64_t left) {
   const telemetry::TeamStatus& team = details.team;
   const telemetry::ReceiverStatus& network = details.network;
   std::fprintf(stderr,
@@ -126,7 +125,7 @@ void reportEnd(const link::LiveDetails& details, const link::LiveOptions& live,
                static_cast<unsigned long long>(team.errors.messages() + details.unknownReferee),
                refusedText(details).c_str());
   for (const telemetry::RobotStatus& robot : team.robots) {
-    std::fprintf(stderr, "\n  %s", healthLine(robot, nameOf(robot.key, live)).c_str());
+    std::fprintf(stderr, "\n  %s", healthLine(robot, nameOf(robot.key, details.teams)).c_str());
   }
   for (std::size_t i = 0; i < telemetry::textErrorCount; ++i) {
     const auto error = static_cast<telemetry::TextError>(i);
@@ -169,7 +168,7 @@ Result<int> listenToRobots(const PrintOptions& options) {
       }
       if (now >= nextHealth) {
         nextHealth += std::chrono::seconds(1);
-        printer->printHealth(details.team);
+        printer->printHealth(details);
       }
     }
     telemetry::Duration wait = milliseconds(100);
@@ -182,9 +181,9 @@ Result<int> listenToRobots(const PrintOptions& options) {
   }
   watch.stopObserving(printer);
   const link::LiveDetails details = watch.details();
-  printer->printHealth(details.team);
+  printer->printHealth(details);
   printer->print({});
-  reportEnd(details, live, printer->left());
+  reportEnd(details, printer->left());
   return 0;
 }
 

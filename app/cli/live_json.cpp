@@ -136,9 +136,8 @@ bool isGood(const link::LiveDatagram& datagram) {
   return datagram.decoded ? datagram.decoded->accepted() : !datagram.drawingProblem;
 }
 
-std::string nameOf(const RobotKey& robot, const link::LiveOptions& options) {
-  return robot.number > 0 ? link::robotName(robot, link::teamsOf(options.team.teams))
-                          : std::string();
+std::string nameOf(const RobotKey& robot, const link::Teams& teams) {
+  return robot.number > 0 ? link::robotName(robot, teams) : std::string();
 }
 
 Json messageJson(const link::LiveDatagram& datagram, const link::LiveOptions& options) {
@@ -148,7 +147,7 @@ Json messageJson(const link::LiveDatagram& datagram, const link::LiveOptions& op
             {"bytes", datagram.view.payload.size()},
             {"text", printable(datagram.view.payload)}};
   }
-  const std::string robot = nameOf(datagram.robot, options);
+  const std::string robot = nameOf(datagram.robot, datagram.teams);
   if (datagram.decoded) return telemetryJson(datagram, teamOf(datagram.robot, options), robot);
   Json json{{"robot", robot.empty() ? Json(nullptr) : Json(datagram.robot.number)}};
   if (!robot.empty()) json["name"] = robot;
@@ -162,7 +161,7 @@ std::string messageLine(const link::LiveDatagram& datagram, const link::LiveOpti
     return *datagram.referee ? refereeLine(**datagram.referee)
                              : "[" + datagram.referee->error().message + "]";
   }
-  const std::string robot = nameOf(datagram.robot, options);
+  const std::string robot = nameOf(datagram.robot, datagram.teams);
   if (datagram.decoded) return telemetryLine(datagram, teamOf(datagram.robot, options), robot);
   if (datagram.drawingProblem) return "[drawing: " + *datagram.drawingProblem + "]";
   return robot + "  drawing, " + std::to_string(datagram.view.payload.size()) + " bytes";

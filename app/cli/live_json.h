@@ -18,7 +18,7 @@ const char* typeOf(const link::LiveDatagram& datagram);
 /// It could be read.
 bool isGood(const link::LiveDatagram& datagram);
 /// As everywhere: "B1", "Robot 1"; empty for number 0.
-std::string nameOf(const RobotKey& robot, const link::LiveOptions& options);
+std::string nameOf(const RobotKey& robot, const link::Teams& teams);
 /// What a datagram says (docs/LIVE.md). What stands in it when it could not be read is "text".
 Json messageJson(const link::LiveDatagram& datagram, const link::LiveOptions& options);
 std::string messageLine(const link::LiveDatagram& datagram, const link::LiveOptions& options);

@@ -121,9 +121,9 @@ class TestCliLive : public QObject {
       const int robot = object["robot"].toInt();
       QCOMPARE(object["port"].toInt(), listener.base + robot);
       const QJsonObject values = object["values"].toObject();
-      QCOMPARE(values["X"].toInt(), 100 + messages[robot]++);
-      QCOMPARE(values["THETA"].toInt(), -45);
-      QCOMPARE(values["BALL_DIST"].toDouble(), 80.25);
+      QCOMPARE(values["LOCALIZATION_X"].toInt(), 100 + messages[robot]++);
+      QCOMPARE(values["LOCALIZATION_THETA"].toInt(), -45);
+      QCOMPARE(values["VISION_BALL_DIST"].toDouble(), 80.25);
       QCOMPARE(values["LOCALIZATION"].toInt(), 0);
       QCOMPARE(object["action"].toString(), "turn right");
       QVERIFY(object["errors"].toArray().isEmpty());
@@ -292,7 +292,7 @@ class TestCliLive : public QObject {
     const QList<QJsonObject> objects = outcome.objects();
     QCOMPARE(objects.size(), 60);
     QCOMPARE(objects[0]["sender"].toString(), "127.0.0.1:41708");
-    QCOMPARE(objects[0]["values"].toObject()["BELIEF"].toDouble(), 56.3184547424);
+    QCOMPARE(objects[0]["values"].toObject()["LOCALIZATION_RBT01_X"].toDouble(), 56.3184547424);
   }
 
   void decodesWithATeamsProfile() {

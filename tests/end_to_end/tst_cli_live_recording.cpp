@@ -87,7 +87,7 @@ class TestCliLiveRecording : public QObject {
     std::vector<double> places;
     session->rows(always, {}, [&](GroupId group, const RowView& row) {
       if (group != ofRobot) return true;
-      const double x = valueOf(info, row, columnOf(info, "X"));
+      const double x = valueOf(info, row, columnOf(info, "LOCALIZATION_X"));
       if (places.empty() || places.back() != x) places.push_back(x);
       return true;
     });
@@ -111,6 +111,19 @@ class TestCliLiveRecording : public QObject {
     QVERIFY(referees["teams"][0]["players"].isArray() &&
             referees["teams"][1].toObject().contains("playersLeft"));
     QVERIFY(!session->attachment("profile.json")->empty());
+
+    // One name in rows, events, and whatever is made of them.
+    QCOMPARE(info.name, std::string("Robot 1"));
+    for (const SessionEvent& event : session->events()) {
+      if (!event.group.empty()) QCOMPARE(event.group, std::string("Robot 1"));
+    }
+    for (const char* name : {"Robot 1", "B1"}) {
+      const ProgramRun lines = runProgram(
+          "pitchboard-cli",
+          {"export", path, "--to", "csv-wide", "--robots", name, "--variables", "VISION_BALL_DIST"});
+      QVERIFY2(lines.exitCode == 0, lines.err.constData());
+      QCOMPARE(lines.out.split('\n').first(), QByteArray("time,Robot 1.VISION_BALL_DIST"));
+    }
   }
 };
 

@@ -39,7 +39,7 @@ struct Match {
   link::LiveOptions options = optionsOfMatch();
   link::LiveBooks books{options};
   std::shared_ptr<SeriesStore> store = std::make_shared<SeriesStore>(SeriesOptions{budget});
-  LiveRows rows{store, link::rowsOptions(options, zero)};
+  LiveRows rows{store, link::rowsOptions(options, link::teamsOf(options, nullptr), zero)};
 
   void take(unsigned char where, std::string_view payload) {
     now += std::chrono::milliseconds(100);

@@ -20,7 +20,7 @@ struct Path {
   WallTime now{std::chrono::seconds(1'700'000'000)};
   TeamMonitor monitor;
   std::shared_ptr<SeriesStore> store = std::make_shared<SeriesStore>(SeriesOptions{budget});
-  LiveRows rows{store, {now, {}}};
+  LiveRows rows{store, {now, {}, {}}};
 
   Path() : monitor(profile()) {}
   static Profile profile() {

@@ -153,7 +153,7 @@ class TestLiveFrame : public QObject {
         std::atan2(ball.y - centre.position.y, ball.x - centre.position.x) - centre.yaw;
     QVERIFY(std::abs(std::sin(direction) - 1.0) < 1e-9);
     QCOMPARE(robot.values.size(), std::size_t{15});
-    QCOMPARE(robot.values[1].name, std::string("X"));
+    QCOMPARE(robot.values[1].name, std::string("LOCALIZATION_X"));
     QCOMPARE(robot.values[1].text, std::string("450"));
     QCOMPARE(robot.values[1].unit, std::string("cm"));
   }

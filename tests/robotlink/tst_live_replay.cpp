@@ -263,7 +263,7 @@ class TestLiveReplay : public QObject {
     const auto clip = telemetry::SessionReader::open(path);
     QVERIFY(clip);
     for (const telemetry::SessionGroup& group : clip->groups()) {
-      QVERIFY2(group.info.name.starts_with("Robot 1"), group.info.name.c_str());
+      QVERIFY2(group.info.name.starts_with("B1"), group.info.name.c_str());
     }
     std::size_t datagrams = 0;
     clip->messages(SessionStream::Telemetry, *clip->range(), [&](double, std::string_view json) {
@@ -308,9 +308,8 @@ class TestLiveReplay : public QObject {
     }
     QCOMPARE(scored, std::size_t{2});
     for (const RobotSummary& robot : s.robots) {
-      const auto shown = std::ranges::find_if(m_frames.back().robots, [&](const RobotFrame& r) {
-        return r.identity.name() + (r.key.sender > 0 ? " (second)" : "") == robot.name;
-      });
+      const auto shown = std::ranges::find_if(
+          m_frames.back().robots, [&](const RobotFrame& r) { return r.name == robot.name; });
       QVERIFY2(shown != m_frames.back().robots.end(), robot.name.c_str());
       QVERIFY(robot.link && robot.distance);
       QCOMPARE(robot.link->messages, shown->link->messages);

@@ -20,7 +20,7 @@ const WallTime zero{std::chrono::seconds(1'700'000'000)};
 struct Rig {
   std::shared_ptr<SeriesStore> store = std::make_shared<SeriesStore>();
   TeamMonitor monitor{publishedProfile()};
-  LiveRows rows{store, {.zero = zero, .name = {}, .attributes = {}}};
+  LiveRows rows{store, {.zero = zero, .teams = {}, .attributes = {}}};
 
   TeamMonitor::Verdict send(const std::string& text, double time, const char* from = "10.0.0.1") {
     DatagramView datagram;
@@ -61,8 +61,8 @@ class TestLiveRows : public QObject {
     const auto view = rig.view("Robot 3");
     QVERIFY(view);
     QCOMPARE(*view->range(), (TimeRange{2.0, 2.0}));
-    QCOMPARE(rig.latest("Robot 3", "X"), 100.0);
-    QCOMPARE(rig.latest("Robot 3", "BALL_DIST"), 83.2);
+    QCOMPARE(rig.latest("Robot 3", "LOCALIZATION_X"), 100.0);
+    QCOMPARE(rig.latest("Robot 3", "VISION_BALL_DIST"), 83.2);
     QCOMPARE(rig.latest("Robot 3", "VOLTAGE"), 124.0);
     const GroupInfo& info = view->info();
     QCOMPARE(info.columns[1].unit, std::string("cm"));
@@ -84,7 +84,7 @@ class TestLiveRows : public QObject {
     }
     const auto view = rig.view("Robot 3");
     QCOMPARE(view->rows(), std::size_t{60});
-    const auto x = rig.store->find("Robot 3", "X");
+    const auto x = rig.store->find("Robot 3", "LOCALIZATION_X");
     std::vector<Sample> samples;
     QVERIFY(view->samples(x->column, {-1e9, 1e9}, samples));
     Derivative speed;
@@ -106,7 +106,7 @@ class TestLiveRows : public QObject {
       rig.send("3 100 200 90 12.5 " + std::string(balls[i]) + " -15 1 1 0 1 1 8 1.57 124 OUT",
                i * 1.0);
     }
-    const auto ball = rig.store->find("Robot 3", "BALL_DIST");
+    const auto ball = rig.store->find("Robot 3", "VISION_BALL_DIST");
     const auto view = rig.view("Robot 3");
     std::vector<Sample> samples;
     QVERIFY(view->samples(ball->column, {-1e9, 1e9}, samples));
@@ -117,7 +117,7 @@ class TestLiveRows : public QObject {
     QVERIFY(std::abs(all.mean - 81.6) < 1e-9);
     QCOMPARE(all.min, 80.0);
     // −1 degree is an angle like any other.
-    QCOMPARE(rig.latest("Robot 3", "BALL_ANGLE"), -15.0);
+    QCOMPARE(rig.latest("Robot 3", "VISION_PAN_DEG"), -15.0);
   }
 
   void healthHasARateOfItsOwn() {
@@ -156,8 +156,8 @@ class TestLiveRows : public QObject {
     QCOMPARE(rig.send("3 100 abc 90 12.5 83.2 -15 1 1 0 1 1 8 1.57 124 OUT", 1.0),
              TeamMonitor::Verdict::Used);
     rig.report(1.5);
-    QCOMPARE(rig.latest("Robot 3", "X"), 100.0);
-    QVERIFY(std::isnan(rig.latest("Robot 3", "Y")));
+    QCOMPARE(rig.latest("Robot 3", "LOCALIZATION_X"), 100.0);
+    QVERIFY(std::isnan(rig.latest("Robot 3", "LOCALIZATION_Y")));
     QCOMPARE(rig.latest("Robot 3 link", "ERRORS"), 1.0);
   }
 
@@ -165,10 +165,10 @@ class TestLiveRows : public QObject {
     Rig rig;
     // More than the 64 rows that are kept row by row, so that columns are widened as well.
     for (int i = 0; i < 100; ++i) rig.send(message, i * 1.0);
-    const auto x = *rig.store->find("Robot 3", "X");
+    const auto x = *rig.store->find("Robot 3", "LOCALIZATION_X");
     rig.send("3 101 200 90 12.5 83.2 -15 1 1 0 1 1 8 1.57 124 55 OUT", 100.0);
     rig.send(message, 101.0);
-    QCOMPARE(rig.store->find("Robot 3", "X").value(), x);
+    QCOMPARE(rig.store->find("Robot 3", "LOCALIZATION_X").value(), x);
     const auto view = rig.view("Robot 3");
     QCOMPARE(view->rows(), std::size_t{102});
     const auto other = *rig.store->find("Robot 3", "OTHER_1");
@@ -250,7 +250,7 @@ class TestLiveRows : public QObject {
     rig.send("3 200 101 90 12.5 83.2 -15 1 1 0 1 1 8 1.57 124 55.5 OUT", 2.0);
     const auto view = rig.view("Robot 3");
     QCOMPARE(view->rows(), std::size_t{2});
-    const auto x = *rig.store->find("Robot 3", "X");
+    const auto x = *rig.store->find("Robot 3", "LOCALIZATION_X");
     QCOMPARE(view->at(x.column, 1.0)->value, 100.0);
     QCOMPARE(view->at(x.column, 2.0)->value, 101.0);
     QCOMPARE(rig.latest("Robot 3", "TEMPERATURE"), 55.5);

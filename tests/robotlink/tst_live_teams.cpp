@@ -55,9 +55,10 @@ class TestLiveTeams : public QObject {
     QCOMPARE(team.robots[0].key, (RobotKey{1, 3, 0}));
     QCOMPARE(team.robots[1].key, (RobotKey{2, 3, 0}));
     QCOMPARE(team.robots[1].value(FieldMeaning::X), std::optional(600.0));
-    QCOMPARE(colourOf(options, team.robots[0].key, TeamColor::Blue, {}), TeamColor::Blue);
-    QCOMPARE(colourOf(options, team.robots[1].key, TeamColor::Blue, {}), TeamColor::Red);
-    QCOMPARE(refereeNumberOf(options, team.robots[1].key), 7);
+    const Teams teams = teamsOf(options, nullptr);
+    QCOMPARE(drawnColour(options, team.robots[0].key, teams), TeamColor::Blue);
+    QCOMPARE(drawnColour(options, team.robots[1].key, teams), TeamColor::Red);
+    QCOMPARE(teams.at(2).number, 7);
     QCOMPARE(ownNameOf(options, team.robots[0].key), std::string("Ana"));
     QCOMPARE(options.team.teams[1].title(), std::string("Team 7"));
   }
@@ -67,7 +68,7 @@ class TestLiveTeams : public QObject {
     const LiveOptions options = twoTeams();
     TeamMonitor monitor(options.profile, monitorOptions(options));
     auto store = std::make_shared<SeriesStore>();
-    LiveRows rows(store, rowsOptions(options, start));
+    LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
     const std::string ball = R"({["id"]=3,["ball"]={["x"]=0.6,["y"]=0}})";
     QCOMPARE(monitor.take(from("10.0.1.3", 12003, ball)), TeamMonitor::Verdict::Used);
     rows.take(from("10.0.1.3", 12003, ball), monitor.decoded(), monitor.decoder(), monitor.used());
@@ -81,7 +82,7 @@ class TestLiveTeams : public QObject {
         QCOMPARE(column.unit, std::string("cm"));
       }
       QCOMPARE(view->info().attributes.at("team"), std::string("red"));
-      QCOMPARE(view->info().attributes.at("shirt"), std::string("3"));
+      QCOMPARE(view->info().attributes.at("number"), std::string("3"));
     }
     QVERIFY(found);
   }
@@ -95,10 +96,13 @@ class TestLiveTeams : public QObject {
     other.key = 7000;
     other.robot = 3;
     QCOMPARE(boardNames({board, other}), (std::vector<std::string>{"B3", "B3 key 7000"}));
-    QCOMPARE(rowsOptions(options, start).name({1, 3, 0}), std::string("B3"));
     options.boards = {board};
-    QCOMPARE(rowsOptions(options, start).name({1, 3, 0}), std::string("B3 heard"));
-    QCOMPARE(rowsOptions(options, start).name({2, 3, 0}), std::string("R3"));
+    auto store = std::make_shared<SeriesStore>();
+    LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
+    TeamMonitor monitor(options.profile, monitorOptions(options));
+    QCOMPARE(monitor.take(from("10.0.0.3", 1243, words)), TeamMonitor::Verdict::Used);
+    rows.take(from("10.0.0.3", 1243, words), monitor.decoded(), monitor.decoder(), monitor.used());
+    QVERIFY(store->findGroup("B3 (2)") && !store->findGroup("B3"));
     for (const AttachedBoard& one : {board, other}) {
       const auto again = parseAttachedBoard(attachedBoardText(one));
       QVERIFY(again && *again == one);
@@ -110,7 +114,7 @@ class TestLiveTeams : public QObject {
     LiveOptions options = twoTeams();
     TeamMonitor monitor(options.profile, monitorOptions(options));
     auto store = std::make_shared<SeriesStore>();
-    LiveRows rows(store, rowsOptions(options, start));
+    LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
     const auto say = [&](double time) {
       DatagramView datagram = from("10.0.0.3", 1243, words);
       datagram.time += std::chrono::duration_cast<Duration>(std::chrono::duration<double>(time));
@@ -119,10 +123,10 @@ class TestLiveTeams : public QObject {
     };
     say(1.0);
     options.team.teams[0].colour = TeamColor::Yellow;
-    rows.setOptions(rowsOptions(options, start), {});
+    rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), {});
     say(2.0);
     options.team.teams[0].colour = TeamColor::Blue;
-    rows.setOptions(rowsOptions(options, start), {});
+    rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), {});
     say(3.0);
     const auto count = [&store](const char* name) {
       const auto group = store->findGroup(name);
@@ -137,18 +141,18 @@ class TestLiveTeams : public QObject {
     LiveBooks books(options);
     TeamMonitor& monitor = books.monitor;
     auto store = std::make_shared<SeriesStore>();
-    LiveRows rows(store, rowsOptions(options, start));
+    LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
     const auto say = [&](int second, const char* address) {
       DatagramView datagram = from(address, 1243, words);
       datagram.time += std::chrono::seconds(second);
       QCOMPARE(books.takeRobot(datagram, second), TeamMonitor::Verdict::Used);
-      rows.rename(monitor.renamings());
+      rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), monitor.renamings());
       rows.take(datagram, monitor.decoded(), monitor.decoder(), monitor.used());
     };
     const auto apply = [&](std::vector<TeamSetup> teams) {
       options.team.teams = std::move(teams);
       books.setTeams(monitorOptions(options));
-      rows.setOptions(rowsOptions(options, start), monitor.renamings());
+      rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), monitor.renamings());
     };
     const auto theOnlyOne = [&](int second) {
       const auto robots = monitor.status(start + std::chrono::seconds(second)).robots;
@@ -178,6 +182,53 @@ class TestLiveTeams : public QObject {
     QCOMPARE(theOnlyOne(4), (RobotKey{0, 3, 0}));
     QCOMPARE(store->findGroup("Robot 3"), group);
     QCOMPARE(store->view(*group)->rows(), std::size_t(4));
+  }
+
+  /// Names are of the teams; the colour that a robot is drawn in says nothing of its team.
+  void theRefereeTellsTheColours() {
+    LiveOptions options;
+    RefereeState packet;
+    packet.teams[0].number = 12;
+    packet.teams[0].colour = 1;  // red
+    packet.teams[1].number = 7;
+    packet.teams[1].colour = 0;  // blue
+    const auto nameOf = [&](const RobotKey& robot, const RefereeState* referee) {
+      return robotName(robot, teamsOf(options, referee));
+    };
+    QCOMPARE(nameOf({0, 3, 0}, nullptr), std::string("Robot 3"));
+    QCOMPARE(nameOf({0, 3, 0}, &packet), std::string("Robot 3"));
+    options.ourTeam = 12;
+    QCOMPARE(nameOf({0, 3, 0}, nullptr), std::string("Robot 3"));
+    QCOMPARE(nameOf({0, 3, 0}, &packet), std::string("R3"));
+    options.team.teams = {setupOf(R"({"number": 12})"),
+                          setupOf(R"({"name": "Guests", "number": 7})")};
+    QCOMPARE(nameOf({1, 3, 0}, nullptr), std::string("Robot 3"));
+    QCOMPARE(nameOf({2, 3, 0}, nullptr), std::string("Guests 3"));
+    QCOMPARE(nameOf({1, 3, 0}, &packet), std::string("R3"));
+    QCOMPARE(nameOf({2, 3, 1}, &packet), std::string("B3 (2)"));
+
+    TeamMonitor monitor(options.profile, monitorOptions(options));
+    auto store = std::make_shared<SeriesStore>();
+    LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
+    QCOMPARE(monitor.take(from("10.0.0.3", 1243, words)), TeamMonitor::Verdict::Used);
+    rows.take(from("10.0.0.3", 1243, words), monitor.decoded(), monitor.decoder(), monitor.used());
+    const auto group = store->findGroup("Robot 3");
+    QVERIFY(group && store->find("Robot 3", "VISION_BALL_DIST"));
+    QVERIFY(!store->view(*group)->info().attributes.contains("team"));
+    rows.setOptions(rowsOptions(options, teamsOf(options, &packet), start), {});
+    QCOMPARE(store->findGroup("R3"), group);
+    QCOMPARE(store->view(*group)->info().attributes.at("team"), std::string("red"));
+  }
+
+  void aNameMeansTheOnlyRobotThatMayHaveIt() {
+    const std::vector<std::string> known{"B1", "R1", "Robot 2", "B3 (2)"};
+    const auto named = [&](const char* name) { return robotNamed(name, known).value_or("none"); };
+    QCOMPARE(named("B1"), std::string("B1"));
+    QCOMPARE(named("Robot 1"), std::string("none"));
+    QCOMPARE(named("B2"), std::string("Robot 2"));
+    QCOMPARE(named("Robot 3 (2)"), std::string("B3 (2)"));
+    QCOMPARE(named("Robot 3"), std::string("none"));
+    QCOMPARE(named("R3 (2)"), std::string("none"));
   }
 
   void booksKeepTheSetups() {

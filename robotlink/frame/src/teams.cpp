@@ -37,16 +37,16 @@ std::optional<NameParts> partsOf(std::string_view name) {
   return parts;
 }
 
-const Team* teamAt(int place, const Teams& teams) {
-  const auto index = static_cast<std::size_t>(place) - 1;
-  return place > 0 && index < teams.size() ? &teams[index] : nullptr;
-}
-
 }  // namespace
+
+std::optional<TeamColor> colourAt(int place, const Teams& teams) {
+  const auto index = static_cast<std::size_t>(place);
+  return index < teams.size() ? teams[index].colour : std::nullopt;
+}
 
 const Teams& teamsByColour() {
   static const Teams all = [] {
-    Teams made;
+    Teams made(1);
     for (const TeamColorInfo& team : teamColors) made.push_back({0, {}, team.color, false});
     return made;
   }();
@@ -67,31 +67,30 @@ std::string robotName(const RobotKey& robot, const Teams& teams) {
   const std::string number = std::to_string(robot.number);
   const std::string behind =
       robot.sender > 0 ? number + " (" + std::to_string(robot.sender + 1) + ")" : number;
-  const Team* team = teamAt(robot.team, teams);
-  if (team == nullptr || !team->colour) return std::string(unknownTeam) + behind;
-  const bool isFirst =
-      std::none_of(teams.data(), team, [&](const Team& t) { return t.colour == team->colour; });
-  if (isFirst) return std::string(info(*team->colour).letter) + behind;
-  return (team->name.empty() ? "Team " + std::to_string(robot.team) : team->name) + " " + behind;
+  const auto colour = colourAt(robot.team, teams);
+  const bool isThere = static_cast<std::size_t>(robot.team) < teams.size();
+  for (int earlier = colour ? 0 : 1; isThere && earlier < robot.team; ++earlier) {
+    if (colourAt(earlier, teams) != colour) continue;
+    const std::string& title = teams[static_cast<std::size_t>(robot.team)].name;
+    return (title.empty() ? "Team " + std::to_string(robot.team) : title) + " " + behind;
+  }
+  return (colour ? std::string(info(*colour).letter) : std::string(unknownTeam)) + behind;
 }
 
-std::optional<RobotKey> robotNamed(std::string_view name, const Teams& teams,
-                                   std::span<const RobotKey> known) {
-  const auto exact = std::ranges::find_if(
-      known, [&](const RobotKey& robot) { return robotName(robot, teams) == name; });
-  if (exact != known.end()) return *exact;
-  const auto wanted = partsOf(name);
-  if (!wanted) return std::nullopt;
-  std::optional<RobotKey> only;
-  for (const RobotKey& robot : known) {
-    if (robot.number != wanted->number || robot.sender != wanted->sender) continue;
-    const Team* team = teamAt(robot.team, teams);
-    const bool isKnown = team != nullptr && team->colour;
-    if (wanted->colour && isKnown) continue;
-    if (only) return std::nullopt;
-    only = robot;
+bool isSameRobot(std::string_view name, std::string_view other) {
+  if (name == other) return true;
+  const auto a = partsOf(name), b = partsOf(other);
+  return a && b && a->number == b->number && a->sender == b->sender &&
+         a->colour.has_value() != b->colour.has_value();
+}
+
+std::optional<std::string> robotNamed(std::string_view name, std::span<const std::string> known) {
+  std::vector<std::string> fitting;
+  for (const std::string& robot : known) {
+    if (robot == name) return robot;
+    if (isSameRobot(name, robot)) fitting.push_back(robot);
   }
-  return only;
+  return fitting.size() == 1 ? std::optional(fitting.front()) : std::nullopt;
 }
 
 }  // namespace pitchboard::link

@@ -180,6 +180,10 @@ MatchFrame LiveBooks::frame(const LiveOptions& options, const telemetry::TeamSta
   return frame;
 }
 
+Teams LiveBooks::teams(const LiveOptions& options) const {
+  return teamsOf(options, referee.state() ? &*referee.state() : nullptr);
+}
+
 std::string LiveBooks::text(const LiveOptions& options, double time, WallTime zero) const {
   Json json{{"time", time}, {"options", optionsJson(options)}};
   // Its own text, not an object in here: the monitor's form is the monitor's.

@@ -76,6 +76,13 @@ std::optional<TeamColor> teamColour(std::string_view words) {
   return std::nullopt;
 }
 
+RobotKey besideBoards(const LiveOptions& options, RobotKey robot, const Teams& teams) {
+  const auto boards = boardNames(options.boards);
+  const std::string first = robotName({robot.team, robot.number, 0}, teams);
+  if (std::ranges::find(boards, first) != boards.end()) ++robot.sender;
+  return robot;
+}
+
 MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& team,
                      const telemetry::RefereeTracker& referee, double time) {
   MatchFrame frame;
@@ -87,7 +94,6 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
   frame.settings = std::make_shared<const FrameSettings>(std::move(settings));
   frame.snapshot.time = time;
   frame.speed = 1.0;
-  TeamColor ours = options.colour;
   const RefereeState* state = referee.state() ? &*referee.state() : nullptr;
   if (state != nullptr) {
     frame.referee = heardView(referee, options.ourTeam, team.time);
@@ -98,24 +104,24 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
       for (const telemetry::TeamSetup& setup : options.team.teams) {
         if (setup.number == side.number && side.number != 0) side.name = setup.name;
       }
-      if (side.number == frame.referee->ourTeam && side.number != 0) {
-        ours = teamColour(side.colour).value_or(ours);
-      }
     }
   }
+  frame.teams = teamsOf(options, state);
   frame.robots.reserve(team.robots.size());
   for (const RobotStatus& robot : team.robots) {
     RobotFrame& out = frame.robots.emplace_back();
     out.key = robot.key;
     out.identity.id = {};
     out.identity.number = out.key.number;
-    out.identity.team = colourOf(options, robot.key, ours, frame.referee);
-    out.name = out.identity.name();
+    out.identity.team = drawnColour(options, robot.key, frame.teams);
+    out.name = robotName(besideBoards(options, robot.key, frame.teams), frame.teams);
     out.ownName = ownNameOf(options, robot.key);
     out.link = robot;
     out.lamps = robot.processes;
     if (state != nullptr) {
-      out.penalty = penaltyOf(*state, refereeNumberOf(options, robot.key), out.identity.number);
+      const auto place = static_cast<std::size_t>(robot.key.team);
+      const int number = place < frame.teams.size() ? frame.teams[place].number : 0;
+      out.penalty = penaltyOf(*state, number, robot.key.number);
     }
     out.values = valuesOf(robot);
     const RobotReader reader = [&robot](FieldMeaning meaning) {

@@ -69,7 +69,7 @@ LivePipeline::LivePipeline(LiveOptions options, WallTime zero)
     : m_options(std::move(options)),
       m_zero(zero),
       m_books(m_options),
-      m_rows(m_fan, rowsOptions(m_options, zero)),
+      m_rows(m_fan, rowsOptions(m_options, m_teams, zero)),
       m_boardRows(m_fan) {}
 
 void LivePipeline::setOptions(LiveOptions options, WallTime now) {
@@ -77,14 +77,14 @@ void LivePipeline::setOptions(LiveOptions options, WallTime now) {
   if (!(old.profile == m_options.profile)) m_books.monitor.setProfile(m_options.profile);
   m_books.setTeams(monitorOptions(m_options));
   m_books.referee.setOptions(LiveBooks::refereeOptions(m_options));
-  noteRenamings();
-  m_rows.setOptions(rowsOptions(m_options, m_zero), m_books.monitor.renamings());
+  noteTeams(m_books.monitor.renamings());
   tellBooks(now);
 }
 
 void LivePipeline::clear(WallTime now) {
   m_books.clear(m_options);
   m_events = {};
+  noteTeams({});
   m_rows.clearRefused();
   m_unknownReferee = m_refusedReferees = 0;
   m_unknownReason.clear();
@@ -105,12 +105,16 @@ void LivePipeline::takeReferee(const DatagramView& datagram) {
   const auto packet = telemetry::decodeReferee(datagram.payload);
   if (packet) {
     m_books.takeReferee(*packet, datagram);
+    if (m_books.teams(m_options) != m_teams) noteTeams({});
   } else {
     ++m_unknownReferee;
     m_unknownReason = packet.error().message;
     m_unknownSample = telemetry::printable(datagram.payload);
   }
-  tell({.time = std::max(0.0, seconds(datagram.time)), .view = datagram, .referee = &packet});
+  tell({.time = std::max(0.0, seconds(datagram.time)),
+        .view = datagram,
+        .teams = m_teams,
+        .referee = &packet});
 }
 
 void LivePipeline::take(const DatagramView& datagram) {
@@ -121,13 +125,10 @@ void LivePipeline::take(const DatagramView& datagram) {
   }
   const double time = std::max(0.0, seconds(datagram.time));
   const telemetry::TeamMonitor& monitor = m_books.monitor;
-  LiveDatagram taken{.time = time, .view = datagram};
+  LiveDatagram taken{.time = time, .view = datagram, .teams = m_teams};
   taken.verdict = m_books.takeRobot(datagram, time);
   if (taken.verdict) {
-    if (!monitor.renamings().empty()) {
-      noteRenamings();
-      m_rows.rename(monitor.renamings());
-    }
+    if (!monitor.renamings().empty()) noteTeams(monitor.renamings());
     taken.decoder = &monitor.decoder();
     taken.decoded = &monitor.decoded();
     taken.robot = {monitor.decoded().place, monitor.decoded().robot, 0};
@@ -180,6 +181,7 @@ void LivePipeline::noticePorts(const telemetry::ReceiverStatus& network, double 
 LiveDetails LivePipeline::details(WallTime now) const {
   LiveDetails details;
   details.team = m_books.monitor.status(now);
+  details.teams = m_teams;
   details.referee = m_books.referee.counts();
   details.unknownReferee = m_unknownReferee;
   details.unknownRefereeReason = m_unknownReason;
@@ -198,8 +200,10 @@ void LivePipeline::tellBooks(WallTime now) {
   for (const auto& observer : m_observers) observer->remembered(time, text);
 }
 
-void LivePipeline::noteRenamings() {
-  const std::vector<Renaming>& renamings = m_books.monitor.renamings();
+/// Teams may be called otherwise from now on, and these robots have other keys.
+void LivePipeline::noteTeams(const std::vector<Renaming>& renamings) {
+  m_teams = m_books.teams(m_options);
+  m_rows.setOptions(rowsOptions(m_options, m_teams, m_zero), renamings);
   if (renamings.empty()) return;
   m_events.rename(renamings);
   m_news.renamings.push_back(renamings);

@@ -48,6 +48,12 @@ std::array<double, healthColumns.size()> healthValues(const RobotStatus& robot) 
           robot.battery && robot.battery->volts == 0.0 ? robot.battery->fraction * 100.0 : nothing};
 }
 
+/// An attached blackboard of the number is the first sender.
+std::string groupNameOf(const LiveRowsOptions& options, RobotKey robot) {
+  if (options.attributes && options.attributes(robot).contains("beside_board")) ++robot.sender;
+  return robotName(robot, options.teams);
+}
+
 GroupInfo linkGroup(const std::string& robot) {
   GroupInfo info{robot + " link", {}, {{"link", robot}}};
   for (const HealthColumn& column : healthColumns) {
@@ -118,25 +124,15 @@ LiveRows::~LiveRows() = default;
 void LiveRows::setOptions(LiveRowsOptions options, const std::vector<Renaming>& renamings) {
   options.zero = m_options.zero;
   m_options = std::move(options);
-  rename(renamings);
-}
-
-void LiveRows::rename(const std::vector<Renaming>& renamings) {
   for (Robot& robot : m_robots) robot.key = renamed(robot.key, renamings);
   // Where two exchange their names, one has to give way.
   for (Robot& robot : m_robots) {
     const bool isWanted = std::ranges::any_of(m_robots, [&](const Robot& other) {
-      return other.key != robot.key && nameOf(other.key) == robot.name;
+      return other.key != robot.key && groupNameOf(m_options, other.key) == robot.name;
     });
     if (isWanted) renew(robot, robot.name + " (before)");
   }
-  for (Robot& robot : m_robots) renew(robot, nameOf(robot.key));
-}
-
-std::string LiveRows::nameOf(const RobotKey& key) const {
-  const std::string name =
-      m_options.name ? m_options.name(key) : "Robot " + std::to_string(key.number);
-  return key.sender > 0 ? name + " (" + std::to_string(key.sender + 1) + ")" : name;
+  for (Robot& robot : m_robots) renew(robot, groupNameOf(m_options, robot.key));
 }
 
 /// Its groups get this name, and the attributes that it has now.
@@ -163,7 +159,7 @@ LiveRows::Robot* LiveRows::robotOf(const RobotKey& key, const Sender& sender) {
   Robot robot;
   robot.key = key;
   robot.sender = sender;
-  robot.name = nameOf(key);
+  robot.name = groupNameOf(m_options, key);
   robot.link = m_sink->addGroup(linkGroup(robot.name));
   m_robots.push_back(std::move(robot));
   return &m_robots.back();
@@ -204,6 +200,9 @@ GroupInfo LiveRows::groupOf(const Robot& robot) const {
                   {{"number", std::to_string(robot.key.number)},
                    {"sender", robot.sender.address.text()},
                    {"live", "1"}}};
+  if (const auto colour = link::colourAt(robot.key.team, m_options.teams)) {
+    group.attributes["team"] = info(*colour).name;
+  }
   if (m_options.attributes) group.attributes.merge(m_options.attributes(robot.key));
   return group;
 }

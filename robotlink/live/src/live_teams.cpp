@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <robotlink/blackboard/variable_meanings.h>
+#include <telemetry/wire/gamecontroller.h>
 
 #include "live_frame.h"
 
@@ -14,34 +15,6 @@ using telemetry::TeamSetup;
 
 const TeamSetup* setupOf(const LiveOptions& options, const RobotKey& robot) {
   return telemetry::setupAt(robot.team, options.team.teams);
-}
-
-bool namesVariables(const telemetry::Profile& profile) {
-  return std::any_of(profile.fields.begin(), profile.fields.end(),
-                     [](const auto& field) { return !field.variable.empty(); });
-}
-
-std::string nameOf(const LiveOptions& options, const RobotKey& robot) {
-  const auto& teams = options.team.teams;
-  const int number = robot.number;
-  if (robot.team == 0 && (!teams.empty() || !namesVariables(options.profile))) {
-    return "Robot " + std::to_string(number);
-  }
-  sim::RobotIdentity identity;
-  identity.team = colourOf(options, robot, options.colour, {});
-  identity.number = number;
-  // What its own blackboard on this computer says has the name, and more columns.
-  const auto boards = boardNames(options.boards);
-  if (std::ranges::find(boards, identity.name()) != boards.end()) {
-    return identity.name() + " heard";
-  }
-  // Two teams of one colour would have one name.
-  for (int other = 1; other < robot.team; ++other) {
-    if (colourOf(options, {other, number, 0}, options.colour, {}) == identity.team) {
-      return setupOf(options, robot)->title() + " " + std::to_string(number);
-    }
-  }
-  return identity.name();
 }
 
 }  // namespace
@@ -65,36 +38,32 @@ telemetry::MonitorOptions monitorOptions(const LiveOptions& options) {
   return made;
 }
 
-Teams teamsOf(const std::vector<TeamSetup>& setups) {
-  Teams teams;
+Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee) {
+  const auto toldOf = [referee](int number) -> std::optional<TeamColor> {
+    const auto* team = referee != nullptr && number > 0 ? referee->team(number) : nullptr;
+    return team == nullptr ? std::nullopt : teamColour(telemetry::colourWords(team->colour));
+  };
+  const std::vector<TeamSetup>& setups = options.team.teams;
+  Teams teams(1);
+  if (setups.empty()) teams[0] = {options.ourTeam, {}, toldOf(options.ourTeam), true};
   for (const TeamSetup& setup : setups) {
-    teams.push_back({setup.number, setup.title(), setup.colour, teams.empty()});
+    const bool ours = teams.size() == 1;
+    const int number = setup.number > 0 || !ours ? setup.number : options.ourTeam;
+    teams.push_back({number, setup.title(), setup.colour ? setup.colour : toldOf(number), ours});
   }
   return teams;
 }
 
-TeamColor colourOf(const LiveOptions& options, const RobotKey& robot, TeamColor ours,
-                   const std::optional<RefereeView>& referee) {
+TeamColor drawnColour(const LiveOptions& options, const RobotKey& robot, const Teams& teams) {
   if (options.colourByNumber) {
     return teamColors[static_cast<std::size_t>(robot.number - 1) % teamColors.size()].color;
   }
-  const TeamSetup* setup = setupOf(options, robot);
-  if (setup == nullptr) return ours;
-  if (setup->colour) return *setup->colour;
-  if (referee && setup->number > 0) {
-    for (const RefereeTeamView& side : referee->teams) {
-      if (side.number != setup->number) continue;
-      if (const auto colour = teamColour(side.colour)) return *colour;
-    }
-  }
+  if (const auto known = colourAt(robot.team, teams)) return *known;
   // Two teams are two colours.
-  const auto further = static_cast<std::size_t>(robot.team - 1);
-  return teamColors[(static_cast<std::size_t>(ours) + further) % teamColors.size()].color;
-}
-
-int refereeNumberOf(const LiveOptions& options, const RobotKey& robot) {
-  const TeamSetup* setup = setupOf(options, robot);
-  return setup != nullptr && setup->number > 0 ? setup->number : options.ourTeam;
+  const auto ours = std::ranges::find(teams, true, &Team::ours);
+  const auto first = static_cast<std::size_t>(ours->colour.value_or(options.colour));
+  const auto further = static_cast<std::size_t>(std::max(robot.team - 1, 0));
+  return teamColors[(first + further) % teamColors.size()].color;
 }
 
 std::string ownNameOf(const LiveOptions& options, const RobotKey& robot) {
@@ -104,28 +73,16 @@ std::string ownNameOf(const LiveOptions& options, const RobotKey& robot) {
   return found == setup->robots.end() ? std::string() : found->second;
 }
 
-std::string meaningAttribute(telemetry::FieldMeaning meaning) {
-  return "is_" + std::string(telemetry::meaningName(meaning));
-}
-
-telemetry::LiveRowsOptions rowsOptions(const LiveOptions& options, telemetry::WallTime zero) {
-  telemetry::LiveRowsOptions made;
-  made.zero = zero;
-  made.name = [options](const RobotKey& robot) { return nameOf(options, robot); };
-  if (options.team.teams.empty()) return made;
-  made.attributes = [options](const RobotKey& robot) {
+telemetry::LiveRowsOptions rowsOptions(const LiveOptions& options, Teams teams,
+                                       telemetry::WallTime zero) {
+  telemetry::LiveRowsOptions made{zero, std::move(teams), {}};
+  made.attributes = [options, teams = made.teams](const RobotKey& robot) {
+    const TeamSetup* setup = setupOf(options, robot);
     std::map<std::string, std::string> more{
-        {"shirt", std::to_string(robot.number)},
-        {"team", std::string(info(colourOf(options, robot, options.colour, {})).name)}};
-    if (const TeamSetup* setup = setupOf(options, robot)) {
-      more["team_name"] = setup->title();
-      more["profile"] = setup->profile.name;
-      const telemetry::TextDecoder decoder(setup->profile, surroundingsOf(options.field));
-      for (const telemetry::ProfileField& field : decoder.profile().fields) {
-        if (field.meaning == telemetry::FieldMeaning::None) continue;
-        more[meaningAttribute(field.meaning)] = field.name;
-      }
-    }
+        {"profile", setup != nullptr ? setup->profile.name : options.profile.name}};
+    if (besideBoards(options, robot, teams) != robot) more["beside_board"] = "1";
+    if (setup == nullptr) return more;
+    more["team_name"] = setup->title();
     if (const std::string own = ownNameOf(options, robot); !own.empty()) more["name"] = own;
     return more;
   };

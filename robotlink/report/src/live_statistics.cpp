@@ -59,7 +59,6 @@ class Walk {
         if (robot.known[i] > 0.0) s.uptime[i] = robot.worked[i] / robot.known[i];
       }
       if (robot.present > 0.0) s.link->heard = s.seconds / robot.present;
-      if (id.sender > 0 && !isAttached(id)) s.name += " (second)";
       m_sums.add(s);
     }
     // Both teams of the referee, also the one of which no robot is heard.

@@ -2,7 +2,6 @@
 #include <robotlink/session/session_choice.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -22,29 +21,6 @@ using telemetry::SessionStream;
 using telemetry::WallTime;
 using Json = nlohmann::ordered_json;
 namespace lenient = telemetry::lenient;
-
-/// "Robot 3 (2)" and "B3 (2)".
-struct NameParts {
-  bool isColourKnown = false;
-  int number = 0;
-  std::string_view sender;  ///< " (2)"
-};
-
-std::optional<NameParts> partsOfName(std::string_view name) {
-  constexpr std::string_view unknown = "Robot ";
-  NameParts parts;
-  parts.isColourKnown = !name.starts_with(unknown);
-  name.remove_prefix(parts.isColourKnown ? std::min<std::size_t>(1, name.size()) : unknown.size());
-  const char* end = name.data() + name.size();
-  const auto [stop, code] = std::from_chars(name.data(), end, parts.number);
-  parts.sender = {stop, static_cast<std::size_t>(end - stop)};
-  const bool isName = code == std::errc{} && (parts.sender.empty() || parts.sender[0] == ' ');
-  return isName ? std::optional(parts) : std::nullopt;
-}
-
-std::string withSender(std::string name, int slot) {
-  return slot > 0 ? name + " (" + std::to_string(slot + 1) + ")" : name;
-}
 
 /// What is theirs in the messages of a session, in the order of recording.
 class Choice {
@@ -114,9 +90,8 @@ class Choice {
     return robot.number > 0 && isChosen(nameOf(robot), m_robots);
   }
 
-  /// As its rows call it.
   std::string nameOf(const RobotKey& robot) const {
-    return withSender(m_name(robot), robot.sender);
+    return robotName(robot, m_known->books.teams(m_known->options));
   }
 
   bool keepPlayers(std::string& text) const {
@@ -146,7 +121,6 @@ class Choice {
     auto all = LiveBooks::read(text, WallTime{});
     auto part = LiveBooks::read(text, WallTime{});
     if (!all || !part) return false;
-    m_name = rowsOptions(all->options, {}).name;
     m_known.emplace(std::move(*all));
     const double time = lenient::number(lenient::parsed<Json>(text), "time").value_or(0.0);
     const WallTime now(telemetry::Duration(std::llround(time * 1e9)));
@@ -166,21 +140,14 @@ class Choice {
   std::vector<std::string> m_robots, m_groups;
   std::map<std::string, std::string> m_nameOfBoard;
   bool m_isLive = false;
-  std::optional<LiveBooks::Read> m_known;              // of all robots
-  std::function<std::string(const RobotKey&)> m_name;  // by its options
+  std::optional<LiveBooks::Read> m_known;  // of all robots
 };
 
 }  // namespace
 
 bool isChosen(std::string_view name, std::span<const std::string> robots) {
   if (robots.empty()) return true;
-  const auto parts = partsOfName(name);
-  return std::ranges::any_of(robots, [&](const std::string& robot) {
-    if (robot == name) return true;
-    const auto other = partsOfName(robot);
-    return parts && other && parts->isColourKnown != other->isColourKnown &&
-           parts->number == other->number && parts->sender == other->sender;
-  });
+  return std::ranges::any_of(robots, [&](const auto& robot) { return isSameRobot(name, robot); });
 }
 
 void keepRobots(MatchFrame& frame, std::span<const std::string> robots) {
@@ -191,6 +158,14 @@ void keepRobots(MatchFrame& frame, std::span<const std::string> robots) {
     return frame.robot(drawings.robot) == nullptr;
   });
   if (!frame.teamBalls.empty()) frame.teamBalls = agreedBalls(frame.robots);
+}
+
+std::vector<std::string> groupsNamed(const telemetry::SessionReader& session,
+                                     std::vector<std::string> robots) {
+  std::vector<std::string> groups;
+  for (const telemetry::SessionGroup& group : session.groups()) groups.push_back(group.info.name);
+  for (std::string& robot : robots) robot = robotNamed(robot, groups).value_or(robot);
+  return robots;
 }
 
 void chooseRobots(const telemetry::SessionReader& session, telemetry::ExportFormat format,

@@ -9,6 +9,7 @@
 
 #include <telemetry/wire/base64.h>
 #include <telemetry/wire/lenient_json.h>
+#include <telemetry/wire/meanings.h>
 
 #include "session_format.h"
 
@@ -190,6 +191,10 @@ std::optional<GroupInfo> groupFromJson(std::string_view text_) {
       if (value.is_string()) group.attributes[key] = value.get<std::string>();
     }
   }
+  // Version 0.8 called the columns of the published profile otherwise, and others' never so.
+  const auto profile = group.attributes.find("profile");
+  const bool isOldLive = group.attributes.contains("live") &&
+                         (profile == group.attributes.end() || profile->second == "published");
   const auto columns = json.find("columns");
   if (columns == json.end() || !columns->is_array()) return std::nullopt;
   for (const Json& entry : *columns) {
@@ -210,6 +215,12 @@ std::optional<GroupInfo> groupFromJson(std::string_view text_) {
     column.unit = text(entry, "unit");
     // Files of version 0.1 call it "heading".
     column.category = text(entry, entry.contains("category") ? "category" : "heading");
+    const auto isIt = [&column](const MeaningInfo& known) {
+      return known.oldName == column.name && known.unit == column.unit &&
+             known.category == column.category;
+    };
+    if (isOldLive && std::ranges::any_of(meaningTable, isIt))
+      column.name = presentName(column.name);
     column.kind = static_cast<ColumnKind>(place(kindNames, entry, "kind").value_or(0));
     if (const auto labels = entry.find("labels"); labels != entry.end() && labels->is_object()) {
       for (const auto& [code, word] : labels->items()) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -200,6 +201,16 @@ Result<Profile> parseProfile(std::string_view text, const std::string& file) {
     const std::string path = top.pathOf("fields", i);
     where.push_back(file + ":" + std::to_string(item.line) + ": " + path);
     profile.fields.push_back(fieldFrom(report, JsonObject(report, item, path, fieldKeys)));
+  }
+  // Up to version 0.8 the published profile named no variables.
+  const bool isOld =
+      profile.name == "published" && profile.format == MessageFormat::Words &&
+      std::ranges::all_of(profile.fields, &std::string::empty, &ProfileField::variable);
+  for (ProfileField& field : profile.fields) {
+    const std::string_view present = presentName(field.name);
+    if (isOld && present != field.name && present == info(field.meaning).variable) {
+      field.variable = present;
+    }
   }
   if (report.failed()) return tl::unexpected(report.error());
   if (const auto valid = validateAt(profile, where, file); !valid) {

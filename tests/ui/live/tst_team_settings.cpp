@@ -128,7 +128,7 @@ class TestTeamSettings : public QObject {
     // Without a setup: as Live reads it. (Sent again until the page looks.)
     const auto isRead = [&] { return robot.say() && cell(0, 4).contains(QStringLiteral("X 270")); };
     QTRY_VERIFY(isRead());
-    QCOMPARE(cell(0, 3), QStringLiteral("B3"));
+    QCOMPARE(cell(0, 3), QStringLiteral("Robot 3"));
     QCOMPARE(cell(0, 0), QStringLiteral("127.0.0.1"));
     QCOMPARE(cell(0, 1), QString::number(options.portBase + 3));
     // Of another format: why it cannot be read, and what it could be.

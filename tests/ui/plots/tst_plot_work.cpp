@@ -258,17 +258,20 @@ class TestPlotWork : public QObject {
     QCOMPARE(b.dock->currentPage()->panes().size(), 2);
   }
 
-  void aNameCanHaveAlternatives() {
-    Bench b;
-    const PlotPane* pane = b.show(variableCurve(QStringLiteral("first/FAR|DIST")));
+  /// A plot of "Robot 1" shows B1 once the colour is known, and the other way round.
+  void aRobotIsFoundByItsOtherName() {
+    Bench b({QStringLiteral("B1"), QStringLiteral("Robot 2"), QStringLiteral("R3"),
+             QStringLiteral("B3")});
+    const PlotPane* pane = b.show(variableCurve(QStringLiteral("Robot 1/DIST")));
     QCOMPARE(namesOf(pane), QStringList(QStringLiteral("DIST B1")));
     QTRY_COMPARE(pane->curves()[0].valueAt(10.0), std::optional(PlotSource::distanceAt(10.0)));
-    QCOMPARE(namesOf(b.show(variableCurve(QStringLiteral("each/ANGLE|DIST")))),
-             QStringList({QStringLiteral("ANGLE B1"), QStringLiteral("ANGLE B2")}));
-    const PlotPane* none = b.show(variableCurve(QStringLiteral("first/FAR|NEAR")));
-    b.dock->feed()->refresh();
-    QCOMPARE(none->curves()[0].note(), QStringLiteral("waiting for FAR or NEAR"));
-    QCOMPARE(namesOf(none), QStringList(QStringLiteral("FAR first")));
+    QCOMPARE(namesOf(b.show(variableCurve(QStringLiteral("R2/DIST")))),
+             QStringList(QStringLiteral("DIST Robot 2")));
+    // Nobody knows which of two it was.
+    QCOMPARE(namesOf(b.show(variableCurve(QStringLiteral("Robot 3/DIST")))),
+             QStringList(QStringLiteral("DIST Robot 3")));
+    QCOMPARE(namesOf(b.show(variableCurve(QStringLiteral("R1/DIST")))),
+             QStringList(QStringLiteral("DIST R1")));
   }
 
   void eightCurvesAreToldApart() {

@@ -79,7 +79,7 @@ class TestLive : public QObject {
       return pane->curves().empty() ? std::nullopt : pane->curves()[0].valueAt(std::nullopt);
     };
     QTRY_COMPARE(value(panes[0]), std::optional(123.0));
-    QCOMPARE(panes[0]->curves()[0].name(), QStringLiteral("BALL_DIST Robot 3"));
+    QCOMPARE(panes[0]->curves()[0].name(), QStringLiteral("VISION_BALL_DIST Robot 3"));
     QTRY_COMPARE(value(panes[1]), std::optional(8.0));
     QCOMPARE(panes[1]->curves()[0].codeText(8), QStringLiteral("walk forward, slow"));
   }

@@ -276,7 +276,10 @@ class TestSessionAttached : public QObject {
     QVERIFY2(forget->text().endsWith(QStringLiteral("2")), qPrintable(forget->text()));
     forget->trigger();
     QTRY_COMPARE(robotsShown(), QStringLiteral("B3 R4"));
-    QVERIFY(s.window.live()->series()->find("Robot 2", "X").has_value());  // its curves stay
+    QVERIFY(s.window.live()
+                ->series()
+                ->find("Robot 2", "LOCALIZATION_X")
+                .has_value());  // its curves stay
     QTRY_VERIFY(heard());
   }
 };

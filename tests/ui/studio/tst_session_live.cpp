@@ -123,7 +123,7 @@ class TestSessionLive : public QObject {
     session->rows({-1e9, 1e9}, {}, [&](telemetry::GroupId id, const telemetry::RowView& row) {
       const telemetry::GroupInfo& info = groups[id].info;
       if (info.name != "Robot 1" || info.attributes.contains("link")) return true;
-      const auto place = static_cast<int>(valueOf(info, row, columnOf(info, "X")));
+      const auto place = static_cast<int>(valueOf(info, row, columnOf(info, "LOCALIZATION_X")));
       const auto found = std::ranges::find(places, place);
       if (found != places.end()) {
         times[static_cast<std::size_t>(found - places.begin())] = row.time;
@@ -141,7 +141,8 @@ class TestSessionLive : public QObject {
       const telemetry::GroupInfo& info = view->info();
       if (info.name != "Robot 1" || info.attributes.contains("link")) continue;
       std::vector<telemetry::Sample> samples;
-      view->samples(static_cast<std::uint32_t>(columnOf(info, "X")), {-1e9, 1e9}, samples);
+      view->samples(static_cast<std::uint32_t>(columnOf(info, "LOCALIZATION_X")), {-1e9, 1e9},
+                    samples);
       for (const telemetry::Sample& sample : samples) {
         const auto found = std::ranges::find(places, static_cast<int>(sample.value));
         if (found != places.end()) {
@@ -326,7 +327,7 @@ class TestSessionLive : public QObject {
     };
     // At once, whether or not the rows have been read.
     QCOMPARE(tick(lists[0], QStringLiteral("Robot 2")), 1);
-    QCOMPARE(tick(lists[1], QStringLiteral("X")), 1);
+    QCOMPARE(tick(lists[1], QStringLiteral("LOCALIZATION_X")), 1);
     QSignalSpy written(dialog, &ExportDialog::written);
     const QString to = s.folder.filePath(QStringLiteral("one robot.csv"));
     dialog->exportTo(to);
@@ -335,16 +336,16 @@ class TestSessionLive : public QObject {
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QByteArray place = QByteArray::number(live_rig::message(2).x);
     const auto check = [&place](const QList<QByteArray>& lines) {
-      QCOMPARE(lines[0].split(',').last(), QByteArray("Robot 2.X"));
+      QCOMPARE(lines[0].split(',').last(), QByteArray("Robot 2.LOCALIZATION_X"));
       QVERIFY(lines.size() > 1);
       QCOMPARE(lines.last().split(',').last(), place);
     };
     check(file.readAll().trimmed().split('\n'));
     const ProgramRun run =
-        runProgram("pitchboard-cli",
-                   {QStringLiteral("export"), path, QStringLiteral("--to"),
-                    QStringLiteral("csv-even"), QStringLiteral("--robots"),
-                    QStringLiteral("Robot 2"), QStringLiteral("--variables"), QStringLiteral("X")});
+        runProgram("pitchboard-cli", {QStringLiteral("export"), path, QStringLiteral("--to"),
+                                      QStringLiteral("csv-even"), QStringLiteral("--robots"),
+                                      QStringLiteral("Robot 2"), QStringLiteral("--variables"),
+                                      QStringLiteral("LOCALIZATION_X")});
     QVERIFY2(run.exitCode == 0, run.err.constData());
     check(run.out.trimmed().split('\n'));
   }

@@ -5,6 +5,8 @@
 
 #include <base/actions.h>
 #include <base/duration_words.h>
+#include <robotlink/frame/teams.h>
+#include <telemetry/wire/meanings.h>
 
 namespace pitchboard::ui {
 
@@ -12,8 +14,21 @@ QString robotName(const sim::RobotIdentity& identity) {
   return QString::fromStdString(identity.name());
 }
 
-QString robotName(TeamColor team, int number) {
-  return robotName(sim::RobotIdentity{{}, team, number, false});
+QString robotName(const link::RobotFrame& robot) {
+  return QString::fromStdString(robot.name);
+}
+
+bool isVariable(const QString& saved, const QString& variable) {
+  if (saved == variable) return true;
+  const auto parts = [](const QString& name) {
+    const qsizetype slash = name.lastIndexOf(QLatin1Char('/'));
+    return std::pair(name.left(slash < 0 ? 0 : slash).toStdString(),
+                     name.mid(slash + 1).toStdString());
+  };
+  const auto [savedGroup, savedColumn] = parts(saved);
+  const auto [group, column] = parts(variable);
+  return link::isSameRobot(savedGroup, group) &&
+         (savedColumn == column || telemetry::presentName(savedColumn) == column);
 }
 
 QString actionText(int code) {

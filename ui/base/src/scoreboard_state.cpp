@@ -94,9 +94,9 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   for (const link::RobotFrame& robot : frame.robots) {
     const auto& penalty = robot.penalty;
     if (!penalty) continue;
-    penalties << robotName(robot.identity) + (penalty->secondsLeft > 0
-                                                  ? QStringLiteral(" %1").arg(penalty->secondsLeft)
-                                                  : QString());
+    penalties << robotName(robot) + (penalty->secondsLeft > 0
+                                         ? QStringLiteral(" %1").arg(penalty->secondsLeft)
+                                         : QString());
   }
   state.penalties = penalties.join(QStringLiteral(" · "));
   state.tip = refereeTip(view, frame.origin == link::FrameOrigin::Live);

@@ -20,7 +20,7 @@ void ComparedItem::setFrame(const FramePtr& frame) {
   if (frame) {
     for (const link::RobotFrame& robot : frame->robots) {
       if (!robot.poseKnown()) continue;
-      m_robots.push_back({robot.pose, robot.identity.team, robot.identity.number, robot.fallen});
+      m_robots.push_back({robot.pose, robot.identity.team, robotName(robot), robot.fallen});
     }
     if (frame->ballKnown) m_ball = frame->snapshot.ball;
   }
@@ -49,9 +49,8 @@ void ComparedItem::paintRobot(QPainter* painter, const Robot& robot) const {
   painter->drawEllipse(QPointF(0, 0), radius, radius);
   painter->drawLine(QPointF(0, 0), screen.direction(robot.pose.yaw) * radius * 1.35);
   if (!m_style->shows(FieldLayer::Numbers)) return;
-  drawHaloText(painter, {0, radius + 9}, robotName(robot.team, robot.number) + QChar(0x2032),
-               fieldFont(10, false), theme().fieldLines,
-               theme().fieldBorder.darker(isDarkTheme() ? 130 : 190));
+  drawHaloText(painter, {0, radius + 9}, robot.name + QChar(0x2032), fieldFont(10, false),
+               theme().fieldLines, theme().fieldBorder.darker(isDarkTheme() ? 130 : 190));
 }
 
 void ComparedItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {

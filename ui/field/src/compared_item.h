@@ -26,7 +26,7 @@ class ComparedItem : public FieldItem {
   struct Robot {
     Pose pose;
     TeamColor team = TeamColor::Blue;
-    int number = 0;
+    QString name;
     bool fallen = false;
   };
   void paintRobot(QPainter* painter, const Robot& robot) const;

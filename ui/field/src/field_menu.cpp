@@ -75,7 +75,7 @@ void addSelecting(QMenu* menu, FieldScene* scene) {
   QMenu* select = menu->addMenu(QStringLiteral("Select"));
   for (const link::RobotFrame& robot : scene->frame()->robots) {
     const auto& ids = scene->selection();
-    QAction* action = select->addAction(robotName(robot.identity));
+    QAction* action = select->addAction(robotName(robot));
     action->setCheckable(true);
     action->setChecked(std::find(ids.begin(), ids.end(), robot.key) != ids.end());
     QObject::connect(action, &QAction::triggered, scene,
@@ -96,7 +96,7 @@ void fillRobotsMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
   if (!ids.empty()) {
     QStringList names;
     for (const RobotKey id : ids) {
-      if (const auto* robot = scene->frame()->robot(id)) names << robotName(robot->identity);
+      if (const auto* robot = scene->frame()->robot(id)) names << robotName(*robot);
     }
     menu->addSection(names.join(QStringLiteral(", ")));
     addRobots(menu, scene, controller, ids, actions);

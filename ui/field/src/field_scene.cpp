@@ -138,7 +138,7 @@ void FieldScene::showNames() {
     const RobotLook& look = robot->body.look();
     places.push_back(toScene(look.pose.position));
     named.push_back({id, toScene(look.pose.position), m_style.drawRadius(look.radius),
-                     shown ? robotName(look.team, look.number) : QString(), look.word});
+                     shown ? look.name : QString(), look.word});
   }
   m_names->setRobots(std::move(named));
   for (const auto& [id, place] : m_names->words()) m_robots.at(id)->body.setWordPlace(place);
@@ -195,6 +195,7 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
   look.pose = now.pose;
   look.team = now.identity.team;
   look.number = now.identity.number;
+  look.name = robotName(now);
   look.radius = now.radius;
   look.fallen = now.fallen;
   look.selected = std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();

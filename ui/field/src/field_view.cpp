@@ -178,7 +178,7 @@ void FieldView::Private::openPoseEditor(RobotKey id) {
   if (!pose || !editor()) return;
   const link::RobotFrame* robot = scene->frame()->robot(id);
   if (robot == nullptr) return;
-  openEditor({QStringLiteral("Pose of %1").arg(robotName(robot->identity)), *pose, false, 0.0,
+  openEditor({QStringLiteral("Pose of %1").arg(robotName(*robot)), *pose, false, 0.0,
               [this, slot = robot->slot(), from = *pose](const Pose& to) {
                 controller->edits()->previewRobots({{slot, from, to}});
               },

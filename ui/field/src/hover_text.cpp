@@ -42,7 +42,7 @@ QString hoverText(const link::MatchFrame& frame, RobotKey id) {
   const link::RobotFrame* robot = frame.robot(id);
   if (robot == nullptr) return {};
   QStringList lines;
-  QString head = robotName(robot->identity);
+  QString head = robotName(*robot);
   if (!robot->ownName.empty()) head += QLatin1Char(' ') + QString::fromStdString(robot->ownName);
   if (!robot->behaviour.empty()) {
     head += robot->behaviour == link::noBehaviour

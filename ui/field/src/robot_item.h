@@ -18,6 +18,7 @@ struct RobotLook {
   Pose pose;
   TeamColor team = TeamColor::Blue;
   int number = 1;
+  QString name;
   double radius = 0.0;  ///< metres; 0 = the field's robot radius
   bool fallen = false;
   bool selected = false;

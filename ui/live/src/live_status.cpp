@@ -31,7 +31,7 @@ QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* fram
     }
     if (robot.timedOut()) {
       return QStringLiteral("%1 has not been heard for %2. Its card comes back by itself.")
-          .arg(robotName(robot.identity), durationText(telemetry::secondsOf(robot.link->age)));
+          .arg(robotName(robot), durationText(telemetry::secondsOf(robot.link->age)));
     }
   }
   if (frame->referee && frame->referee->conflict) {

@@ -44,10 +44,7 @@ QString knownFormats(const Arrival& arrival, std::span<const KnownFormat> known)
 }
 
 QString robotText(const link::LiveOptions& options, const RobotKey& robot) {
-  sim::RobotIdentity identity;
-  identity.number = robot.number;
-  identity.team = link::colourOf(options, robot, options.colour, {});
-  QString words = QString::fromStdString(identity.name());
+  QString words = QString::fromStdString(link::robotName(robot, link::teamsOf(options, nullptr)));
   const std::string own = link::ownNameOf(options, robot);
   if (!own.empty()) words += QLatin1Char(' ') + QString::fromStdString(own);
   if (const auto* team = telemetry::setupAt(robot.team, options.team.teams)) {

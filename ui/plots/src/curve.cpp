@@ -48,7 +48,6 @@ void Curve::update(PlotFeed& feed) {
     QString names = m_spec.inputs.join(QStringLiteral(", "));
     // Words of a description that stands for a robot's curve; nobody chose that one by name.
     names.remove(QStringLiteral("first/")).remove(QStringLiteral("each/"));
-    names.replace(QLatin1Char('|'), QStringLiteral(" or "));
     m_note = QStringLiteral("waiting for %1").arg(names);
   }
 }

@@ -33,7 +33,7 @@ CurveSpec ofGroup(const CurveSpec& curve, const QString& group, const PlotFeed& 
   for (QString& input : made.inputs) {
     const QString word = groupOf(input);
     if (!isWord(word)) continue;
-    input = group + QLatin1Char('/') + feed.columnOf(group, input.mid(word.size() + 1));
+    input = feed.presentName(group + input.mid(word.size()));
   }
   // Names of groups may have characters that only braces can hold.
   static const QRegularExpression plain(
@@ -68,7 +68,11 @@ QList<CurveSpec> curvesOf(const CurveSpec& curve, const PlotFeed& feed) {
     columns << name.mid(group.size() + 1);
     every = every || group == eachGroup;
   }
-  if (columns.isEmpty()) return {curve};
+  if (columns.isEmpty()) {
+    CurveSpec named = curve;
+    for (QString& input : named.inputs) input = feed.presentName(input);
+    return {named};
+  }
   QStringList groups = feed.groupsWith(columns);
   // Of a keeper there is little to see.
   if (!every) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include <robotlink/frame/match_frame.h>
-#include <ui/base/robot_words.h>
+#include <telemetry/wire/meanings.h>
 #include <ui/base/time_axis.h>
 #include <ui/sources/linked_time.h>
 
@@ -15,14 +15,28 @@ namespace pitchboard::ui {
 namespace {
 
 const QString curvePrefix = QStringLiteral("curve/");
-constexpr QLatin1Char alternative('|');
 constexpr std::string_view keeperBehaviour = "keeper";
 
-/// `GROUP/COLUMN`.
+bool isColumn(const std::string& saved, const telemetry::ColumnInfo& column) {
+  return column.name == saved || column.name == telemetry::presentName(saved);
+}
+
+/// `GROUP/COLUMN`: also by another name of the robot, and by the column's name in version 0.8.
 std::optional<telemetry::SeriesId> idOf(const telemetry::SeriesStore& rows, const QString& name) {
   const qsizetype slash = name.indexOf(QLatin1Char('/'));
   if (slash <= 0) return {};
-  return rows.find(name.left(slash).toStdString(), name.mid(slash + 1).toStdString());
+  std::string group = name.left(slash).toStdString();
+  const std::string column = name.mid(slash + 1).toStdString();
+  if (const auto id = rows.find(group, column)) return id;
+  if (!rows.findGroup(group)) {
+    std::vector<std::string> groups;
+    for (telemetry::GroupId id = 0; id < rows.groups(); ++id) {
+      if (const auto view = rows.view(id)) groups.push_back(view->info().name);
+    }
+    group = link::robotNamed(group, groups).value_or(group);
+  }
+  const auto id = rows.find(group, column);
+  return id ? id : rows.find(group, telemetry::presentName(column));
 }
 
 }  // namespace
@@ -87,7 +101,7 @@ void PlotFeed::findKeepers() {
   QStringList now;
   for (const link::RobotFrame& robot : frame->robots) {
     if (robot.behaviour == keeperBehaviour) {
-      now << robotName(robot.identity);
+      now << QString::fromStdString(robot.name);
     }
   }
   if (now == m_keepers) return;
@@ -152,10 +166,9 @@ QStringList PlotFeed::groupsWith(const QStringList& columns) const {
     const auto view = m_store->view(id);
     if (!view) continue;
     const auto& info = view->info();
-    const bool all = std::all_of(columns.begin(), columns.end(), [&](const QString& names) {
-      const QStringList wanted = names.split(alternative);
-      return std::any_of(info.columns.begin(), info.columns.end(), [&](const auto& known) {
-        return wanted.contains(QLatin1String(known.name.data(), qsizetype(known.name.size())));
+    const bool all = std::ranges::all_of(columns, [&](const QString& wanted) {
+      return std::ranges::any_of(info.columns, [saved = wanted.toStdString()](const auto& column) {
+        return isColumn(saved, column);
       });
     });
     if (all) groups << QString::fromStdString(info.name);
@@ -163,12 +176,11 @@ QStringList PlotFeed::groupsWith(const QStringList& columns) const {
   return groups;
 }
 
-QString PlotFeed::columnOf(const QString& group, const QString& names) const {
-  const QStringList wanted = names.split(alternative);
-  for (const QString& name : wanted) {
-    if (m_store && m_store->find(group.toStdString(), name.toStdString())) return name;
-  }
-  return wanted.front();
+QString PlotFeed::presentName(const QString& name) const {
+  const auto id = m_store ? idOf(*m_store, name) : std::nullopt;
+  const auto view = id ? m_store->view(id->group) : nullptr;
+  if (!view) return name;
+  return QString::fromStdString(view->info().name + "/" + view->info().columns[id->column].name);
 }
 
 ColumnView PlotFeed::find(const QString& name) {

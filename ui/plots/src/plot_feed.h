@@ -46,10 +46,10 @@ class PlotFeed : public QObject {
   ColumnView find(const QString& name);
   /// Computed curves that others may take as `curve/NAME`, by name.
   void setNamedCurves(const std::map<QString, CurveSpec>& curves);
-  /// Groups that have all of these columns, in the source's order. `A|B` is either.
+  /// Groups that have all of these columns, in the source's order.
   QStringList groupsWith(const QStringList& columns) const;
-  /// Of the names `A|B` the first that the group has; A where it has none.
-  QString columnOf(const QString& group, const QString& names) const;
+  /// `GROUP/COLUMN` with the name that the group has now; itself where there is none.
+  QString presentName(const QString& name) const;
   /// Groups of the robots that keep a goal now.
   const QStringList& keepers() const { return m_keepers; }
   /// Every variable there is, `GROUP/COLUMN`.

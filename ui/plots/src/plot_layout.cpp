@@ -78,7 +78,8 @@ CurveSpec curveFrom(const JsonObject& o) {
   if (const auto* inputs = o.array("inputs", mostOfAnything)) {
     for (const JsonNode& input : *inputs) {
       if (input.kind != JsonNode::Kind::Text) o.fail("inputs", "must be names in quotes");
-      curve.inputs << QString::fromStdString(input.text);
+      // Version 0.8 wrote `A|B` where Live called A otherwise.
+      curve.inputs << QString::fromStdString(input.text).section(QLatin1Char('|'), 0, 0);
     }
   }
   curve.expression = textOf(o, "expression");
@@ -194,10 +195,8 @@ CurveSpec variableCurve(const QString& name) {
 QString curveName(const CurveSpec& curve) {
   if (!curve.title.isEmpty()) return curve.title;
   const auto shown = [&curve](qsizetype i) {
-    QString name = curve.inputs.value(i);
+    const QString name = curve.inputs.value(i);
     const qsizetype slash = name.indexOf(QLatin1Char('/'));
-    // Of alternatives, while there is none of them: the first.
-    if (const qsizetype bar = name.indexOf(QLatin1Char('|')); bar > slash) name.truncate(bar);
     return slash < 0 ? name : name.mid(slash + 1) + QLatin1Char(' ') + name.left(slash);
   };
   switch (curve.kind) {

@@ -43,7 +43,7 @@ void ProcessesModel::update(const link::MatchFrame& frame, Time now) {
   for (const link::RobotFrame& robot : frame.robots) {
     for (const link::ProcessSummary& one : robot.processes()) {
       const auto since = std::chrono::duration_cast<std::chrono::seconds>(now - one.started);
-      rows.push_back({one, robotName(robot.identity), one.pid != 0 ? qint64{since.count()} : 0});
+      rows.push_back({one, robotName(robot), one.pid != 0 ? qint64{since.count()} : 0});
     }
   }
   const auto sameKey = [](const Row& a, const Row& b) {

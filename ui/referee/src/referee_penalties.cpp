@@ -147,7 +147,7 @@ void RefereePenalties::show(const link::MatchFrame* frame) {
   m_robots->setRowCount(frame ? static_cast<int>(frame->robots.size()) : 0);
   for (int row = 0; row < m_robots->rowCount(); ++row) {
     const link::RobotFrame& robot = frame->robots[static_cast<std::size_t>(row)];
-    cell(row, Robot, robotName(robot.identity))->setData(Qt::UserRole, robot.slot().value);
+    cell(row, Robot, robotName(robot))->setData(Qt::UserRole, robot.slot().value);
     cell(row, Penalty, robot.penalty ? QString::fromStdString(robot.penalty->words) : QString());
     cell(row, Seconds, robot.penalty ? QString::number(robot.penalty->secondsLeft) : QString());
     cell(row, Cards, cardsOf(*frame->referee, robot.identity));

@@ -241,7 +241,7 @@ void RobotCard::paintFoot(QPainter& painter) const {
 
 const CardValue* RobotCard::value(const QString& name) const {
   for (const CardValue& known : m_state.values) {
-    if (known.name == name) return &known;
+    if (isVariable(name, known.name)) return &known;
   }
   return nullptr;
 }
@@ -255,7 +255,8 @@ void RobotCard::paintValues(QPainter& painter) const {
     const bool greyed = known == nullptr || m_state.timedOut;
     painter.setPen(theme().secondaryText);
     drawWords(painter, QRect(row.topLeft(), QSize(row.width() * 6 / 10, row.height())),
-              Qt::AlignLeft | Qt::AlignVCenter, m_parts.values[i], Qt::ElideMiddle);
+              Qt::AlignLeft | Qt::AlignVCenter, known ? known->name : m_parts.values[i],
+              Qt::ElideMiddle);
     if (known == nullptr) continue;
     drawWords(painter, row.adjusted(row.width() - unitWidth + scaled(this, 4), 0, 0, 0),
               Qt::AlignLeft | Qt::AlignVCenter, known->unit);

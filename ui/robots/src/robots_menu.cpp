@@ -4,6 +4,7 @@
 #include <QSettings>
 #include <algorithm>
 
+#include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/sources/live_controller.h>
@@ -120,18 +121,20 @@ void RobotsDock::addPartActions(QMenu& menu, RobotCard* card) {
   QStringList names;
   for (const CardValue& value : card->state().values) names << value.name;
   for (const QString& name : m_parts.values) {
-    if (!names.contains(name)) names << name;
+    const auto isIt = [&name](const QString& known) { return isVariable(name, known); };
+    if (std::ranges::none_of(names, isIt)) names << name;
   }
   for (const QString& name : names) {
     QAction* action = show->addAction(name);
     action->setCheckable(true);
-    action->setChecked(m_parts.values.contains(name));
-    connect(action, &QAction::toggled, this, [this, name](bool on) {
+    const auto isShown = [name](const QString& saved) { return isVariable(saved, name); };
+    action->setChecked(std::ranges::any_of(m_parts.values, isShown));
+    connect(action, &QAction::toggled, this, [this, name, isShown](bool on) {
       CardParts changed = m_parts;
       if (on)
         changed.values << name;
       else
-        changed.values.removeAll(name);
+        changed.values.removeIf(isShown);
       setParts(changed);
     });
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <ui/base/plot_target.h>
+#include <ui/base/robot_words.h>
 
 #include "variable_node.h"
 
@@ -154,6 +155,12 @@ void VariablesModel::setFavourites(const QStringList& names) {
   emit favouritesChanged();
 }
 
+bool VariablesModel::isFavourite(const QString& path) const {
+  return m_favourites.contains(path) ||
+         std::ranges::any_of(m_favourites,
+                             [&](const QString& saved) { return isVariable(saved, path); });
+}
+
 QStringList VariablesModel::favourites() const {
   QStringList names(m_favourites.begin(), m_favourites.end());
   names.sort();
@@ -168,11 +175,12 @@ void VariablesModel::toggleFavourites(const QModelIndexList& indexes) {
   if (variables.isEmpty()) return;
   // Several at once end up equal: all starred, unless all were.
   const bool all = std::all_of(variables.begin(), variables.end(), [this](const auto& index) {
-    return m_favourites.contains(node(index)->path);
+    return isFavourite(node(index)->path);
   });
   for (const QModelIndex& index : variables) {
     if (all)
-      m_favourites.remove(node(index)->path);
+      m_favourites.removeIf(
+          [&](const QString& saved) { return isVariable(saved, node(index)->path); });
     else
       m_favourites.insert(node(index)->path);
     emit dataChanged(index, index);

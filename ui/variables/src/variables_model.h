@@ -84,6 +84,7 @@ class VariablesModel : public QAbstractItemModel {
 
   void setFavourites(const QStringList& names);
   QStringList favourites() const;
+  bool isFavourite(const QString& path) const;
   void toggleFavourites(const QModelIndexList& indexes);
 
   /// Whether a person may edit at all; off at first.

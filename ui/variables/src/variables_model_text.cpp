@@ -183,7 +183,7 @@ QVariant VariablesModel::data(const QModelIndex& index, int role) const {
     case ColumnRole:
       return QVariant::fromValue(row.info);
     case FavouriteRole:
-      return row.kind == Kind::Variable && m_favourites.contains(row.path);
+      return row.kind == Kind::Variable && isFavourite(row.path);
     default:
       return {};
   }

@@ -19,13 +19,12 @@ namespace pitchboard::ui {
 
 namespace {
 
-/// What a newcomer sees moving: how far one robot sees the ball, and what it decides. The second
-/// names are those of the published messages, which Live hears.
+/// What a newcomer sees moving: how far one robot sees the ball, and what it decides.
 PlotLayout firstPlots() {
   PaneSpec distance, decision;
-  distance.curves << variableCurve(QStringLiteral("first/VISION_BALL_DIST|BALL_DIST"));
+  distance.curves << variableCurve(QStringLiteral("first/VISION_BALL_DIST"));
   decision.kind = PaneKind::Lane;
-  decision.curves << variableCurve(QStringLiteral("first/DECISION_ACTION_A|ACTION_A"));
+  decision.curves << variableCurve(QStringLiteral("first/DECISION_ACTION_A"));
   return {{{QStringLiteral("Plots"), {distance, decision}}}, 0};
 }
 

@@ -230,7 +230,7 @@ void MainWindow::showPalette() {
   }
   if (const FramePtr frame = m_source->frame()) {
     for (const link::RobotFrame& robot : frame->robots) {
-      entries.push_back({robotName(robot.identity), QStringLiteral("robot"),
+      entries.push_back({robotName(robot), QStringLiteral("robot"),
                          [this, id = robot.key] { m_selection->set({id}); }});
     }
   }

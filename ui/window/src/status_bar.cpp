@@ -263,7 +263,7 @@ void StudioStatusBar::showSelected(const link::MatchFrame& frame) {
   if (selected.size() == 1) {
     if (const link::RobotFrame* robot = frame.robot(selected.front())) {
       text = QStringLiteral("%1 selected: %2, %3 m, %4°")
-                 .arg(robotName(robot->identity), numberText(robot->pose.position.x, 2),
+                 .arg(robotName(*robot), numberText(robot->pose.position.x, 2),
                       numberText(robot->pose.position.y, 2),
                       numberText(degreesFromRadians(wrapToPi(robot->pose.yaw)), 0));
     }

@@ -28,8 +28,12 @@ struct Team {
   bool ours = false;
   bool operator==(const Team&) const = default;
 };
-/// RobotKey::team is the place in here, from 1.
+/// RobotKey::team is the place in here; 0: robots whose team is not known. Where no team is set up,
+/// all that are heard are there, and taken for ours.
 using Teams = std::vector<Team>;
+
+/// Of the team at this place; nothing: nobody knows.
+std::optional<TeamColor> colourAt(int place, const Teams& teams);
 
 /// Those of a simulated match: one for each colour, in the order of TeamColor.
 const Teams& teamsByColour();
@@ -43,11 +47,12 @@ inline RobotKey keyOf(const sim::RobotIdentity& robot) {
 RobotKey keyOfOldId(int id, bool hasTeams);
 
 /// "B1" where the team's colour is known, else "Robot 1"; "RoboFEI 1" where an earlier team has the
-/// colour, too. Other programs that use the number have their place behind it: "B1 (2)".
+/// colour, or none, too. Other programs that use the number have their place behind it: "B1 (2)".
 std::string robotName(const RobotKey& robot, const Teams& teams);
-/// The one of `known` that is meant: by its name, or else the only one whose number and sender fit
-/// while its team, or that of the name, is not known ("Robot 3" for B3 and the other way round).
-std::optional<RobotKey> robotNamed(std::string_view name, const Teams& teams,
-                                   std::span<const RobotKey> known);
+/// These names may be of one robot: they are equal, or only one of them says the team ("Robot 3" is
+/// B3 before the colours are known).
+bool isSameRobot(std::string_view name, std::string_view other);
+/// Which of the names is meant by `name`: itself, or else the only one that may be of this robot.
+std::optional<std::string> robotNamed(std::string_view name, std::span<const std::string> known);
 
 }  // namespace pitchboard::link

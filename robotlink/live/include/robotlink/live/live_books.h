@@ -39,6 +39,8 @@ struct LiveBooks {
   /// The frame of this moment, all but its serial; `time`: seconds since the watch began.
   MatchFrame frame(const LiveOptions& options, const telemetry::TeamStatus& team,
                    double time) const;
+  /// As they are known by now.
+  Teams teams(const LiveOptions& options) const;
   /// Forgets robots, referee and counters.
   void clear(const LiveOptions& options);
 

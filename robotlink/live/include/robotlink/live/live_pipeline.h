@@ -75,11 +75,12 @@ class LivePipeline {
   void tell(const LiveDatagram& datagram);
   void tell(const std::vector<MatchEvent>& events);
   void tellBooks(telemetry::WallTime now);
-  void noteRenamings();
+  void noteTeams(const std::vector<Renaming>& renamings);
 
   LiveOptions m_options;
   const telemetry::WallTime m_zero;
   LiveBooks m_books;
+  Teams m_teams = m_books.teams(m_options);
   LiveEvents m_events;
   std::shared_ptr<RowFan> m_fan = std::make_shared<RowFan>();
   telemetry::LiveRows m_rows;

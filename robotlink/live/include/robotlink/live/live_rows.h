@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include <robotlink/frame/teams.h>
 #include <telemetry/series/row_sink.h>
 #include <telemetry/wire/team_monitor.h>
 
@@ -27,16 +28,16 @@ namespace pitchboard::telemetry {
 inline constexpr const char* linkCategory = "Link";
 
 struct LiveRowsOptions {
-  WallTime zero{};  ///< the moment that counts as 0 s
-  /// Name of the group of a robot; empty function: "Robot 3".
-  std::function<std::string(const RobotKey&)> name;
+  WallTime zero{};    ///< the moment that counts as 0 s
+  link::Teams teams;  ///< for the names of the groups
   /// Further attributes of its group; empty function: none.
   std::function<std::map<std::string, std::string>(const RobotKey&)> attributes;
 };
 
 /// Not thread-safe: lives beside the TeamMonitor. Attributes of a robot's group: "number", "sender"
-/// (its address), "live" = "1"; of its link group: "link" = name of the robot's group. Another
-/// program that uses the number at the same time is "Robot 3 (2)".
+/// (its address), "live" = "1", "team" = its colour where that is known; of its link group: "link"
+/// = name of the robot's group. Another program that uses the number at the same time is "Robot 3
+/// (2)".
 class LiveRows {
  public:
   static constexpr std::size_t maxColumns = 200;  ///< of a robot, over all its profiles
@@ -56,8 +57,6 @@ class LiveRows {
   /// Names and attributes from now on, of robots that have other keys then; `zero` stays. Groups go
   /// on under their new names.
   void setOptions(LiveRowsOptions options, const std::vector<Renaming>& renamings);
-  /// TeamMonitor::renamings() of a datagram.
-  void rename(const std::vector<Renaming>& renamings);
   /// After TeamMonitor::take() said Used: one row. `robot`: TeamMonitor::used().
   void take(const DatagramView& datagram, const DecodedText& decoded, const TextDecoder& decoder,
             const RobotKey& robot);
@@ -70,7 +69,6 @@ class LiveRows {
   struct Robot;
   Robot* robotOf(const RobotKey& key, const Sender& sender);
   GroupInfo groupOf(const Robot& robot) const;
-  std::string nameOf(const RobotKey& key) const;
   void renew(Robot& robot, std::string name);
   static std::size_t placeOf(Robot& robot, ColumnInfo column, bool& changed);
   static bool describe(Robot& robot, const Profile& profile);

@@ -14,6 +14,7 @@
 
 #include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
+#include <robotlink/frame/teams.h>
 #include <robotlink/live/attached_robots.h>
 #include <robotlink/live/live_rows.h>
 #include <simcore/simulation/simulation.h>
@@ -57,6 +58,7 @@ struct LiveDetails {
   std::uint64_t unknownReferee = 0;  ///< packets on the referee's port that could not be decoded
   std::string unknownRefereeReason;  ///< of the last one
   std::string unknownRefereeSample;
+  Teams teams;  ///< for robotName()
   std::vector<AttachedStatus> boards;
   std::uint64_t refusedReferees = 0;  ///< datagrams of senders that are not on the referee's list
   std::string monitorProblem;         ///< why the last monitor request was not sent
@@ -75,6 +77,7 @@ struct LiveDatagram {
   using Verdict = telemetry::TeamMonitor::Verdict;
   double time = 0.0;  ///< s since the beginning, of the arrival
   const telemetry::DatagramView& view;
+  const Teams& teams;                                         ///< for robotName()
   const Result<telemetry::RefereePacket>* referee = nullptr;  ///< null: it came to a robot's port
   /// Of the message of a robot. Empty: it only draws.
   std::optional<Verdict> verdict{};

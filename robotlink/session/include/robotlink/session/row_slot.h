@@ -57,10 +57,9 @@ inline RowSlot findSlot(const telemetry::GroupInfo& group,
   return {};
 }
 
-/// Of what a blackboard or the published message says.
+/// The blackboard variable of this meaning.
 inline RowSlot findSlot(const telemetry::GroupInfo& group, telemetry::FieldMeaning meaning) {
-  const telemetry::MeaningInfo& known = telemetry::info(meaning);
-  return findSlot(group, {known.variable, known.sent});
+  return findSlot(group, {telemetry::info(meaning).variable});
 }
 
 inline std::string_view attribute(const telemetry::GroupInfo& group, std::string_view name) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <robotlink/frame/match_frame.h>
 #include <telemetry/session/session_export.h>
@@ -20,6 +21,11 @@ bool isChosen(std::string_view name, std::span<const std::string> robots);
 
 /// Takes the others out of a frame, with their drawings.
 void keepRobots(MatchFrame& frame, std::span<const std::string> robots);
+
+/// The groups that are meant by these names: "Robot 3" is B3 where no other robot can be. A name
+/// that no group has stays.
+std::vector<std::string> groupsNamed(const telemetry::SessionReader& session,
+                                     std::vector<std::string> robots);
 
 /// Makes an export leave out everything of robots other than selection.robots. The referee's
 /// packets stay as they came, for the score; exact states of a match, which hold all robots, are

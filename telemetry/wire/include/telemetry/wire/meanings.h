@@ -16,7 +16,7 @@ struct MeaningInfo {
   FieldMeaning meaning = FieldMeaning::None;
   std::string_view word;      ///< in profile files: never change it
   std::string_view variable;  ///< on the blackboard; empty: nowhere. VISION_LOST is the opposite
-  std::string_view sent;      ///< in the published message, which gives no variable names
+  std::string_view oldName;   ///< in Live up to version 0.8: presentName()
   std::string_view unit;      ///< of the variable
   std::string_view category;
   UnitKind kind = UnitKind::None;  ///< None: as it is sent, whatever its unit is
@@ -59,6 +59,14 @@ inline constexpr std::array<MeaningInfo, fieldMeaningCount> meaningTable = [] {
 
 constexpr const MeaningInfo& info(FieldMeaning meaning) {
   return meaningTable[static_cast<std::size_t>(meaning)];
+}
+
+/// Of a column of Live that version 0.8 called so: the variable that it is. Other names stay.
+constexpr std::string_view presentName(std::string_view name) {
+  for (const MeaningInfo& known : meaningTable) {
+    if (!known.variable.empty() && known.oldName == name) return known.variable;
+  }
+  return name;
 }
 
 static_assert(

@@ -6,13 +6,16 @@
 #include <QString>
 #include <string_view>
 
-#include <simcore/world/world_state.h>
+#include <robotlink/frame/robot_frame.h>
 
 namespace pitchboard::ui {
 
 /// "B1": letter of the team and number on the shirt.
 QString robotName(const sim::RobotIdentity& identity);
-QString robotName(TeamColor team, int number);
+QString robotName(const link::RobotFrame& robot);
+/// What was saved as `saved`, GROUP/COLUMN, is this variable: also when the robot was called
+/// otherwise then, or the column in version 0.8.
+bool isVariable(const QString& saved, const QString& variable);
 /// "walk forward, slow", or "action 42" for a code that nobody knows.
 QString actionText(int code);
 /// "Blue" from "blue".
