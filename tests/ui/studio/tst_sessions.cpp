@@ -212,7 +212,8 @@ class TestSessions : public QObject {
           zero + after, {{0x7f000001}, from}, static_cast<std::uint16_t>(port), false, payload};
       const auto packet = telemetry::decodeReferee(payload);
       const bool isReferee = port == options.refereePort;
-      recorder->heard({.time = time, .view = datagram, .referee = isReferee ? &packet : nullptr});
+      recorder->heard(
+          {.time = time, .view = datagram, .teams = {}, .referee = isReferee ? &packet : nullptr});
     };
     for (int robot = 1; robot <= 10; ++robot) {
       telemetry::TextMessage message = live_rig::message(robot);
