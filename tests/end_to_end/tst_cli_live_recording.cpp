@@ -118,9 +118,9 @@ class TestCliLiveRecording : public QObject {
       if (!event.group.empty()) QCOMPARE(event.group, std::string("Robot 1"));
     }
     for (const char* name : {"Robot 1", "B1"}) {
-      const ProgramRun lines = runProgram(
-          "pitchboard-cli",
-          {"export", path, "--to", "csv-wide", "--robots", name, "--variables", "VISION_BALL_DIST"});
+      const ProgramRun lines =
+          runProgram("pitchboard-cli", {"export", path, "--to", "csv-wide", "--robots", name,
+                                        "--variables", "VISION_BALL_DIST"});
       QVERIFY2(lines.exitCode == 0, lines.err.constData());
       QCOMPARE(lines.out.split('\n').first(), QByteArray("time,Robot 1.VISION_BALL_DIST"));
     }

@@ -284,8 +284,7 @@ class TestOneCapture : public QObject {
     // Health of the same robots.
     QCOMPARE(listenSaw.health.size(), expected.size());
     for (const RobotStatus& robot : details.team.robots) {
-      const QString name = QString::fromStdString(link::robotName(
-          robot.key, {{12, "Ours", TeamColor::Blue, true}, {7, "", TeamColor::Red}}));
+      const QString name = QString::fromStdString(link::robotName(robot.key, details.teams));
       const std::array<int, 3> health{static_cast<int>(robot.messages),
                                       static_cast<int>(robot.duplicates),
                                       static_cast<int>(robot.errorCount)};

@@ -2,8 +2,8 @@
 // What two live frames differ in, as events: frames are made by hand, there is no network.
 #include <QtTest>
 
-#include "../support/robot_keys.h"
 #include <robotlink/live/live_events.h>
+#include "../support/robot_keys.h"
 
 namespace tst_live_events {
 

@@ -252,7 +252,8 @@ class TestLiveReplay : public QObject {
     const auto session = telemetry::SessionReader::open(m_path);
     QVERIFY(session);
     telemetry::ExportSelection selection;
-    selection.robots = {"Robot 1"};
+    selection.robots = groupsNamed(*session, {"Robot 1"});
+    QCOMPARE(selection.robots, std::vector<std::string>{"B1"});
     if (fromTheMiddle) selection.range.begin = m_frames[m_frames.size() / 2].snapshot.time;
     chooseRobots(*session, telemetry::ExportFormat::Mcap, selection);
     const std::string path =

@@ -13,6 +13,7 @@
 #include <random>
 #include <set>
 
+#include <telemetry/wire/meanings.h>
 #include <telemetry/wire/team_monitor.h>
 
 namespace tst_team_formats {
@@ -58,7 +59,7 @@ QString wrong(const QJsonObject& message) {
   }
   const QJsonObject values = message["values"].toObject();
   for (auto it = values.begin(); it != values.end(); ++it) {
-    const auto place = placeOf(decoder, it.key().toStdString());
+    const auto place = placeOf(decoder, std::string(presentName(it.key().toStdString())));
     if (!place) return it.key() + QStringLiteral(" is no column");
     if (it->isNull()) {
       if (decoded.has(*place)) return it.key() + QStringLiteral(" is no hole");
@@ -68,7 +69,8 @@ QString wrong(const QJsonObject& message) {
     const double got = decoded.values[*place];
     const double tolerance = 2e-5 * std::max(1.0, std::abs(expected));
     double off = std::abs(got - expected);
-    if (it.key() == QLatin1String("LOCALIZATION_THETA")) off = std::abs(std::remainder(off, 360.0));
+    if (presentName(it.key().toStdString()) == "LOCALIZATION_THETA")
+      off = std::abs(std::remainder(off, 360.0));
     if (!(off <= tolerance))
       return QStringLiteral("%1 is %2, not %3")
           .arg(it.key())

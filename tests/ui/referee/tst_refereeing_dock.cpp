@@ -147,7 +147,7 @@ class TestRefereeingDock : public QObject {
     QTRY_COMPARE(cards(2), QString("warned, yellow"));
     desk.press("Red");
     QTRY_COMPARE(cards(2), QString("warned, yellow, red"));
-    QTRY_COMPARE(penalty(2), QString("manual penalty"));
+    QTRY_COMPARE(penalty(2), QString("sent off"));
     QUndoStack* undo = desk.controller.edits()->undoStack();
     undo->undo();
     QTRY_COMPARE(cards(2), QString("warned, yellow"));

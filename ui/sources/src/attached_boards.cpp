@@ -18,7 +18,11 @@ AttachedBoards::AttachedBoards(MatchController* controller, QObject* parent)
     : QObject(parent), m_controller(controller) {
   connect(controller, &MatchController::restarted, this, &AttachedBoards::follow);
   connect(&m_take, &QTimer::timeout, this, [this] {
-    m_robots->takeRows([this](const auto& group, auto rows) { m_rows->take(group, rows); });
+    m_robots->takeRows([this](telemetry::GroupInfo group, auto rows) {
+      // It is none of the robots of the match, even if it has the number of one.
+      for (const char* ofRobots : {"robot", "number", "team"}) group.attributes.erase(ofRobots);
+      m_rows->take(group, rows);
+    });
   });
 }
 
