@@ -25,7 +25,7 @@ std::string Output::send(std::string_view datagram, std::chrono::microseconds no
   const bool isNew = !m_failed.has_value();
   m_failed = now;
   if (!isNew) return {};
-  return "cannot send to " + m_name + ": " + systemReason(error) + "; trying on";
+  return "cannot send to " + m_name + ": " + systemReason(error) + "; still trying";
 }
 
 }  // namespace pitchboard::agent

@@ -14,10 +14,10 @@ std::string RobotSegment::look(std::chrono::microseconds now) {
   const std::string name = "blackboard " + std::to_string(m_key);
   std::string text;
   if (view) {
-    text = m_view ? name + " was made anew: reading the new one" : "reading " + name;
+    text = m_view ? name + " was created again; reading the new one" : "reading " + name;
     m_view = *std::move(view);
   } else if (m_view && m_view->isShared()) {
-    text = name + " was removed, and the robot's programs still use it: reading on";
+    text = name + " was removed, but the robot's programs still use it; reading goes on";
   } else {
     m_view.reset();
     text = view.error().code == ErrorCode::NotFound ? "waiting for " + name : view.error().text();
