@@ -11,7 +11,7 @@ Usage: scripts/check.sh [--full] [--base COMMIT] [CHECK...]
 Checks, in this order (default: all of them):
   format     clang-format over the whole tree
   docs       links, file names and options that the documents name are there
-  includes   include directions between libraries and rooms (tst_layers)
+  includes   include directions between libraries and modules (tst_layers)
   tidy       clang-tidy over the sources that changed since COMMIT (default: main)
   tidy-all   clang-tidy over all sources; long; only when asked for
   headers    every public header compiles alone

@@ -118,7 +118,7 @@ class Decoder : public link::LiveObserver {
                      static_cast<std::uint16_t>(port), false, payload});
   }
 
-  void heard(const link::LiveDatagram& datagram) override {
+  void received(const link::LiveDatagram& datagram) override {
     if (!isGood(datagram)) m_exitCode = 1;
     if (m_json) m_head.update(messageJson(datagram, m_pipeline.options()));
     const std::string line = m_json ? dump(m_head) : messageLine(datagram, m_pipeline.options());

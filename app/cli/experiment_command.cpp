@@ -12,7 +12,7 @@
 #include <base/try.h>
 #include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/experiment/run_player.h>
-#include <robotlink/processes/own_program.h>
+#include <robotlink/processes/team_program.h>
 
 #include "commands.h"
 #include "interrupt.h"
@@ -38,7 +38,7 @@ Result<link::RunResult> recordRun(const std::string& folder, const link::Experim
   auto player = TRY(link::RunPlayer::create(experiment, settings));
   auto result = player.record(number, path, programName);
   if (!result) return result;
-  if (result->hash != before->hash && !experiment.ownPrograms) {
+  if (result->hash != before->hash && !experiment.teamPrograms) {
     return failure(ErrorCode::Conflict,
                    "run " + std::to_string(number) +
                        " ended in another state than in the results; were they played by another "
@@ -142,7 +142,7 @@ Result<int> playExperiment(ExperimentOptions& options) {
 
   const InterruptGuard signals;
   link::PlaySettings settings;
-  settings.robotProgram = options.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
+  settings.robotProgram = options.robotProgram.empty() ? link::besideTeamProgram("pitchboard-robot")
                                                        : options.robotProgram;
   settings.cancelled = &interrupted;
   settings.folder = options.out;
@@ -244,8 +244,9 @@ void addReplay(CLI::App& parent, int& exitCode) {
     const InterruptGuard signals;
     link::PlaySettings settings;
     settings.cancelled = &interrupted;
-    settings.robotProgram = chosen.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
-                                                        : chosen.robotProgram;
+    settings.robotProgram = chosen.robotProgram.empty()
+                                ? link::besideTeamProgram("pitchboard-robot")
+                                : chosen.robotProgram;
     const std::string path =
         chosen.output.empty() ? link::sessionPath(chosen.folder, chosen.run) : chosen.output;
     if (!std::filesystem::exists(path) || !chosen.output.empty()) {
@@ -253,13 +254,13 @@ void addReplay(CLI::App& parent, int& exitCode) {
       std::printf("%s: run %zu, seed %" PRIu64 ", %s, state hash 0x%016" PRIx64 ", %s\n",
                   path.c_str(), result.number, result.seed, link::endWords(result.endedBy).c_str(),
                   result.hash,
-                  experiment.ownPrograms ? "played anew: a team's own programs do not repeat a run"
-                                         : "as in the results");
+                  experiment.teamPrograms ? "played anew: a team's own programs do not repeat a run"
+                                          : "as in the results");
     } else {
       std::printf("%s: it is there\n", path.c_str());
     }
     if (!chosen.open) return 0;
-    const std::string studio = link::besideOwnProgram("pitchboard");
+    const std::string studio = link::besideTeamProgram("pitchboard");
     std::fflush(stdout);
     ::execlp(studio.c_str(), studio.c_str(), path.c_str(), static_cast<char*>(nullptr));
     return failure(ErrorCode::SystemError, "the studio cannot be started", studio);

@@ -30,7 +30,7 @@ class Printer : public link::LiveObserver {
   Printer(const link::LiveOptions& options, telemetry::WallTime began, bool json)
       : m_options(options), m_began(began), m_json(json) {}
 
-  void heard(const link::LiveDatagram& datagram) override {
+  void received(const link::LiveDatagram& datagram) override {
     const auto* state = datagram.state();
     const int version = m_options.refereeVersion;
     if (datagram.isStranger() || (state && version != 0 && state->version != version)) return;

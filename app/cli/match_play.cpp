@@ -10,7 +10,7 @@
 
 #include <app/command_line.h>
 #include <base/try.h>
-#include <robotlink/processes/own_program.h>
+#include <robotlink/processes/team_program.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <robotlink/scenario/team_programs.h>
 
@@ -29,7 +29,7 @@ struct CognitionName {
   link::Cognition cognition;
 };
 constexpr std::array<CognitionName, 3> cognitions{{{"inline", link::Cognition::Inline},
-                                                   {"external", link::Cognition::External},
+                                                   {"external", link::Cognition::Separate},
                                                    {"none", link::Cognition::None}}};
 
 /// Says which processes ended before the match did.
@@ -167,7 +167,7 @@ Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const Pla
   if (!scenario || (cognition == link::Cognition::None && options.robots.runtimes.empty())) {
     return scenario;
   }
-  TRY(link::usesTeamPrograms(*scenario, cognition == link::Cognition::External,
+  TRY(link::usesTeamPrograms(*scenario, cognition == link::Cognition::Separate,
                              "add --cognition external"));
   return scenario;
 }
@@ -180,7 +180,7 @@ Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario, const P
   made.speed = speed;
   made.cognition = cognition;
   shared::apply(options.robots, made);
-  made.robotProgram = options.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
+  made.robotProgram = options.robotProgram.empty() ? link::besideTeamProgram("pitchboard-robot")
                                                    : options.robotProgram;
   made.obeyReferee = options.obeyReferee;
   auto match = link::SimulatedMatch::create(scenario, made);

@@ -14,11 +14,11 @@
 #include <utility>
 
 #include <app/command_line.h>
-#include <base/descriptor.h>
 #include <base/file_target.h>
 #include <base/read_file.h>
 #include <base/system_reason.h>
-#include <robotlink/processes/own_program.h>
+#include <base/unique_fd.h>
+#include <robotlink/processes/team_program.h>
 
 #include "interrupt.h"
 
@@ -31,7 +31,7 @@ constexpr std::array<std::string_view, 4> formats{"svg", "png", "mp4", "webm"};
 
 std::string studioProgram() {
   if (const char* named = std::getenv("PITCHBOARD_STUDIO")) return named;
-  const std::string beside = link::besideOwnProgram("pitchboard");
+  const std::string beside = link::besideTeamProgram("pitchboard");
   return access(beside.c_str(), X_OK) == 0 ? beside : "pitchboard";
 }
 
@@ -64,8 +64,8 @@ Result<void> runStudio(std::vector<std::string> arguments,
   if (pipe2(ends, O_CLOEXEC) != 0) {
     return failure(ErrorCode::SystemError, "no pipe can be made: " + systemReason(errno));
   }
-  const Descriptor output(ends[0]);
-  Descriptor input(ends[1]);
+  const UniqueFd output(ends[0]);
+  UniqueFd input(ends[1]);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, input.get(), STDOUT_FILENO);

@@ -11,7 +11,7 @@
 #include <robotlink/experiment/experiment_summary.h>
 #include <robotlink/experiment/junit_report.h>
 #include <robotlink/experiment/run_player.h>
-#include <robotlink/processes/own_program.h>
+#include <robotlink/processes/team_program.h>
 
 #include "commands.h"
 #include "interrupt.h"
@@ -83,7 +83,7 @@ Result<link::ExperimentSummary> played(const link::Experiment& experiment,
                                        const TestOptions& options) {
   link::PlaySettings settings;
   settings.cancelled = &interrupted;
-  settings.robotProgram = options.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
+  settings.robotProgram = options.robotProgram.empty() ? link::besideTeamProgram("pitchboard-robot")
                                                        : options.robotProgram;
   std::vector<std::size_t> numbers(experiment.allRuns());
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i + 1;

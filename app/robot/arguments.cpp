@@ -82,7 +82,7 @@ void addCommunicationOptions(CLI::App& command, Arguments& a) {
       ->type_name("PORT")
       ->check(port);
   command
-      .add_option("--thoughts-port", a.thoughtsPort,
+      .add_option("--debug-port", a.cognitionDebugPort,
                   "Tell particles and path to a studio on this computer, on this UDP port")
       ->type_name("PORT")
       ->check(port);

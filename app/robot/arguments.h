@@ -26,7 +26,7 @@ struct Arguments {
   std::string behaviour = "striker", field = "published", model = "published", attack;
   std::optional<double> distanceToKick;  // instead of the behaviour's
   double telemetryRate = 1.0;            // Hz
-  std::optional<int> thoughtsPort;
+  std::optional<int> cognitionDebugPort;
   link::ProcessOptions process;
 
   int blackboardKey() const;  // once settled

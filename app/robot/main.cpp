@@ -36,8 +36,9 @@ Result<void> run(const link::ProcessInfo& info, CLI::App& command, Arguments& ar
   const int key = arguments.blackboardKey();
   link::Blackboard board = TRY(joinBlackboard(key));
 
-  std::optional<link::ThoughtsSender> display;
-  if (arguments.thoughtsPort) display = TRY(link::ThoughtsSender::to(*arguments.thoughtsPort));
+  std::optional<link::CognitionDebugSender> display;
+  if (arguments.cognitionDebugPort)
+    display = TRY(link::CognitionDebugSender::to(*arguments.cognitionDebugPort));
 
   std::string line = std::string(info.name) + " of robot " +
                      std::to_string(arguments.process.robot.value) + " on key " +
@@ -46,7 +47,7 @@ Result<void> run(const link::ProcessInfo& info, CLI::App& command, Arguments& ar
   std::printf("%s\n", line.c_str());
   std::fflush(stdout);
   const RobotId robot = arguments.process.robot;
-  link::ThoughtsSender* const shown = display ? &*display : nullptr;
+  link::CognitionDebugSender* const shown = display ? &*display : nullptr;
   if (arguments.process.turns) {
     return takeTurnsUntilAsked(std::move(process), make, board, robot, *arguments.process.turns,
                                shown);

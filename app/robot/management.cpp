@@ -8,8 +8,8 @@
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/processes/management_config.h>
-#include <robotlink/processes/own_program.h>
 #include <robotlink/processes/process_manager.h>
+#include <robotlink/processes/team_program.h>
 
 #include "process_loop.h"
 
@@ -70,7 +70,7 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
   const std::vector<std::string> given = givenOptions(command);
   link::IniFile file = TRY(settle(command, arguments));
   const link::ManagementConfig config = TRY(link::managementFromIni(file, referenceProcesses()));
-  const std::string program = TRY(link::ownProgram());
+  const std::string program = TRY(link::teamProgram());
 
   const std::string robot = std::to_string(arguments.process.robot.value);
   const std::string key = std::to_string(arguments.blackboardKey());

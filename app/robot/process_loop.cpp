@@ -22,22 +22,22 @@ sigset_t endSignals() {
 
 class Display {
  public:
-  Display(RobotId robot, link::ThoughtsSender* sender) : m_robot(robot), m_sender(sender) {}
+  Display(RobotId robot, link::CognitionDebugSender* sender) : m_robot(robot), m_sender(sender) {}
 
   /// Tells what the process has in mind, unless it was told less than `period` ago.
   void tell(const link::CognitiveProcess& process, std::chrono::milliseconds period) {
     const Clock::time_point now = Clock::now();
     if (m_sender == nullptr || now < m_last + period) return;
-    link::RobotThoughts thoughts;
-    thoughts.robot = m_robot;
-    process.tellThoughts(thoughts);
-    m_sender->send(thoughts);
+    link::CognitionDebug cognitionDebug;
+    cognitionDebug.robot = m_robot;
+    process.sendDebugData(cognitionDebug);
+    m_sender->send(cognitionDebug);
     m_last = now;
   }
 
  private:
   RobotId m_robot;
-  link::ThoughtsSender* m_sender;
+  link::CognitionDebugSender* m_sender;
   Clock::time_point m_last{};
 };
 
@@ -66,7 +66,7 @@ bool askedToEnd(std::chrono::nanoseconds wait) {
 }
 
 void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
-                   link::ThoughtsSender* display) {
+                   link::CognitionDebugSender* display) {
   const auto period =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(process.period()));
   const Clock::time_point start = Clock::now();
@@ -85,7 +85,7 @@ void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, Rob
 
 Result<void> takeTurnsUntilAsked(std::unique_ptr<link::CognitiveProcess> process,
                                  const ProcessMaker& make, link::Blackboard& board, RobotId robot,
-                                 link::ProcessTurns& turns, link::ThoughtsSender* display) {
+                                 link::ProcessTurns& turns, link::CognitionDebugSender* display) {
   // While the match stands still: how soon a signal is noticed, and how often a display is told
   // again, because it forgets what it does not hear of.
   constexpr std::chrono::milliseconds longestWait{100}, remindPeriod{1000};

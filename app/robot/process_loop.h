@@ -25,7 +25,7 @@ bool askedToEnd(std::chrono::nanoseconds wait);
 /// within a cycle's work of the signal. One thread only. With `display` it is told what the process
 /// has in mind, five times a second.
 void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
-                   link::ThoughtsSender* display);
+                   link::CognitionDebugSender* display);
 
 using ProcessMaker = std::function<Result<std::unique_ptr<link::CognitiveProcess>>()>;
 
@@ -34,6 +34,6 @@ using ProcessMaker = std::function<Result<std::unique_ptr<link::CognitiveProcess
 /// belief that stands on the blackboard. Fails when `make` does.
 Result<void> takeTurnsUntilAsked(std::unique_ptr<link::CognitiveProcess> process,
                                  const ProcessMaker& make, link::Blackboard& board, RobotId robot,
-                                 link::ProcessTurns& turns, link::ThoughtsSender* display);
+                                 link::ProcessTurns& turns, link::CognitionDebugSender* display);
 
 }  // namespace pitchboard::robot

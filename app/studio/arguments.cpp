@@ -241,7 +241,7 @@ Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOp
 link::Cognition cognitionOf(const Arguments& arguments) {
   if (arguments.cognition == "inline") return link::Cognition::Inline;
   if (arguments.cognition == "none") return link::Cognition::None;
-  return link::Cognition::External;
+  return link::Cognition::Separate;
 }
 
 }  // namespace pitchboard::studio

@@ -11,7 +11,7 @@
 #include <cstdio>
 
 #include <app/command_line.h>
-#include <robotlink/processes/own_program.h>
+#include <robotlink/processes/team_program.h>
 #include <ui/base/save_file.h>
 #include <ui/base/theme.h>
 #include <ui/sources/live_controller.h>
@@ -58,8 +58,8 @@ link::MatchOptions matchOptions(const Arguments& arguments) {
   link::MatchOptions options;
   options.cognition = cognitionOf(arguments);
   shared::apply(arguments.processes, options);
-  options.thoughts = true;
-  options.robotProgram = link::besideOwnProgram("pitchboard-robot");
+  options.cognitionDebug = true;
+  options.robotProgram = link::besideTeamProgram("pitchboard-robot");
   return options;
 }
 

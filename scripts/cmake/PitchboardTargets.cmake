@@ -65,17 +65,17 @@ function(pitchboard_compile_quickly target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
 endfunction()
 
-# pitchboard_room(<library> <room> [LIGHTLY_OPTIMIZED] SOURCES ... [PUBLIC libs] [PRIVATE libs])
-# makes <library>::<room> from the current directory: include/ holds what other rooms may include,
-# src/ the rest. LIGHTLY_OPTIMIZED: nobody waits for a loop in it; compiled at -O1. A room can include
-# a header of another one only when it links it here, and tests/end_to_end/tst_layers.cpp holds which rooms may
-# be linked. All rooms of a library together are <library>::all. The presets that build everything at once
-# (release, the sanitizers) compile several files of a room together (CMAKE_UNITY_BUILD): a third of the time.
-function(pitchboard_room library room)
+# pitchboard_module(<library> <module> [LIGHTLY_OPTIMIZED] SOURCES ... [PUBLIC libs] [PRIVATE libs])
+# makes <library>::<module> from the current directory: include/ holds what other modules may include,
+# src/ the rest. LIGHTLY_OPTIMIZED: nobody waits for a loop in it; compiled at -O1. A module can include
+# a header of another one only when it links it here, and tests/end_to_end/tst_layers.cpp holds which modules may
+# be linked. All modules of a library together are <library>::all. The presets that build everything at once
+# (release, the sanitizers) compile several files of a module together (CMAKE_UNITY_BUILD): a third of the time.
+function(pitchboard_module library module)
   cmake_parse_arguments(ARG "LIGHTLY_OPTIMIZED" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  set(target ${library}_${room})
+  set(target ${library}_${module})
   add_library(${target} STATIC ${ARG_SOURCES})
-  add_library(${library}::${room} ALIAS ${target})
+  add_library(${library}::${module} ALIAS ${target})
   target_include_directories(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include
                              PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
@@ -97,13 +97,13 @@ function(pitchboard_room library room)
   endif()
 endfunction()
 
-# pitchboard_rooms(<library> <room>...): adds the folders of the rooms, and <library>::all.
-function(pitchboard_rooms library)
+# pitchboard_modules(<library> <module>...): adds the folders of the modules, and <library>::all.
+function(pitchboard_modules library)
   add_library(${library}_all INTERFACE)
   add_library(${library}::all ALIAS ${library}_all)
-  foreach(room IN LISTS ARGN)
-    add_subdirectory(${room})
-    target_link_libraries(${library}_all INTERFACE ${library}::${room})
+  foreach(module IN LISTS ARGN)
+    add_subdirectory(${module})
+    target_link_libraries(${library}_all INTERFACE ${library}::${module})
   endforeach()
 endfunction()
 

@@ -63,7 +63,7 @@ Result<SimulatedMatch> start(const char* scenarioName, const char* behaviour, Ro
   }
   scenario->stop = {};
   MatchOptions options;
-  options.cognition = Cognition::External;
+  options.cognition = Cognition::Separate;
   options.keyBase = testKeyBase();
   options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
   options.process.particles = 500;

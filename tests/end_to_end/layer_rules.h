@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which room may use which, as ARCHITECTURE.md draws it: one table, and the checks of includes and
-// of the links in CMake files against it. Works on texts, so that the checks themselves can be
+// Which module may use which, as ARCHITECTURE.md draws it: one table, and the checks of includes
+// and of the links in CMake files against it. Works on texts, so that the checks themselves can be
 // tested. Any thread.
 
 #include <QHash>
@@ -15,10 +15,10 @@
 
 namespace layers {
 
-/// A room or program and what it may use besides itself, the standard library and POSIX.
-struct Room {
+/// A module or program and what it may use besides itself, the standard library and POSIX.
+struct Module {
   QString folder;       ///< "robotlink/frame"
-  QStringList rooms;    ///< folders of other rooms
+  QStringList modules;  ///< folders of other modules
   QStringList headers;  ///< beginnings of package headers: "Eigen/", "zlib.h"
 };
 
@@ -28,7 +28,7 @@ struct SourceFile {
 };
 
 inline QStringList all(const QString& library) {
-  static const QHash<QString, QStringList> rooms{
+  static const QHash<QString, QStringList> modules{
       {"simcore", {"base", "world", "rules", "physics", "simulation"}},
       {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session"}},
       {"robotlink",
@@ -38,12 +38,12 @@ inline QStringList all(const QString& library) {
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
         "noise", "processes", "log", "referee", "experiments", "window"}}};
   QStringList folders;
-  for (const QString& room : rooms.value(library)) folders << library + '/' + room;
+  for (const QString& module : modules.value(library)) folders << library + '/' + module;
   return folders;
 }
 
-inline const QList<Room>& table() {
-  static const QList<Room> rooms = [] {
+inline const QList<Module>& table() {
+  static const QList<Module> modules = [] {
     const QString base = "simcore/base", world = "simcore/world", physics = "simcore/physics",
                   simulation = "simcore/simulation";
     const QString wire = "telemetry/wire", series = "telemetry/series";
@@ -54,7 +54,7 @@ inline const QList<Room>& table() {
     const QStringList below = all("simcore") + all("telemetry");
     const QStringList belowUi = below + all("robotlink");
     const QStringList qt{"Q"};
-    QList<Room> made{
+    QList<Module> made{
         {base, {}, {"Random123/", "nlohmann/", "sleef.h", "tl/"}},
         {world, {base}, {"tl/"}},
         {"simcore/rules", {base, world}, {}},
@@ -111,32 +111,33 @@ inline const QList<Room>& table() {
         {"ui/sources", belowUi + QStringList{"ui/base"}, qt},
         {"ui/window", belowUi + all("ui"), qt},
     };
-    // The rooms of the window know models and words, and nothing of each other.
-    for (const QString& room : all("ui")) {
-      const bool listed = std::any_of(made.begin(), made.end(),
-                                      [&room](const Room& one) { return one.folder == room; });
-      if (!listed) made.append({room, belowUi + QStringList{"ui/base", "ui/sources"}, qt});
+    // The modules of the window know models and words, and nothing of each other.
+    for (const QString& module : all("ui")) {
+      const bool listed = std::any_of(
+          made.begin(), made.end(), [&module](const Module& one) { return one.folder == module; });
+      if (!listed) made.append({module, belowUi + QStringList{"ui/base", "ui/sources"}, qt});
     }
     return made;
   }();
-  return rooms;
+  return modules;
 }
 
-inline const Room* find(const QList<Room>& rooms, const QString& folder) {
-  const auto found = std::find_if(rooms.begin(), rooms.end(),
-                                  [&folder](const Room& room) { return room.folder == folder; });
-  return found == rooms.end() ? nullptr : &*found;
+inline const Module* find(const QList<Module>& modules, const QString& folder) {
+  const auto found = std::find_if(modules.begin(), modules.end(), [&folder](const Module& module) {
+    return module.folder == folder;
+  });
+  return found == modules.end() ? nullptr : &*found;
 }
 
-/// "ui/field" of "ui/field/src/ball_item.cpp"; resources are one room.
-inline QString roomOfPath(const QString& path) {
+/// "ui/field" of "ui/field/src/ball_item.cpp"; resources are one module.
+inline QString moduleOfPath(const QString& path) {
   if (path.startsWith("resources/")) return "resources";
   return path.section('/', 0, 1);
 }
 
-/// The room of one of our headers ("robotlink/frame" of "robotlink/frame/build_robot.h"); empty for
-/// all others.
-inline QString roomOfHeader(const QString& header) {
+/// The module of one of our headers ("robotlink/frame" of "robotlink/frame/build_robot.h"); empty
+/// for all others.
+inline QString moduleOfHeader(const QString& header) {
   if (header.startsWith("base/")) return "simcore/base";
   if (header.startsWith("resources/")) return "resources";
   if (header.startsWith("app/")) return "app/shared";
@@ -161,7 +162,7 @@ inline bool beginsWithOne(const QString& text, const QStringList& beginnings) {
 }
 
 /// `files` are all of the project, so that quoted includes can be looked up.
-inline QStringList includeErrors(const QList<SourceFile>& files, const QList<Room>& rooms) {
+inline QStringList includeErrors(const QList<SourceFile>& files, const QList<Module>& modules) {
   static const QRegularExpression include(
       QStringLiteral("^[ \\t]*#[ \\t]*include[ \\t]*([<\"])([^>\"]+)[>\"]"),
       QRegularExpression::MultilineOption);
@@ -169,10 +170,10 @@ inline QStringList includeErrors(const QList<SourceFile>& files, const QList<Roo
   for (const SourceFile& file : files) paths.insert(file.path);
   QStringList wrong;
   for (const SourceFile& file : files) {
-    const QString room = roomOfPath(file.path);
-    const Room* rule = find(rooms, room);
+    const QString module = moduleOfPath(file.path);
+    const Module* rule = find(modules, module);
     if (rule == nullptr) {
-      wrong << file.path + ": its folder is not in the table of rooms";
+      wrong << file.path + ": its folder is not in the table of modules";
       continue;
     }
     for (auto matches = include.globalMatch(file.text); matches.hasNext();) {
@@ -183,14 +184,14 @@ inline QStringList includeErrors(const QList<SourceFile>& files, const QList<Roo
       if (match.captured(1) == "\"") {
         const QString beside = file.path.section('/', 0, -2) + '/' + header;
         if (header.contains("..") ||
-            (!paths.contains(beside) && !paths.contains(room + "/src/" + header))) {
-          wrong << place + '"' + header + "\", which is not of its room";
+            (!paths.contains(beside) && !paths.contains(module + "/src/" + header))) {
+          wrong << place + '"' + header + "\", which is not of its module";
         }
         continue;
       }
-      const QString other = roomOfHeader(header);
+      const QString other = moduleOfHeader(header);
       const bool allowed = !other.isEmpty()
-                               ? other == room || rule->rooms.contains(other)
+                               ? other == module || rule->modules.contains(other)
                                : isSystemHeader(header) || beginsWithOne(header, rule->headers);
       if (!allowed) wrong << place + '<' + header + '>';
     }
@@ -198,7 +199,7 @@ inline QStringList includeErrors(const QList<SourceFile>& files, const QList<Roo
   return wrong;
 }
 
-/// What a CMake file links to a room or program.
+/// What a CMake file links to a module or program.
 struct Links {
   QString folder;
   QStringList publicOnes, privateOnes;  ///< "robotlink::frame", "Eigen3::Eigen"
@@ -207,7 +208,7 @@ struct Links {
 
 inline QList<Links> linksOf(const SourceFile& cmake) {
   static const QRegularExpression call(
-      QStringLiteral("(?:pitchboard|add)_(room|program|app_part|executable)\\(([^)]*)\\)"));
+      QStringLiteral("(?:pitchboard|add)_(module|program|app_part|executable)\\(([^)]*)\\)"));
   static const QRegularExpression space(QStringLiteral("\\s+"));
   static const QHash<QString, QString> programs{{"pitchboard", "app/studio"},
                                                 {"pitchboard-agent", "app/agent"},
@@ -218,7 +219,7 @@ inline QList<Links> linksOf(const SourceFile& cmake) {
     const auto match = matches.next();
     const QStringList words = match.captured(2).split(space, Qt::SkipEmptyParts);
     Links links;
-    links.folder = match.captured(1) == "room" ? words.value(0) + '/' + words.value(1)
+    links.folder = match.captured(1) == "module" ? words.value(0) + '/' + words.value(1)
                    : match.captured(1) == "app_part"
                        ? QStringLiteral("app/shared")
                        : programs.value(words.value(0), words.value(0));
@@ -227,7 +228,7 @@ inline QList<Links> linksOf(const SourceFile& cmake) {
       if (QStringList{"SOURCES", "PUBLIC", "PRIVATE", "LIBS"}.contains(word)) {
         part = word;
       } else if (word.contains("::")) {
-        // The parts that programs share are one room.
+        // The parts that programs share are one module.
         (part == "PUBLIC" ? links.publicOnes : links.privateOnes)
             << (word.startsWith("app::") ? QStringLiteral("app::shared") : word);
       }
@@ -237,7 +238,7 @@ inline QList<Links> linksOf(const SourceFile& cmake) {
   return found;
 }
 
-/// The header that a package's target is linked for; empty for those that any room may link.
+/// The header that a package's target is linked for; empty for those that any module may link.
 inline QString headerOfPackage(const QString& target) {
   static const QHash<QString, QString> headers{{"Eigen3::Eigen", "Eigen/"},
                                                {"box2d::box2d", "box2d/"},
@@ -253,22 +254,22 @@ inline QString headerOfPackage(const QString& target) {
   return headers.value(target, target);
 }
 
-inline QStringList linkErrors(const QList<SourceFile>& cmakes, const QList<Room>& rooms) {
+inline QStringList linkErrors(const QList<SourceFile>& cmakes, const QList<Module>& modules) {
   QStringList wrong;
   for (const SourceFile& cmake : cmakes) {
     for (const Links& links : linksOf(cmake)) {
-      const Room* rule = find(rooms, links.folder);
+      const Module* rule = find(modules, links.folder);
       if (rule == nullptr) {
-        wrong << cmake.path + ": " + links.folder + " is not in the table of rooms";
+        wrong << cmake.path + ": " + links.folder + " is not in the table of modules";
         continue;
       }
       for (const QString& target : links.both()) {
-        QString room = QString(target).replace("::", "/");
-        if (target == "pitchboard::resources") room = "resources";
-        const bool ours = room == "resources" || !roomOfHeader(room + '/').isEmpty();
+        QString module = QString(target).replace("::", "/");
+        if (target == "pitchboard::resources") module = "resources";
+        const bool ours = module == "resources" || !moduleOfHeader(module + '/').isEmpty();
         const QString header = ours ? QString() : headerOfPackage(target);
-        const bool allowed =
-            ours ? rule->rooms.contains(room) : header.isEmpty() || rule->headers.contains(header);
+        const bool allowed = ours ? rule->modules.contains(module)
+                                  : header.isEmpty() || rule->headers.contains(header);
         if (!allowed) wrong << cmake.path + ": " + links.folder + " links " + target;
       }
     }
@@ -276,8 +277,8 @@ inline QStringList linkErrors(const QList<SourceFile>& cmakes, const QList<Room>
   return wrong;
 }
 
-/// Packages that a room links though none of its files needs it, or that it shows to others though
-/// no public header needs it.
+/// Packages that a module links though none of its files needs it, or that it shows to others
+/// though no public header needs it.
 inline QStringList packageErrors(const QList<SourceFile>& cmakes, const QList<SourceFile>& files) {
   const auto includes = [&files](const QString& below, const QString& header) {
     return std::any_of(files.begin(), files.end(), [&](const SourceFile& file) {
@@ -289,7 +290,7 @@ inline QStringList packageErrors(const QList<SourceFile>& cmakes, const QList<So
     for (const Links& links : linksOf(cmake)) {
       for (const QString& target : links.both()) {
         const QString header = headerOfPackage(target);
-        // Rooms of ours, and what is one package with many parts.
+        // Modules of ours, and what is one package with many parts.
         if (header.isEmpty() || header == target || header == "Q") continue;
         if (!includes(links.folder, header)) {
           wrong << cmake.path + ": " + links.folder + " links " + target + " and does not use it";

@@ -113,10 +113,10 @@ class TestCliLive : public QObject {
     if (!sender.waitForStarted()) QSKIP("python3 is not installed");
     QVERIFY(sender.waitForFinished());
     QCOMPARE(sender.exitCode(), 0);
-    const QList<QJsonObject> heard = listener.read(10);
-    QCOMPARE(heard.size(), 10);
+    const QList<QJsonObject> received = listener.read(10);
+    QCOMPARE(received.size(), 10);
     QMap<int, int> messages;
-    for (const QJsonObject& object : heard) {
+    for (const QJsonObject& object : received) {
       QCOMPARE(object["type"].toString(), "telemetry");
       const int robot = object["robot"].toInt();
       QCOMPARE(object["port"].toInt(), listener.base + robot);
@@ -151,12 +151,12 @@ class TestCliLive : public QObject {
          {std::string(), std::string("\0\xff\x01", 3), std::string("1 2 3"),
           std::string(60000, 'A'), std::string("1 nan")}) {
       QVERIFY(socket.send(robot, text));
-      const QList<QJsonObject> heard = listener.read(1);
-      QCOMPARE(heard.size(), 1);
-      QCOMPARE(heard[0]["accepted"].toBool(true), false);
-      QVERIFY(!heard[0]["errors"].toArray().isEmpty());
+      const QList<QJsonObject> received = listener.read(1);
+      QCOMPARE(received.size(), 1);
+      QCOMPARE(received[0]["accepted"].toBool(true), false);
+      QVERIFY(!received[0]["errors"].toArray().isEmpty());
     }
-    QVERIFY(!socket.heard());
+    QVERIFY(!socket.received());
     QCOMPARE(listener.interrupt(), 0);
     QVERIFY2(listener.err.contains("not text: 1"), listener.err.constData());
   }
@@ -205,11 +205,11 @@ class TestCliLive : public QObject {
     const std::string drawing = "PBD1 1\nlayer a\ncircle 0.4 0.1 0.1\n";
     const std::string words = "1 450 300 90 12.5 80 10 1 1 1 1 1 8 0.5 189 OUT";
     QVERIFY(robot.send(port, drawing) && robot.send(port, words + "\n" + drawing));
-    const QList<QJsonObject> heard = listener.read(2);
-    QCOMPARE(heard.value(0)["type"].toString(), "drawing");
-    QCOMPARE(heard.value(0)["name"].toString(), "Robot 1");
-    QCOMPARE(heard.value(1)["type"].toString(), "telemetry");
-    QVERIFY(heard.value(1)["errors"].toArray().isEmpty());
+    const QList<QJsonObject> received = listener.read(2);
+    QCOMPARE(received.value(0)["type"].toString(), "drawing");
+    QCOMPARE(received.value(0)["name"].toString(), "Robot 1");
+    QCOMPARE(received.value(1)["type"].toString(), "telemetry");
+    QVERIFY(received.value(1)["errors"].toArray().isEmpty());
     QCOMPARE(listener.interrupt(), 0);
     QVERIFY2(listener.err.contains("2 datagrams from 1 robots") && listener.err.contains("bad: 0"),
              listener.err.constData());
@@ -228,8 +228,8 @@ class TestCliLive : public QObject {
     QVERIFY(socket.send(static_cast<std::uint16_t>(listener.base + 1), "1 2 3 OUT"));
     QVERIFY(socket.send(static_cast<std::uint16_t>(listener.refereePort),
                         packet.readAll().toStdString()));
-    const QList<QJsonObject> heard = listener.read(1);
-    QCOMPARE(heard.value(0)["type"].toString(), "referee");
+    const QList<QJsonObject> received = listener.read(1);
+    QCOMPARE(received.value(0)["type"].toString(), "referee");
     QCOMPARE(listener.interrupt(), 0);
     QVERIFY2(listener.err.contains("refused: 1 of senders that --from does not name"),
              listener.err.constData());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plan of rooms in ARCHITECTURE.md holds: what a file includes and what a target links stands
-// below it. The build refuses headers of rooms that a target does not link; this test also covers
+// The plan of modules in ARCHITECTURE.md holds: what a file includes and what a target links stands
+// below it. The build refuses headers of modules that a target does not link; this test also covers
 // headers of packages, which stand in /usr/include for everybody, links that come by way of others,
 // and the table itself.
 
@@ -40,10 +40,10 @@ const QList<SourceFile>& cmakeFiles() {
 }
 
 // A made-up house: sky above earth, and a cellar that knows nobody.
-const QList<Room>& house() {
-  static const QList<Room> rooms{
+const QList<Module>& house() {
+  static const QList<Module> modules{
       {"ui/sky", {"ui/earth"}, {"Eigen/"}}, {"ui/earth", {}, {}}, {"ui/cellar", {}, {}}};
-  return rooms;
+  return modules;
 }
 
 }  // namespace
@@ -69,27 +69,29 @@ class TestLayers : public QObject {
     QVERIFY2(wrong.isEmpty(), qPrintable(wrong.join('\n')));
   }
 
-  void everyRoomOfTheTableIsBuilt() {
+  void everyModuleOfTheTableIsBuilt() {
     QSet<QString> built;
     for (const SourceFile& cmake : cmakeFiles()) {
       for (const Links& links : linksOf(cmake)) built.insert(links.folder);
     }
-    for (const Room& room : table()) {
-      QVERIFY2(room.folder == "resources" || built.contains(room.folder), qPrintable(room.folder));
+    for (const Module& module : table()) {
+      QVERIFY2(module.folder == "resources" || built.contains(module.folder),
+               qPrintable(module.folder));
     }
   }
 
-  // Without this a table could allow two rooms to use each other.
+  // Without this a table could allow two modules to use each other.
   void theTableHasNoCircles() {
     QStringList settled;
-    QList<Room> left = table();
+    QList<Module> left = table();
     while (!left.isEmpty()) {
       const auto before = left.size();
-      left.removeIf([&settled](const Room& room) {
-        const bool ready = std::all_of(
-            room.rooms.begin(), room.rooms.end(),
-            [&](const QString& below) { return settled.contains(below) || below == room.folder; });
-        if (ready) settled << room.folder;
+      left.removeIf([&settled](const Module& module) {
+        const bool ready =
+            std::all_of(module.modules.begin(), module.modules.end(), [&](const QString& below) {
+              return settled.contains(below) || below == module.folder;
+            });
+        if (ready) settled << module.folder;
         return ready;
       });
       QVERIFY2(left.size() < before, qPrintable("circle at " + left.value(0).folder));
@@ -102,16 +104,16 @@ class TestLayers : public QObject {
     QTest::addColumn<bool>("good");
     const QString sky = "ui/sky/src/bird.cpp", earth = "ui/earth/src/mole.cpp";
     QTest::newRow("downwards") << sky << "#include <ui/earth/tree.h>\n" << true;
-    QTest::newRow("own room") << sky << "#include <ui/sky/wing.h>\n#include \"wing_bone.h\"\n"
-                              << true;
+    QTest::newRow("own module") << sky << "#include <ui/sky/wing.h>\n#include \"wing_bone.h\"\n"
+                                << true;
     QTest::newRow("standard library") << sky << "#include <vector>\n#include <sys/stat.h>\n"
                                       << true;
-    QTest::newRow("package of the room") << sky << "#include <Eigen/Core>\n" << true;
+    QTest::newRow("package of the module") << sky << "#include <Eigen/Core>\n" << true;
     QTest::newRow("upwards") << earth << "#include <ui/sky/wing.h>\n" << false;
     QTest::newRow("sideways") << earth << "  #  include <ui/cellar/rat.h>\n" << false;
-    QTest::newRow("package of another room") << earth << "#include <Eigen/Core>\n" << false;
+    QTest::newRow("package of another module") << earth << "#include <Eigen/Core>\n" << false;
     QTest::newRow("package without folder") << earth << "#include <zlib.h>\n" << false;
-    QTest::newRow("quoted, of another room") << earth << "#include \"wing_bone.h\"\n" << false;
+    QTest::newRow("quoted, of another module") << earth << "#include \"wing_bone.h\"\n" << false;
     QTest::newRow("quoted, by its path") << sky << "#include \"ui/earth/tree.h\"\n" << false;
     QTest::newRow("quoted, over the fence") << sky << "#include \"../../earth/src/mole.h\"\n"
                                             << false;
@@ -133,16 +135,16 @@ class TestLayers : public QObject {
   void plantedLinksAreFound_data() {
     QTest::addColumn<QString>("text");
     QTest::addColumn<bool>("good");
-    QTest::newRow("downwards") << "pitchboard_room(ui sky\n  SOURCES src/a.cpp\n"
+    QTest::newRow("downwards") << "pitchboard_module(ui sky\n  SOURCES src/a.cpp\n"
                                   "  PUBLIC ui::earth Threads::Threads\n  PRIVATE Eigen3::Eigen)"
                                << true;
-    QTest::newRow("upwards") << "pitchboard_room(ui earth SOURCES src/a.cpp PRIVATE ui::sky)"
+    QTest::newRow("upwards") << "pitchboard_module(ui earth SOURCES src/a.cpp PRIVATE ui::sky)"
                              << false;
-    QTest::newRow("all rooms") << "pitchboard_room(ui sky SOURCES src/a.cpp PUBLIC ui::all)"
-                               << false;
-    QTest::newRow("package of another room")
-        << "pitchboard_room(ui earth SOURCES src/a.cpp PRIVATE Eigen3::Eigen)" << false;
-    QTest::newRow("unknown room") << "pitchboard_room(ui attic SOURCES src/a.cpp)" << false;
+    QTest::newRow("all modules") << "pitchboard_module(ui sky SOURCES src/a.cpp PUBLIC ui::all)"
+                                 << false;
+    QTest::newRow("package of another module")
+        << "pitchboard_module(ui earth SOURCES src/a.cpp PRIVATE Eigen3::Eigen)" << false;
+    QTest::newRow("unknown module") << "pitchboard_module(ui attic SOURCES src/a.cpp)" << false;
     QTest::newRow("unknown program")
         << "pitchboard_program(kite SOURCES a.cpp LIBS ui::sky)" << false;
   }
@@ -155,8 +157,8 @@ class TestLayers : public QObject {
   void plantedPackagesAreFound() {
     const SourceFile uses{"ui/sky/src/bird.cpp", "#include <Eigen/Core>\n"};
     const SourceFile shows{"ui/sky/include/ui/sky/wing.h", "#include <Eigen/Core>\n"};
-    const SourceFile hidden{"CMakeLists.txt", "pitchboard_room(ui sky PRIVATE Eigen3::Eigen)"};
-    const SourceFile shown{"CMakeLists.txt", "pitchboard_room(ui sky PUBLIC Eigen3::Eigen)"};
+    const SourceFile hidden{"CMakeLists.txt", "pitchboard_module(ui sky PRIVATE Eigen3::Eigen)"};
+    const SourceFile shown{"CMakeLists.txt", "pitchboard_module(ui sky PUBLIC Eigen3::Eigen)"};
     QVERIFY(packageErrors({hidden}, {uses}).isEmpty());
     QVERIFY(packageErrors({shown}, {shows}).isEmpty());
     QVERIFY(!packageErrors({hidden}, {}).isEmpty());

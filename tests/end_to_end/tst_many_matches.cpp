@@ -22,7 +22,7 @@ constexpr int matches = 6;
 
 MatchOptions separate() {
   MatchOptions options;
-  options.cognition = Cognition::External;
+  options.cognition = Cognition::Separate;
   options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
   options.process.particles = 200;
   return options;

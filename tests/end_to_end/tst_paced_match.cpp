@@ -54,7 +54,7 @@ MatchOptions optionsFor(Cognition cognition, RobotsPace pace = RobotsPace::LockS
   options.cognition = cognition;
   options.pace = pace;
   options.process.particles = 200;
-  if (cognition == Cognition::External) {
+  if (cognition == Cognition::Separate) {
     options.keyBase = testKeyBase();
     options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
   }
@@ -209,7 +209,7 @@ class TestPacedMatch : public QObject {
   void everyPaceIsTheSameMatch_data() {
     QTest::addColumn<int>("cognition");
     QTest::newRow("inside") << static_cast<int>(Cognition::Inline);
-    QTest::newRow("separate processes") << static_cast<int>(Cognition::External);
+    QTest::newRow("separate processes") << static_cast<int>(Cognition::Separate);
   }
   void everyPaceIsTheSameMatch() {
     QFETCH(int, cognition);
@@ -231,7 +231,7 @@ class TestPacedMatch : public QObject {
   // At x1 the processes run freely, as on the field: not the same match, but beliefs as good.
   void beliefsAreAsGoodWhenProcessesRunFreely() {
     Played match(wholeMatch("realistic", Size::Small),
-                 optionsFor(Cognition::External, RobotsPace::Free));
+                 optionsFor(Cognition::Separate, RobotsPace::Free));
     playWithEverything(match, 75);
     QVERIFY(match.over());
     match.runner.reset();
@@ -265,7 +265,7 @@ class TestPacedMatch : public QObject {
   // in one go, from the first second on.
   void beliefsOfSeparateProcessesAreAsGoodAtOnce() {
     const Witness& oneGo = inOneGo(Size::Small, "realistic");
-    Played match(wholeMatch("realistic", Size::Small), optionsFor(Cognition::External));
+    Played match(wholeMatch("realistic", Size::Small), optionsFor(Cognition::Separate));
     std::vector<double> played, wanted;
     for (const std::uint64_t seconds : {35U, 50U, 65U}) {
       match.playTo(seconds * tickRate);

@@ -176,8 +176,8 @@ class TestRefereeObeyed : public QObject {
     timer.start();
     m_controller.send(port, packet(penalised).toStdString());
     QTRY_COMPARE(board->read(m_variables.comReferee), 1);
-    const qint64 heard = timer.elapsed();
-    qInfo("the referee's word was on the blackboard after %lld ms", heard);
+    const qint64 received = timer.elapsed();
+    qInfo("the referee's word was on the blackboard after %lld ms", received);
     QTRY_COMPARE(board->read(m_variables.decisionActionA), 0);
     communication.kill();
     decision.kill();

@@ -107,7 +107,7 @@ class TestSameEvents : public QObject {
     const auto recorder = LiveRecorder::create(path.toStdString(), options, watch.began()).value();
     watch.observe(recorder);
     std::vector<MatchEvent> events;
-    const auto heard = [&](Kind kind) {
+    const auto received = [&](Kind kind) {
       for (MatchEvent& event : watch.take().events) events.push_back(std::move(event));
       return has(events, kind);
     };
@@ -118,17 +118,17 @@ class TestSameEvents : public QObject {
                           live_rig::packet(QLatin1String(file)));
     };
     QVERIFY(robot.say());
-    QTRY_VERIFY(heard(Kind::RobotHeard));
+    QTRY_VERIFY(received(Kind::RobotReceived));
     QVERIFY(send("v12hl688_INITIAL.bin"));
-    QTRY_VERIFY(heard(Kind::RefereeHeard));
+    QTRY_VERIFY(received(Kind::RefereeReceived));
     QVERIFY(send("v12hl688_PLAYING_1-0.bin"));
-    QTRY_VERIFY(heard(Kind::Goal));
+    QTRY_VERIFY(received(Kind::Goal));
     watch.stopObserving(recorder);
     QVERIFY(recorder->finish());
     // Nobody is sent any more: what a slow machine still adds came after the recording.
     const auto read = eventsOf(telemetry::SessionReader::open(path.toStdString()).value());
     QVERIFY(!read.empty());
-    QTRY_VERIFY((heard(Kind::Goal), events.size() >= read.size()));
+    QTRY_VERIFY((received(Kind::Goal), events.size() >= read.size()));
     events.resize(read.size());
     compare(path, events);
   }

@@ -23,7 +23,7 @@ constexpr int tickRate = 60;
 
 MatchOptions separate() {
   MatchOptions options;
-  options.cognition = Cognition::External;
+  options.cognition = Cognition::Separate;
   options.keyBase = testKeyBase();
   options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
   return options;

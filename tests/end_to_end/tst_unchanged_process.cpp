@@ -66,7 +66,7 @@ class TestUnchangedProcess : public QObject {
     scenario.writes = {{{1}, "COM_REFEREE", 2, 0.0}};
     scenario.stop.duration = duration;
     MatchOptions options;
-    options.cognition = Cognition::External;
+    options.cognition = Cognition::Separate;
     options.keyBase = m_base;
     options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
     options.speed = speed;
@@ -268,15 +268,15 @@ class TestUnchangedProcess : public QObject {
     if (startedAt == 1.0) QVERIFY(!isTold());
     runner->setSpeed(8.0);
     QTRY_VERIFY_WITH_TIMEOUT(isTold(), 30'000);
-    QTRY_COMPARE_WITH_TIMEOUT(runner->latest()->slowestOwnProgram, std::optional(1.0), 30'000);
+    QTRY_COMPARE_WITH_TIMEOUT(runner->latest()->slowestTeamProgram, std::optional(1.0), 30'000);
     // A match that waits for its programs does not leave it behind.
     runner->execute([](SimulatedMatch& match) {
-      match.pace().waitForOwnPrograms = true;
+      match.pace().waitForTeamPrograms = true;
       return Changed::No;
     });
     QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).speed, 1.0, 30'000);
     runner->execute([](SimulatedMatch& match) {
-      match.pace().waitForOwnPrograms = false;
+      match.pace().waitForTeamPrograms = false;
       return Changed::No;
     });
     runner->setSpeed(4.0);
@@ -318,10 +318,10 @@ class TestUnchangedProcess : public QObject {
     // At x1 it is learned what the program does in a second of its own.
     QTRY_VERIFY_WITH_TIMEOUT(program().achieved == 1.0, 30'000);
     runner->setSpeed(wanted);
-    QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->slowestOwnProgram.has_value(), 60'000);
+    QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->slowestTeamProgram.has_value(), 60'000);
     QCOMPARE(program().speed, wanted);
     runner->execute([](SimulatedMatch& match) {
-      match.pace().waitForOwnPrograms = true;
+      match.pace().waitForTeamPrograms = true;
       return Changed::No;
     });
     QTRY_VERIFY_WITH_TIMEOUT(program().speed < 0.9 * wanted, 60'000);
@@ -329,7 +329,7 @@ class TestUnchangedProcess : public QObject {
     const double slowed = program().speed;
     QVERIFY2(slowed >= 0.1, qPrintable(QString::number(slowed)));
     runner->execute([](SimulatedMatch& match) {
-      match.pace().waitForOwnPrograms = false;
+      match.pace().waitForTeamPrograms = false;
       return Changed::No;
     });
     QTRY_COMPARE_WITH_TIMEOUT(program().speed, wanted, 60'000);

@@ -3,7 +3,7 @@
 // and leaves a bounded book that its own pages make again.
 #include <cstdlib>
 
-#include <telemetry/wire/drawing_book.h>
+#include <telemetry/wire/drawing_store.h>
 
 using namespace pitchboard::telemetry;
 
@@ -24,17 +24,17 @@ void check(const Drawing& drawing) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
-  static DrawingBook book;
+  static DrawingStore store;
   static double time = 0.0;
   const DatagramParts parts = partsOf({reinterpret_cast<const char*>(data), size});
   if (parts.message.size() + parts.drawing.size() > size) std::abort();
   const auto drawing = parseDrawing(parts.drawing);
   if (drawing) check(*drawing);
   time += 0.01;
-  (void)book.take(parts.drawing, time);
+  (void)store.take(parts.drawing, time);
   static unsigned rounds = 0;
   if (++rounds % 64 != 0) return 0;
-  const auto shown = book.at(time);
+  const auto shown = store.at(time);
   if (shown.size() > DrawingLimits::robots) std::abort();
   std::size_t layers = 0;
   for (const RobotDrawings& robot : shown) {
@@ -45,6 +45,6 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     }
     layers += robot.layers.size();
   }
-  if (book.pages(time).size() != layers) std::abort();
+  if (store.pages(time).size() != layers) std::abort();
   return 0;
 }

@@ -4,8 +4,8 @@
 // and sender.
 #include <cstdlib>
 
-#include <robotlink/live/live_books.h>
 #include <robotlink/live/live_rows.h>
+#include <robotlink/live/live_state.h>
 #include <robotlink/live/live_teams.h>
 #include <telemetry/series/series_store.h>
 
@@ -37,7 +37,7 @@ struct Match {
   WallTime zero{std::chrono::seconds(1'700'000'000)};
   WallTime now = zero;
   link::LiveOptions options = optionsOfMatch();
-  link::LiveBooks books{options};
+  link::LiveState state{options};
   std::shared_ptr<SeriesStore> store = std::make_shared<SeriesStore>(SeriesOptions{budget});
   LiveRows rows{store, link::rowsOptions(options, link::teamsOf(options, nullptr), zero)};
 
@@ -49,28 +49,28 @@ struct Match {
     const int port = place < teams ? firstPort + place : refereePort;
     const DatagramView datagram{now, sender, static_cast<std::uint16_t>(port), false, payload};
     if (port == refereePort) {
-      if (const auto packet = decodeReferee(payload)) books.takeReferee(*packet, datagram);
+      if (const auto packet = decodeReferee(payload)) state.takeReferee(*packet, datagram);
       return;
     }
-    if (books.monitor.take(datagram) != TeamMonitor::Verdict::Used) return;
-    const DecodedText& decoded = books.monitor.decoded();
+    if (state.monitor.take(datagram) != TeamMonitor::Verdict::Used) return;
+    const DecodedText& decoded = state.monitor.decoded();
     if (decoded.place != place + 1) std::abort();
-    rows.take(datagram, decoded, books.monitor.decoder(), books.monitor.used());
+    rows.take(datagram, decoded, state.monitor.decoder(), state.monitor.used());
   }
 
   void check() {
-    const TeamStatus status = books.monitor.status(now);
+    const TeamStatus status = state.monitor.status(now);
     if (status.robots.size() > options.team.mostRobots()) std::abort();
     rows.report(status);
     if (store->refusedRows() != 0 || store->memoryBytes() > budget + above) std::abort();
     const double time = secondsOf(now - zero);
-    (void)books.frame(options, status, time);
-    const std::string text = books.text(options, time, zero);
-    const auto again = link::LiveBooks::read(text, zero);
+    (void)state.frame(options, status, time);
+    const std::string text = state.text(options, time, zero);
+    const auto again = link::LiveState::read(text, zero);
     if (!again) std::abort();
     if (!(again->options.team.teams == options.team.teams)) std::abort();
-    if (again->books.monitor.status(now).robots.size() != status.robots.size()) std::abort();
-    if (again->books.text(again->options, time, zero) != text) std::abort();
+    if (again->state.monitor.status(now).robots.size() != status.robots.size()) std::abort();
+    if (again->state.text(again->options, time, zero) != text) std::abort();
   }
 };
 

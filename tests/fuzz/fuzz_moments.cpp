@@ -64,8 +64,8 @@ void moments(std::string_view bytes) {
   link::LiveMoments live;
   for (const double time : {0.0, 0.35, 5.0, 0.2, 1e12}) {
     const auto frame = live.frameAt(records, time);
-    const auto books = live.booksAt(records, time);
-    if (frame.has_value() != books.has_value()) std::abort();
+    const auto state = live.snapshotAt(records, time);
+    if (frame.has_value() != state.has_value()) std::abort();
   }
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as the short texts that people type and processes send: an expression, senders that are
-// heard, a blackboard to attach to, a robot's thoughts, a message between reference robots.
+// heard, a blackboard to attach to, cognition debug data, a message between reference robots.
 #include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <vector>
 
+#include <robotlink/cognition/cognition_debug.h>
 #include <robotlink/cognition/process_registry.h>
-#include <robotlink/cognition/robot_thoughts.h>
 #include <robotlink/live/attached_robots.h>
 #include <telemetry/expression/expression.h>
 #include <telemetry/wire/sender_filter.h>
@@ -29,14 +29,14 @@ void expression(std::string_view text) {
   }
 }
 
-void thoughts(std::string_view text) {
-  link::RobotThoughts read;
-  if (!link::readThoughtDatagram(text, read)) return;
-  const auto written = link::thoughtDatagrams(read);
+void cognitionDebug(std::string_view text) {
+  link::CognitionDebug read;
+  if (!link::readDebugDatagram(text, read)) return;
+  const auto written = link::debugDatagrams(read);
   if (written.empty()) std::abort();
   for (const std::string& datagram : written) {
-    link::RobotThoughts again;
-    if (!link::readThoughtDatagram(datagram, again)) std::abort();
+    link::CognitionDebug again;
+    if (!link::readDebugDatagram(datagram, again)) std::abort();
   }
 }
 
@@ -74,7 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     const auto again = link::parseAttachedBoard(link::attachedBoardText(*board));
     if (!again || !(*again == *board)) std::abort();
   }
-  thoughts(text);
+  cognitionDebug(text);
   teamMessage(text);
   return 0;
 }

@@ -77,8 +77,8 @@ class Agent {
 /// A program that uses the segment (tests/support/segment_user.cpp).
 class User {
  public:
-  User(const char* deed, int key) {
-    m_process.start(SEGMENT_USER, {deed, QString::number(key)});
+  User(const char* action, int key) {
+    m_process.start(SEGMENT_USER, {action, QString::number(key)});
     good = m_process.waitForReadyRead(30'000) && m_process.readAll().startsWith("y");
   }
   ~User() {
@@ -203,13 +203,13 @@ class TestAgent : public QObject {
     QVERIFY(SystemVSegments::create(m_key));
     Agent agent({"--key", QString::number(m_key)});
     sockaddr_in from{};
-    const auto heard = [&] {
+    const auto received = [&] {
       char buffer[2000];
       socklen_t length = sizeof from;
       return recvfrom(agent.socket().descriptor(), buffer, sizeof buffer, MSG_DONTWAIT,
                       reinterpret_cast<sockaddr*>(&from), &length) > 0;
     };
-    QTRY_VERIFY(heard());
+    QTRY_VERIFY(received());
     for (int i = 0; i < 2000; ++i) {
       QVERIFY(agent.socket().send(
           ntohs(from.sin_port),
@@ -276,7 +276,7 @@ class TestAgent : public QObject {
       sender.start(QCoreApplication::applicationDirPath() + "/pb2_robot", arguments);
     }
     for (std::uint32_t sequence = 0; sequence < 3; ++sequence) {
-      QTRY_VERIFY(socket.heard());
+      QTRY_VERIFY(socket.received());
       const std::string datagram = socket.take();
       const auto message = telemetry::parsePb2(datagram);
       QVERIFY2(message, message ? "" : message.error().text().c_str());

@@ -27,8 +27,8 @@ namespace tst_drawings {
 
 using namespace pitchboard;
 using namespace pitchboard::link;
-using telemetry::DrawingBook;
 using telemetry::DrawingLayer;
+using telemetry::DrawingStore;
 using telemetry::ShapeKind;
 
 namespace {
@@ -187,7 +187,7 @@ class TestDrawings : public QObject {
     Scenario scenario = oneRobot();
     scenario.robots[0].runtime.profile = profile.toStdString();
     MatchOptions options;
-    options.cognition = Cognition::External;
+    options.cognition = Cognition::Separate;
     options.keyBase = m_base;
     options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
     const std::string path = m_folder.filePath("match.mcap").toStdString();
@@ -256,8 +256,8 @@ class TestDrawings : public QObject {
     auto match = SimulatedMatch::create(oneRobot(), options);
     QVERIFY2(match, match ? "" : match.error().text().c_str());
     QVERIFY(match->robots().claim());
-    std::vector<HeardDrawing> heard;
-    match->takeDrawings(heard);
+    std::vector<ReceivedDrawing> received;
+    match->takeDrawings(received);
     QVERIFY(match->drawings() && match->drawings()->problem().empty());
     const std::uint64_t hash = match->simulation().hash();
     QProcess program;
@@ -267,13 +267,13 @@ class TestDrawings : public QObject {
         {"1", "127.0.0.1", QString::number(match->robots().claim()->number().drawingPort())});
     QVERIFY(program.waitForStarted());
     const auto takes = [&] {
-      match->takeDrawings(heard);
-      return heard.size() >= 2;
+      match->takeDrawings(received);
+      return received.size() >= 2;
     };
     QTRY_VERIFY_WITH_TIMEOUT(takes(), 30'000);
     program.kill();
     QVERIFY(program.waitForFinished());
-    const auto drawn = match->drawings()->book().at(0.0);
+    const auto drawn = match->drawings()->store().at(0.0);
     QCOMPARE(drawn.size(), std::size_t{1});
     QCOMPARE(drawn[0].layers.size(), std::size_t{2});
     QCOMPARE(match->simulation().hash(), hash);

@@ -71,11 +71,11 @@ class TestLiveEvents : public QObject {
     Stage s;
     s.robot(3, TeamColor::Red);
     auto told = s.at(1.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::RobotHeard}));
+    QCOMPARE(kindsOf(told), (Kinds{Kind::RobotReceived}));
     QCOMPARE(told[0].detail, std::string("192.168.0.3:4000"));
     s.frame.robots[0].link->timedOut = true;
     told = s.at(7.5);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::RobotSilent}));
+    QCOMPARE(kindsOf(told), (Kinds{Kind::RobotOffline}));
     QCOMPARE(told[0].time, 7.5);
     QCOMPARE(told[0].robot, red(3));
     QCOMPARE(told[0].name, std::string("R3"));
@@ -91,7 +91,7 @@ class TestLiveEvents : public QObject {
     s.frame.robots.clear();
     QVERIFY(s.at(2.0).empty());
     s.robot(1).link->timedOut = true;
-    QCOMPARE(kindsOf(s.at(3.0)), (Kinds{Kind::RobotHeard, Kind::RobotSilent}));
+    QCOMPARE(kindsOf(s.at(3.0)), (Kinds{Kind::RobotReceived, Kind::RobotOffline}));
   }
 
   void anotherAddressIsToldAndTheRobotStays() {
@@ -158,7 +158,7 @@ class TestLiveEvents : public QObject {
     Stage s;
     s.referee();
     auto told = s.at(1.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::RefereeHeard, Kind::GameState}));
+    QCOMPARE(kindsOf(told), (Kinds{Kind::RefereeReceived, Kind::GameState}));
     QCOMPARE(told[0].value, 17);
     QCOMPARE(told[1].detail, std::string("INITIAL"));
     s.frame.referee->state = "PLAYING";
@@ -192,7 +192,7 @@ class TestLiveEvents : public QObject {
     view.setPlay = "goal kick";
     view.teams[0].score = 2;  // no goal: nobody saw it
     QCOMPARE(kindsOf(s.at(1.0)),
-             (Kinds{Kind::RefereeHeard, Kind::GameState, Kind::SetPlay, Kind::Half}));
+             (Kinds{Kind::RefereeReceived, Kind::GameState, Kind::SetPlay, Kind::Half}));
   }
 
   void aGoalBelongsToItsTeamOnBothSides() {
@@ -227,14 +227,14 @@ class TestLiveEvents : public QObject {
     s.referee();
     (void)s.at(1.0);
     s.frame.referee->timedOut = true;
-    QCOMPARE(kindsOf(s.at(2.0)), (Kinds{Kind::RefereeSilent}));
+    QCOMPARE(kindsOf(s.at(2.0)), (Kinds{Kind::RefereeOffline}));
     s.frame.referee->timedOut = false;
     QCOMPARE(kindsOf(s.at(3.0)), (Kinds{Kind::RefereeBack}));
     s.frame.referee->conflict = true;
     QCOMPARE(kindsOf(s.at(4.0)), (Kinds{Kind::SecondReferee}));
     s.frame.referee->sender = "192.168.0.98:3838";
     const auto told = s.at(5.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::RefereeHeard}));
+    QCOMPARE(kindsOf(told), (Kinds{Kind::RefereeReceived}));
     QCOMPARE(told[0].detail, std::string("192.168.0.98:3838"));
   }
 

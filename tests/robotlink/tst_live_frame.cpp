@@ -50,12 +50,12 @@ RobotStatus robotSaying(const std::string& message) {
 /// n X Y THETA BELIEF BALL_DIST BALL_ANGLE, five flags, ACTION_A IMU_EULER_Z VOLTAGE
 const std::string atTheCentre = "450 300 0 20 100 90 1 1 1 0 1 8 0.5 165";
 
-struct Heard {
+struct Received {
   LiveOptions options;
   TeamStatus team;
   RefereeTracker referee;
 
-  explicit Heard(std::vector<RobotStatus> robots) {
+  explicit Received(std::vector<RobotStatus> robots) {
     team.time = start;
     team.robots = std::move(robots);
   }
@@ -122,24 +122,24 @@ class TestLiveFrame : public QObject {
 
  private slots:
   void nobodyIsHeard() {
-    const MatchFrame frame = Heard({}).frame(7.5);
+    const MatchFrame frame = Received({}).frame(7.5);
     QVERIFY(frame.origin == FrameOrigin::Live);
     QVERIFY(!frame.truthKnown && !frame.ballKnown);
     QVERIFY(frame.robots.empty() && !frame.referee && frame.teamBalls.empty());
     QCOMPARE(frame.snapshot.time, 7.5);
-    QVERIFY(frame.robot(heardAs(1)) == nullptr);
+    QVERIFY(frame.robot(receivedAs(1)) == nullptr);
   }
 
   void aRobotStandsWhereItSays() {
-    Heard heard({robotSaying("3 " + atTheCentre)});
-    const MatchFrame frame = heard.frame();
+    Received received({robotSaying("3 " + atTheCentre)});
+    const MatchFrame frame = received.frame();
     QCOMPARE(frame.robots.size(), std::size_t{1});
     const RobotFrame& robot = frame.robots[0];
-    QCOMPARE(frame.robot(heardAs(3)), &robot);
+    QCOMPARE(frame.robot(receivedAs(3)), &robot);
     QCOMPARE(robot.identity.number, 3);
     QVERIFY(robot.poseKnown() && !robot.timedOut());
     const Pose centre =
-        sim::published_frame::studioFromLocalization(heard.options.field, {450.0, 300.0, 0.0});
+        sim::published_frame::studioFromLocalization(received.options.field, {450.0, 300.0, 0.0});
     QVERIFY(robot.pose == centre);
     QCOMPARE(robot.headYaw, centre.yaw);
     QCOMPARE(robot.action, 8);
@@ -172,7 +172,7 @@ class TestLiveFrame : public QObject {
     status.conflict = true;
     status.processes[3] = {telemetry::ProcessState::Silent, 0.1, 8s};
     status.battery = telemetry::batteryAt(15.9, telemetry::usualBattery);
-    const RobotFrame robot = Heard({status}).frame().robots.at(0);
+    const RobotFrame robot = Received({status}).frame().robots.at(0);
     const telemetry::LinkHealth& health = *robot.link;
     QCOMPARE(health.sender, status.sender);
     QCOMPARE(health.age, status.age);
@@ -191,7 +191,7 @@ class TestLiveFrame : public QObject {
 
   void numbersBeyondTheFieldAreDrawnSomewhere() {
     const MatchFrame frame =
-        Heard({robotSaying("1 2000000000 -2000000000 999999999 1e30 99999 0 1 1 1 1 1 99 0 -5")})
+        Received({robotSaying("1 2000000000 -2000000000 999999999 1e30 99999 0 1 1 1 1 1 99 0 -5")})
             .frame();
     const RobotFrame& robot = frame.robots.at(0);
     QVERIFY(std::abs(robot.pose.position.x) < 200 && std::abs(robot.pose.position.y) < 200);
@@ -203,19 +203,19 @@ class TestLiveFrame : public QObject {
   void withoutAPositionItIsHeardAndNotSeen() {
     RobotStatus status = robotSaying("4 " + atTheCentre);
     status.values[1] = std::nan("");
-    const MatchFrame frame = Heard({status}).frame();
+    const MatchFrame frame = Received({status}).frame();
     QVERIFY(!frame.robots.at(0).poseKnown());
     QVERIFY(!frame.robots[0].ball);
   }
 
   void robotsThatAgreeMakeTheTeamsBall() {
     // The third one sees its ball elsewhere; the fourth has not been heard for long.
-    Heard heard({robotSaying("1 450 300 0 20 100 0 1 1 1 1 1 8 0 165"),
-                 robotSaying("2 450 290 0 20 100 0 1 1 1 1 1 8 0 165"),
-                 robotSaying("3 100 100 0 20 100 90 1 1 1 1 1 8 0 165"),
-                 robotSaying("4 450 300 0 20 100 0 1 1 1 1 1 8 0 165")});
-    heard.team.robots[3].timedOut = true;
-    const MatchFrame frame = heard.frame();
+    Received received({robotSaying("1 450 300 0 20 100 0 1 1 1 1 1 8 0 165"),
+                       robotSaying("2 450 290 0 20 100 0 1 1 1 1 1 8 0 165"),
+                       robotSaying("3 100 100 0 20 100 90 1 1 1 1 1 8 0 165"),
+                       robotSaying("4 450 300 0 20 100 0 1 1 1 1 1 8 0 165")});
+    received.team.robots[3].timedOut = true;
+    const MatchFrame frame = received.frame();
     QCOMPARE(frame.teamBalls.size(), std::size_t{1});
     QCOMPARE(frame.teamBalls[0].agree, 2);
     QCOMPARE(frame.teamBalls[0].see, 3);
@@ -240,7 +240,7 @@ class TestLiveFrame : public QObject {
   }
 
   void aBlackboardAndAMessageOfTheSameAreSeenAlike() {
-    RobotFrame said = Heard({robotSaying("3 " + atTheCentre)}).frame().robots.at(0);
+    RobotFrame said = Received({robotSaying("3 " + atTheCentre)}).frame().robots.at(0);
     const std::map<std::string, double> variables{
         {"LOCALIZATION_X", 450},      {"LOCALIZATION_Y", 300},   {"LOCALIZATION_THETA", 0},
         {"LOCALIZATION_RBT01_X", 20}, {"VISION_BALL_DIST", 100}, {"VISION_PAN_DEG", 90},
@@ -301,7 +301,7 @@ class TestLiveFrame : public QObject {
   void aCentimetreIsNotCutOff() {
     RobotStatus status = robotSaying("4 " + atTheCentre);
     status.values[1] = 450.75;
-    const MatchFrame frame = Heard({status}).frame();
+    const MatchFrame frame = Received({status}).frame();
     QVERIFY(std::abs(frame.robots.at(0).pose.position.x - 0.0075) < 1e-9);
   }
 
@@ -309,37 +309,37 @@ class TestLiveFrame : public QObject {
     RobotStatus first = robotSaying("3 " + atTheCentre);
     RobotStatus second = first;
     second.key.sender = 1;
-    Heard heard({first, second});
-    const MatchFrame frame = heard.frame();
-    QCOMPARE(frame.robots[0].key, heardAs(3));
-    QCOMPARE(frame.robots[1].key, heardAs(3, 1));
+    Received received({first, second});
+    const MatchFrame frame = received.frame();
+    QCOMPARE(frame.robots[0].key, receivedAs(3));
+    QCOMPARE(frame.robots[1].key, receivedAs(3, 1));
     QCOMPARE(frame.robots[1].identity.number, 3);
     // It keeps its key, whoever else is there.
-    heard.team.robots = {second};
-    QCOMPARE(heard.frame().robots.at(0).key, heardAs(3, 1));
+    received.team.robots = {second};
+    QCOMPARE(received.frame().robots.at(0).key, receivedAs(3, 1));
   }
 
   void teamsHaveTheNamesOfTheirSetups() {
-    Heard heard({});
-    telemetry::TeamSetup& setup = heard.options.team.teams.emplace_back();
+    Received received({});
+    telemetry::TeamSetup& setup = received.options.team.teams.emplace_back();
     setup.name = "RoboFEI";
     setup.number = 6;
-    QVERIFY(heard.referee.accept(stateOfGame(), {{1}, 3838}, start));
-    const MatchFrame frame = heard.frame();
+    QVERIFY(received.referee.accept(stateOfGame(), {{1}, 3838}, start));
+    const MatchFrame frame = received.frame();
     QCOMPARE(frame.referee->teams[0].name, std::string());
     QCOMPARE(frame.referee->teams[1].name, std::string("RoboFEI"));
   }
 
   void theRefereeGivesColourScoreAndPenalties() {
-    Heard heard({robotSaying("2 " + atTheCentre)});
-    heard.options.ourTeam = 6;
-    heard.options.colour = TeamColor::Yellow;
+    Received received({robotSaying("2 " + atTheCentre)});
+    received.options.ourTeam = 6;
+    received.options.colour = TeamColor::Yellow;
     RefereeState state = stateOfGame();
     state.teams[1].allSlots[1].penalty = 1;
     state.teams[1].allSlots[1].secondsLeft = 30;
-    QVERIFY(heard.referee.accept(state, {{1}, 3838}, start));
-    heard.team.time = start + 2s;
-    const MatchFrame frame = heard.frame();
+    QVERIFY(received.referee.accept(state, {{1}, 3838}, start));
+    received.team.time = start + 2s;
+    const MatchFrame frame = received.frame();
     QVERIFY(frame.referee);
     QCOMPARE(frame.referee->ourTeam, 6);
     QCOMPARE(frame.referee->age, 2.0);
@@ -351,19 +351,19 @@ class TestLiveFrame : public QObject {
     QVERIFY(frame.robots[0].penalty);
     QCOMPARE(frame.robots[0].penalty->secondsLeft, 30);
     // A number that does not play: the colour that the user chose, and nobody's penalty.
-    heard.options.ourTeam = 9;
-    const MatchFrame other = heard.frame();
+    received.options.ourTeam = 9;
+    const MatchFrame other = received.frame();
     QCOMPARE(other.referee->ourTeam, 0);
     QVERIFY(other.robots.at(0).identity.team == TeamColor::Yellow);
     QVERIFY(!other.robots[0].penalty);
     // Ten seconds without a word: the state is shown, the clock is not said to run.
-    heard.team.time = start + 11s;
-    const MatchFrame late = heard.frame();
+    received.team.time = start + 11s;
+    const MatchFrame late = received.frame();
     QVERIFY(late.referee->timedOut && !late.snapshot.clockRunning);
   }
 
   void substitutesThatCameInAreCounted() {
-    Heard heard({});
+    Received received({});
     RefereeState state = stateOfGame();
     state.playersPerTeam = 3;
     // Player 1 was taken out for player 4; player 2 sits 20 s for pushing.
@@ -371,8 +371,8 @@ class TestLiveFrame : public QObject {
     state.teams[0].allSlots[1].penalty = 31;
     state.teams[0].allSlots[1].secondsLeft = 20;
     state.teams[0].allSlots[1].yellow = 1;
-    QVERIFY(heard.referee.accept(state, {{1}, 3838}, start));
-    const RefereeTeamView team = heard.frame().referee->teams[0];
+    QVERIFY(received.referee.accept(state, {{1}, 3838}, start));
+    const RefereeTeamView team = received.frame().referee->teams[0];
     QCOMPARE(team.playersLeft, 2);
     QCOMPARE(team.players.size(), std::size_t{3});
     QCOMPARE(team.players[0].number, 2);
@@ -420,9 +420,9 @@ class TestLiveFrame : public QObject {
     QFETCH(QString, countdown);
     const auto decoded = telemetry::decodeReferee(recordedPacket(file));
     QVERIFY(decoded);
-    Heard heard({});
-    QVERIFY(heard.referee.accept(std::get<RefereeState>(*decoded), {{1}, 3838}, start));
-    const RefereeView view = *heard.frame().referee;
+    Received received({});
+    QVERIFY(received.referee.accept(std::get<RefereeState>(*decoded), {{1}, 3838}, start));
+    const RefereeView view = *received.frame().referee;
     QCOMPARE(QString::fromStdString(view.setPlay), setPlay);
     QCOMPARE(view.performingTeam.value_or(0), team);
     QCOMPARE(QString::fromStdString(view.setPlayStep), step);
@@ -467,10 +467,10 @@ class TestLiveFrame : public QObject {
             telemetry::encodeReferee(refereePacket(match.simulation().state(), 1, true)).value();
       });
       QVERIFY(runner->waitUntilStill(60s));
-      Heard heard({});
+      Received received({});
       const auto packet = telemetry::decodeReferee(std::string_view(bytes)).value();
-      QVERIFY(heard.referee.accept(std::get<RefereeState>(packet), {{1}, 3838}, start));
-      const MatchFrame live = heard.frame(), simulated = *runner->latest();
+      QVERIFY(received.referee.accept(std::get<RefereeState>(packet), {{1}, 3838}, start));
+      const MatchFrame live = received.frame(), simulated = *runner->latest();
       RecordedFrames frames;
       const MatchFrame recorded = frames.frameAt(store, static_cast<double>(tick) / 60.0);
       QCOMPARE(textOf(*simulated.referee), textOf(*live.referee));
@@ -506,14 +506,14 @@ class TestLiveFrame : public QObject {
   }
 
   void monitorModeShowsWhatReallyHappens() {
-    Heard heard({});
+    Received received({});
     RefereeState hidden = stateOfGame();
     hidden.state = 2;
-    QVERIFY(heard.referee.accept(hidden, {{1}, 3838}, start));
+    QVERIFY(received.referee.accept(hidden, {{1}, 3838}, start));
     RefereeState truth = stateOfGame();
     truth.magic = {'R', 'G', 'T', 'D'};
     truth.secsRemaining = 318;
-    QVERIFY(!heard.referee.accept(truth, {{1}, 3838}, start + 1s));
+    QVERIFY(!received.referee.accept(truth, {{1}, 3838}, start + 1s));
     telemetry::RobotReply reply;
     reply.version = 4;
     reply.team = 6;
@@ -521,9 +521,9 @@ class TestLiveFrame : public QObject {
     reply.fallen = 1;
     reply.pose = {1500.0F, -2000.0F, 0.5F};
     reply.ballAge = -1.0F;
-    heard.referee.accept(reply, {0x0a000007}, start + 1s);
-    heard.team.time = start + 3s;
-    const RefereeView view = *heard.frame().referee;
+    received.referee.accept(reply, {0x0a000007}, start + 1s);
+    received.team.time = start + 3s;
+    const RefereeView view = *received.frame().referee;
     QCOMPARE(view.state, std::string("SET"));
     QVERIFY(view.truth);
     QCOMPARE(view.truth->state, std::string("PLAYING"));
@@ -537,10 +537,10 @@ class TestLiveFrame : public QObject {
   }
 
   void coloursByNumber() {
-    Heard heard({robotSaying("1 " + atTheCentre), robotSaying("2 " + atTheCentre),
-                 robotSaying("6 " + atTheCentre)});
-    heard.options.colourByNumber = true;
-    const MatchFrame frame = heard.frame();
+    Received received({robotSaying("1 " + atTheCentre), robotSaying("2 " + atTheCentre),
+                       robotSaying("6 " + atTheCentre)});
+    received.options.colourByNumber = true;
+    const MatchFrame frame = received.frame();
     QVERIFY(frame.robots[0].identity.team == teamColors[0].color);
     QVERIFY(frame.robots[1].identity.team == teamColors[1].color);
     QVERIFY(frame.robots[2].identity.team == teamColors[0].color);

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <set>
 
-#include <robotlink/live/live_books.h>
+#include <robotlink/live/live_state.h>
 #include <robotlink/report/report.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/recorded_frame.h>
@@ -36,7 +36,7 @@ class Screen : public LiveObserver {
     MatchFrame frame;
     std::size_t datagrams;
   };
-  void heard(const LiveDatagram& datagram) override { note(datagram.time); }
+  void received(const LiveDatagram& datagram) override { note(datagram.time); }
   void frameMade(const MatchFrame& frame) override {
     const std::lock_guard lock(m_mutex);
     m_seen.push_back({frame, m_times.size()});
@@ -121,7 +121,7 @@ class TestLiveReplay : public QObject {
     watch.observe(m_screen);
 
     std::size_t sent = 0;
-    const auto heard = [&] { return m_screen->taken() == sent; };
+    const auto received = [&] { return m_screen->taken() == sent; };
     const char* const packets[] = {"v12hl640_2017.3_INITIAL", "v12hl640_2017.3_PENALISED"};
     for (int step = 1; step <= 8; ++step) {
       QVERIFY(robot1.send(port(1), message(1, step)));
@@ -143,7 +143,7 @@ class TestLiveReplay : public QObject {
         options.colour = TeamColor::Yellow;
         watch.setOptions(options);
       }
-      QTRY_VERIFY(heard());
+      QTRY_VERIFY(received());
       // A frame of what has just come, and one of some time later.
       const std::size_t seen = m_screen->frames().size();
       QTRY_VERIFY(m_screen->frames().size() >= seen + 2);
@@ -221,7 +221,7 @@ class TestLiveReplay : public QObject {
     }
     RecentPast past;
     past.rows = &rows;
-    past.heard = m_memory.get();
+    past.received = m_memory.get();
     const std::string path = m_folder.filePath("last.mcap").toStdString();
     const auto saved = saveRecent(path, end - middle.snapshot.time, past,
                                   liveSessionInfo({}, telemetry::WallTime{}, "test"));
@@ -332,20 +332,21 @@ class TestLiveReplay : public QObject {
     QVERIFY(session);
     std::set<MatchEventKind> kinds;
     for (const MatchEvent& event : eventsOf(*session)) kinds.insert(event.kind);
-    for (const MatchEventKind kind : {MatchEventKind::BatteryLow, MatchEventKind::Penalised,
-                                      MatchEventKind::SecondSender, MatchEventKind::RefereeHeard}) {
+    for (const MatchEventKind kind :
+         {MatchEventKind::BatteryLow, MatchEventKind::Penalised, MatchEventKind::SecondSender,
+          MatchEventKind::RefereeReceived}) {
       QVERIFY2(kinds.contains(kind), std::string(info(kind).name).c_str());
     }
   }
 
   void whatIsNoStateIsRefused() {
-    for (const char* bad : {"", "[1]", "{\"options\":{}}"}) QVERIFY(!LiveBooks::read(bad, {}));
+    for (const char* bad : {"", "[1]", "{\"options\":{}}"}) QVERIFY(!LiveState::read(bad, {}));
     // Every kind of value where another one should be: read as far as it makes sense.
     const char* const odd =
         "{\"options\":{\"profile\":7,\"battery\":[]},\"ids\":[3,{\"number\":\"x\"}],"
         "\"referee\":[{},{\"base64\":\"?\"}],\"robots\":\"{\\\"robots\\\":[7,{\\\"arrivals\\\":{},"
         "\\\"values\\\":[null,\\\"x\\\"],\\\"last\\\":1e300}]}\"}";
-    QVERIFY(LiveBooks::read(odd, {}));
+    QVERIFY(LiveState::read(odd, {}));
   }
 };
 

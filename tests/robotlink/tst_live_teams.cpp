@@ -3,7 +3,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include <robotlink/live/live_books.h>
+#include <robotlink/live/live_state.h>
 #include <robotlink/live/live_teams.h>
 #include <telemetry/series/series_store.h>
 
@@ -138,20 +138,20 @@ class TestLiveTeams : public QObject {
 
   void aSetupAppliedInMidMatchRenamesInPlace() {
     LiveOptions options;
-    LiveBooks books(options);
-    TeamMonitor& monitor = books.monitor;
+    LiveState state(options);
+    TeamMonitor& monitor = state.monitor;
     auto store = std::make_shared<SeriesStore>();
     LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
     const auto say = [&](int second, const char* address) {
       DatagramView datagram = from(address, 1243, words);
       datagram.time += std::chrono::seconds(second);
-      QCOMPARE(books.takeRobot(datagram, second), TeamMonitor::Verdict::Used);
+      QCOMPARE(state.takeRobot(datagram, second), TeamMonitor::Verdict::Used);
       rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), monitor.renamings());
       rows.take(datagram, monitor.decoded(), monitor.decoder(), monitor.used());
     };
     const auto apply = [&](std::vector<TeamSetup> teams) {
       options.team.teams = std::move(teams);
-      books.setTeams(monitorOptions(options));
+      state.setTeams(monitorOptions(options));
       rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), monitor.renamings());
     };
     const auto theOnlyOne = [&](int second) {
@@ -159,7 +159,7 @@ class TestLiveTeams : public QObject {
       return robots.size() == 1 ? robots[0].key : RobotKey{};
     };
     say(1, "10.0.0.3");
-    QVERIFY(books.drawings.take("PBD1 3\nlayer plan 5\npoint 0 0", 1.0));
+    QVERIFY(state.drawings.take("PBD1 3\nlayer plan 5\npoint 0 0", 1.0));
     const auto group = store->findGroup("Robot 3");
     QVERIFY(group);
     const TeamSetup ours = setupOf(R"({"colour": "blue", "senders": ["10.0.0.0/24"]})");
@@ -167,7 +167,7 @@ class TestLiveTeams : public QObject {
     apply({ours, guests});
     say(2, "10.0.0.3");
     QCOMPARE(theOnlyOne(2), (RobotKey{1, 3, 0}));
-    QCOMPARE(books.drawings.at(2.0).at(0).robot, (RobotKey{1, 3, 0}));
+    QCOMPARE(state.drawings.at(2.0).at(0).robot, (RobotKey{1, 3, 0}));
     QCOMPARE(store->findGroup("B3"), group);
     QVERIFY(!store->findGroup("Robot 3"));
     QCOMPARE(store->view(*group)->rows(), std::size_t(2));
@@ -233,8 +233,8 @@ class TestLiveTeams : public QObject {
 
   void booksKeepTheSetups() {
     const LiveOptions options = twoTeams();
-    const LiveBooks books(options);
-    const auto read = LiveBooks::read(books.text(options, 1.0, start), start);
+    const LiveState state(options);
+    const auto read = LiveState::read(state.text(options, 1.0, start), start);
     QVERIFY2(read, read ? "" : read.error().text().c_str());
     QVERIFY(read->options.team.teams == options.team.teams);
   }
@@ -243,15 +243,15 @@ class TestLiveTeams : public QObject {
   void booksKnowHowEachTeamWrites() {
     const LiveOptions options = twoTeams();
     for (const bool oursLast : {false, true}) {
-      LiveBooks books(options);
-      if (!oursLast) books.monitor.take(from("10.0.0.3", 1243, words));
-      books.monitor.take(from("10.0.1.3", 12003, lua));
-      if (oursLast) books.monitor.take(from("10.0.0.3", 1243, words));
-      const std::string text = books.text(options, 1.0, start);
-      const auto read = LiveBooks::read(text, start);
+      LiveState state(options);
+      if (!oursLast) state.monitor.take(from("10.0.0.3", 1243, words));
+      state.monitor.take(from("10.0.1.3", 12003, lua));
+      if (oursLast) state.monitor.take(from("10.0.0.3", 1243, words));
+      const std::string text = state.text(options, 1.0, start);
+      const auto read = LiveState::read(text, start);
       QVERIFY2(read, read ? "" : read.error().text().c_str());
-      QCOMPARE(read->books.text(read->options, 1.0, start), text);
-      const TeamStatus team = read->books.monitor.status(start);
+      QCOMPARE(read->state.text(read->options, 1.0, start), text);
+      const TeamStatus team = read->state.monitor.status(start);
       QCOMPARE(team.robots.size(), std::size_t(2));
       QCOMPARE(team.robots[0].value(FieldMeaning::X), std::optional(450.0));
       QCOMPARE(team.robots[1].value(FieldMeaning::X), std::optional(600.0));

@@ -43,7 +43,7 @@ std::size_t bound(const LiveWatch& watch) {
 /// Counts what the watch's thread tells.
 class Witness : public LiveObserver {
  public:
-  void heard(const LiveDatagram& datagram) override {
+  void received(const LiveDatagram& datagram) override {
     if (datagram.state() != nullptr) {
       ++referee;
     } else if (datagram.verdict == LiveDatagram::Verdict::Used) {
@@ -167,7 +167,7 @@ class TestLiveWatch : public QObject {
     QCOMPARE(rowsOf(*gone, "Robot 2"), std::size_t{1});
   }
 
-  void theRefereeIsHeard() {
+  void theRefereeIsReceived() {
     const LiveOptions options = freeOptions();
     LiveWatch watch(options);
     const auto witness = std::make_shared<Witness>();
@@ -338,7 +338,7 @@ class TestLiveWatch : public QObject {
     // An hour asleep: time went on, for the robots and for the curves.
     events.clear();
     hands->slept = 3600;
-    QTRY_VERIFY(gather(MatchEventKind::RobotSilent));
+    QTRY_VERIFY(gather(MatchEventKind::RobotOffline));
     QVERIFY(say(4));
     QTRY_VERIFY(gather(MatchEventKind::RobotBack));
     QVERIFY(!gather(MatchEventKind::ClockSet));
@@ -359,12 +359,12 @@ class TestLiveWatch : public QObject {
     QTRY_COMPARE(bound(watch), std::size_t{4});
     QVERIFY(robot.send(portOf(options, 1), message(1)));
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
-    QVERIFY(!referee.heard());
+    QVERIFY(!referee.received());
     options.monitor = telemetry::Address{INADDR_LOOPBACK};
     watch.setOptions(options);
-    QTRY_VERIFY(referee.heard());
+    QTRY_VERIFY(referee.received());
     QCOMPARE(watch.details().monitorProblem, std::string());
-    QVERIFY(!robot.heard());
+    QVERIFY(!robot.received());
   }
 
   void itEndsWhileAFloodGoesOn() {

@@ -299,9 +299,9 @@ class TestMapExtension : public QObject {
     p.process->step(p.board, {0.1});
     QVERIFY(p.board.read(v.decisionActionA) != 11);
     QVERIFY(p.pathPoints() >= 1);
-    RobotThoughts thoughts;
-    p.process->tellThoughts(thoughts);
-    QVERIFY(thoughts.path && thoughts.path->points.size() >= 2);
+    CognitionDebug cognitionDebug;
+    p.process->sendDebugData(cognitionDebug);
+    QVERIFY(cognitionDebug.path && cognitionDebug.path->points.size() >= 2);
     p.board.write(v.comReferee, 1);
     decision->step(p.board, {0.2});
     QCOMPARE(p.board.read(v.decisionActionA), 0);

@@ -53,7 +53,7 @@ void play(SimulatedMatch& match, double seconds) {
 }
 
 /// Packets by version, since the last time.
-std::map<int, int> heardBy(const TestSocket& ear) {
+std::map<int, int> receivedBy(const TestSocket& ear) {
   std::map<int, int> versions;
   for (std::string text = ear.take(); !text.empty(); text = ear.take()) {
     const auto packet = telemetry::decodeReferee(text);
@@ -101,16 +101,17 @@ class TestMatchPackets : public QObject {
     const TestSocket ear(loopbackBroadcast);
     QVERIFY(ear.good());
     SimulatedMatch match = sending(version, size, ear.port());
-    (void)heardBy(ear);  // what was sent before the first tick
+    (void)receivedBy(ear);  // what was sent before the first tick
     play(match, 10.0);
     std::map<int, int> wanted{{version, 20}};
     // The controllers of 2014 to 2016 send one of version 7 behind each of theirs.
     if (version == 8 || version == 9) wanted[7] = 20;
-    std::map<int, int> heard = heardBy(ear);
+    std::map<int, int> received = receivedBy(ear);
     for (const auto& [which, count] : wanted) {
-      QVERIFY2(std::abs(heard[which] - count) <= 1, qPrintable(QString::number(heard[which])));
+      QVERIFY2(std::abs(received[which] - count) <= 1,
+               qPrintable(QString::number(received[which])));
     }
-    QCOMPARE(heard.size(), wanted.size());
+    QCOMPARE(received.size(), wanted.size());
     if (!humanoidSoccer(version)) return;
     // When play is stopped they say so at once, and then five times a second for a second.
     QVERIFY(
@@ -119,16 +120,16 @@ class TestMatchPackets : public QObject {
     QVERIFY(
         match.simulation().call({.kind = sim::CallKind::State, .state = sim::PlayState::Playing}));
     play(match, 20.0);
-    (void)heardBy(ear);
+    (void)receivedBy(ear);
     QVERIFY(match.simulation().call({.kind = sim::CallKind::Stop}));
     match.tick();
-    QVERIFY(heardBy(ear)[version] >= 1);
+    QVERIFY(receivedBy(ear)[version] >= 1);
     play(match, 1.1);
-    heard = heardBy(ear);
-    QVERIFY2(heard[version] >= 5 && heard[version] <= 8,
-             qPrintable(QString::number(heard[version])));
+    received = receivedBy(ear);
+    QVERIFY2(received[version] >= 5 && received[version] <= 8,
+             qPrintable(QString::number(received[version])));
     play(match, 5.0);
-    QVERIFY(std::abs(heardBy(ear)[version] - 10) <= 1);
+    QVERIFY(std::abs(receivedBy(ear)[version] - 10) <= 1);
   }
 
   void teamsOfAnyColourNumberAndShirt_data() {
@@ -157,7 +158,7 @@ class TestMatchPackets : public QObject {
     const sim::WorldState& world = match.simulation().state();
     const auto word = [&] { return match.blackboard(ours)->read(match.variables().comReferee); };
     // What a robot of team 12 hears, whose communication process nobody has changed.
-    const auto heard = [&] {
+    const auto received = [&] {
       const auto bytes = telemetry::encodeReferee(refereePacket(world, 1)).value();
       const auto packet = telemetry::decodeReferee(std::string_view(bytes)).value();
       return RefereeOrders().take(std::get<telemetry::RefereeState>(packet), 12,
@@ -166,7 +167,7 @@ class TestMatchPackets : public QObject {
     const auto call = [&](const sim::RefereeCall& one) {
       QVERIFY(match.simulation().call(one));
       play(match, 0.6);
-      QCOMPARE(heard().value_or(-1), word());
+      QCOMPARE(received().value_or(-1), word());
     };
     QCOMPARE(world.game->teams[1].number, 12);
     call({.kind = sim::CallKind::State, .state = sim::PlayState::Ready});

@@ -237,7 +237,7 @@ class TestMatchRunner : public QObject {
 
   void aMatchThatCannotBeMadeSaysWhy() {
     MatchOptions options;
-    options.cognition = Cognition::External;
+    options.cognition = Cognition::Separate;
     const auto runner = MatchRunner::start(builtIn("one-robot"), options);
     QVERIFY(!runner);
     QVERIFY(runner.error().message.find("pitchboard-robot") != std::string::npos);

@@ -40,7 +40,7 @@ class TestRecordedLive : public QObject {
     telemetry::DatagramView packet;
     packet.payload = std::string_view("RGme\0\xff", 6);
     const Result<telemetry::RefereePacket> state = telemetry::RefereeState{};
-    recorder->heard({.time = 2.0, .view = packet, .teams = {}, .referee = &state});
+    recorder->received({.time = 2.0, .view = packet, .teams = {}, .referee = &state});
     MatchFrame frame;
     frame.snapshot.time = 2.0;
     frame.referee.emplace();
@@ -99,9 +99,9 @@ class TestRecordedLive : public QObject {
           "1 4" + std::to_string(second) + "0 300 90 12 80 10 1 1 1 1 1 8 0 189 OUT";
       const telemetry::DatagramView datagram{
           zero + std::chrono::seconds(second), {{0x7f000001}, 5000}, 1241, false, text};
-      recorder->heard({.time = static_cast<double>(second), .view = datagram, .teams = {}});
+      recorder->received({.time = static_cast<double>(second), .view = datagram, .teams = {}});
     }
-    recorder->remembered(3.5, LiveBooks(live).text(live, 3.5, zero));
+    recorder->remembered(3.5, LiveState(live).text(live, 3.5, zero));
     QVERIFY(recorder->finish());
     const auto session = telemetry::SessionReader::open(path).value();
     RecordedFrames frames(backdropOf(session));

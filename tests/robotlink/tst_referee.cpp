@@ -55,11 +55,11 @@ void play(Game& game, const std::vector<Step>& steps) {
     // What robots get: through the bytes.
     const auto bytes = telemetry::encodeReferee(sent);
     QVERIFY2(bytes, bytes ? "" : bytes.error().text().c_str());
-    const auto heard = std::get<telemetry::RefereeState>(*telemetry::decodeReferee(*bytes));
-    QCOMPARE(QString("%1 s: ").arg(step.time) + written(heard),
+    const auto received = std::get<telemetry::RefereeState>(*telemetry::decodeReferee(*bytes));
+    QCOMPARE(QString("%1 s: ").arg(step.time) + written(received),
              QString("%1 s: ").arg(step.time) + step.packet);
-    if (step.player) QCOMPARE(third(heard), QString(step.player));
-    QCOMPARE(heard.teams[0].number, step.leftIsTeam2 ? 2 : 1);
+    if (step.player) QCOMPARE(third(received), QString(step.player));
+    QCOMPARE(received.teams[0].number, step.leftIsTeam2 ? 2 : 1);
   }
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 MatchOptions separate() {
   MatchOptions options;
-  options.cognition = Cognition::External;
+  options.cognition = Cognition::Separate;
   options.keyBase = testKeyBase();
   options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
   return options;

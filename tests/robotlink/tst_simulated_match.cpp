@@ -203,7 +203,7 @@ class TestSimulatedMatch : public QObject {
   }
 
   void aProgramThatCannotBeStartedLeavesNothingBehind() {
-    const MatchOptions options = shared(Cognition::External);
+    const MatchOptions options = shared(Cognition::Separate);
     const auto match = SimulatedMatch::create(builtIn("one-robot"), options);
     QVERIFY(!match);
     QVERIFY2(match.error().text().find("false-pitchboard") != std::string::npos,

@@ -296,11 +296,11 @@ class TestStateArchive : public QObject {
     std::vector<std::uint64_t> ticks{0, 199, 200, 201, 333, 334, range->last};
     for (int i = 0; i < 150; ++i) ticks.push_back(random() % (range->last + 1));
     for (const std::uint64_t tick : ticks) {
-      const auto state = archive->reenter(tick);
+      const auto state = archive->restore(tick);
       QVERIFY2(state, state ? "" : state.error().text().c_str());
       QVERIFY2(sim::stateHash(*state) == log->hashes.at(tick), qPrintable(QString::number(tick)));
     }
-    QCOMPARE(archive->reenter(range->last + 1).error().code, ErrorCode::NotFound);
+    QCOMPARE(archive->restore(range->last + 1).error().code, ErrorCode::NotFound);
   }
 
   void aMatchPutBackForgetsWhatCameAfter() {
@@ -311,7 +311,7 @@ class TestStateArchive : public QObject {
                       .value();
     runner->runTo(700);
     QVERIFY(runner->waitUntilStill(60s));
-    const auto moment = archive->reenter(250).value();
+    const auto moment = archive->restore(250).value();
     bool restored = false;
     runner->execute([&](SimulatedMatch& m) {
       restored = m.simulation().restore(moment).has_value();
@@ -327,7 +327,7 @@ class TestStateArchive : public QObject {
     QVERIFY(runner->waitUntilStill(60s));
     QCOMPARE(archive->range()->last, std::uint64_t{400});
     for (const std::uint64_t tick : {0U, 249U, 250U, 251U, 399U, 400U}) {
-      QCOMPARE(sim::stateHash(archive->reenter(tick).value()), log->hashes.at(tick));
+      QCOMPARE(sim::stateHash(archive->restore(tick).value()), log->hashes.at(tick));
     }
   }
 
@@ -344,8 +344,8 @@ class TestStateArchive : public QObject {
       QVERIFY(archive.memoryBytes() < 25'000);
     }
     QVERIFY(archive.range()->first > 4800);
-    QCOMPARE(archive.reenter(10).error().code, ErrorCode::NotFound);
-    QCOMPARE(sim::stateHash(archive.reenter(6000).value()), match.simulation().hash());
+    QCOMPARE(archive.restore(10).error().code, ErrorCode::NotFound);
+    QCOMPARE(sim::stateHash(archive.restore(6000).value()), match.simulation().hash());
   }
 
   void segmentsSurviveAFile() {

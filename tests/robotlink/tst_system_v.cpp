@@ -27,8 +27,8 @@ class TestSystemV : public QObject {
       return "failed: " + process.readAllStandardError();
     return process.readAllStandardOutput().trimmed();
   }
-  void startUser(QProcess& other, const QString& deed) {
-    other.start(QStringLiteral(SEGMENT_USER), {deed, QString::number(m_key)});
+  void startUser(QProcess& other, const QString& action) {
+    other.start(QStringLiteral(SEGMENT_USER), {action, QString::number(m_key)});
   }
   QString refusal(AttachMode mode) {
     const auto board = SystemVSegments::open(m_key, mode);

@@ -100,13 +100,13 @@ class TestTeamChannel : public QObject {
     auto other = makeUdpTeamChannel("127.0.0.1", team == 99 ? 40 : team + 1);
     QVERIFY2(one && two && other, one ? "" : one.error().text().c_str());
     (*one)->post(RobotId{1}, "hello");
-    std::vector<std::string> heard;
+    std::vector<std::string> received;
     const auto listen = [&] {  // QTRY_VERIFY asks once more after the answer was yes
-      for (std::string& text : (*two)->take(RobotId{2})) heard.push_back(std::move(text));
-      return !heard.empty();
+      for (std::string& text : (*two)->take(RobotId{2})) received.push_back(std::move(text));
+      return !received.empty();
     };
     QTRY_VERIFY(listen());
-    QCOMPARE(heard, (std::vector<std::string>{"hello"}));
+    QCOMPARE(received, (std::vector<std::string>{"hello"}));
     QVERIFY((*one)->take(RobotId{1}).empty());  // not its own words
     QVERIFY((*other)->take(RobotId{3}).empty());
   }

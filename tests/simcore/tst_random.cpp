@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <base/many_draws.h>
 #include <base/random.h>
+#include <base/random_batch.h>
 
 #include <QtTest>
 #include <cmath>
@@ -81,8 +81,8 @@ class TestRandom : public QObject {
   }
 
   // Whatever is drawn in which order, and however many robots there are.
-  void manyDrawsAreTheDrawsOfEach() {
-    ManyDraws many;
+  void aBatchIsTheDrawsOfEach() {
+    RandomBatch many;
     for (int robots = 1; robots <= 22; ++robots) {
       std::vector<int> numbers;
       for (int i = 0; i < robots; ++i) numbers.push_back(3 * i + 1);

@@ -15,7 +15,7 @@ constexpr RobotKey red(int number) {
   return {2, number, 0};
 }
 /// A live robot whose team nobody knows.
-constexpr RobotKey heardAs(int number, int sender = 0) {
+constexpr RobotKey receivedAs(int number, int sender = 0) {
   return {0, number, sender};
 }
 

@@ -70,19 +70,19 @@ int writeReadOnly(int key) {
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
-  const std::string_view deed = argv[1];
+  const std::string_view action = argv[1];
   const int key = std::atoi(argv[2]);
-  if (deed == "hold") {
+  if (action == "hold") {
     const auto board = SystemVSegments::open(key, AttachMode::AttachOrCreate);
     return sayAndStay(board.has_value());
   }
-  if (deed == "claim") {
+  if (action == "claim") {
     const auto claim = BridgeClaim::take(key);
     return sayAndStay(claim.has_value());
   }
-  if (deed == "leave") return shmget(key, 2048, IPC_CREAT | IPC_EXCL | 0600) < 0 ? 1 : 0;
-  if (deed == "write") return writeReadOnly(key);
-  if (deed == "count") count(key);
-  if (deed == "fork") return forkAndDestroy(key);
+  if (action == "leave") return shmget(key, 2048, IPC_CREAT | IPC_EXCL | 0600) < 0 ? 1 : 0;
+  if (action == "write") return writeReadOnly(key);
+  if (action == "count") count(key);
+  if (action == "fork") return forkAndDestroy(key);
   return 2;
 }

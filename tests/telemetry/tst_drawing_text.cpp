@@ -3,24 +3,24 @@
 
 #include <QtTest>
 
-#include <telemetry/wire/drawing_book.h>
+#include <telemetry/wire/drawing_store.h>
 #include <telemetry/wire/text_protocol.h>
 
 namespace tst_drawing_text {
 
 using namespace pitchboard;
-using telemetry::DrawingBook;
 using telemetry::DrawingFrame;
 using telemetry::DrawingLayer;
 using telemetry::DrawingShape;
+using telemetry::DrawingStore;
 using telemetry::parseDrawing;
 using telemetry::ShapeKind;
 
 namespace {
 
-std::size_t layersOf(const DrawingBook& book, double time) {
+std::size_t layersOf(const DrawingStore& store, double time) {
   std::size_t count = 0;
-  for (const auto& robot : book.at(time)) count += robot.layers.size();
+  for (const auto& robot : store.at(time)) count += robot.layers.size();
   return count;
 }
 
@@ -148,57 +148,57 @@ class TestDrawingText : public QObject {
   }
 
   void aLayerIsReplacedAddedToAndGoes() {
-    DrawingBook book;
-    QVERIFY(book.take("PBD1 1\nlayer a\npoint 0 0\nlayer b field 3\npoint 1 1", 10.0));
-    QVERIFY(book.take("PBD1 2\nlayer a\npoint 5 5", 10.2, 2));
-    QCOMPARE(layersOf(book, 9.9), std::size_t{0});
-    QCOMPARE(layersOf(book, 10.0), std::size_t{2});
-    QCOMPARE(layersOf(book, 10.5), std::size_t{3});
-    QVERIFY((book.at(10.5).back().robot == RobotKey{2, 2}));
-    QVERIFY(book.take("PBD1 1\nmore a\npoint 2 2", 10.5));
-    QCOMPARE(book.at(10.6).front().layers.front()->shapes.size(), std::size_t{2});
-    QVERIFY(book.take("PBD1 1\nlayer a\npoint 3 3", 10.7));
-    const auto now = book.at(10.8).front().layers.front();
+    DrawingStore store;
+    QVERIFY(store.take("PBD1 1\nlayer a\npoint 0 0\nlayer b field 3\npoint 1 1", 10.0));
+    QVERIFY(store.take("PBD1 2\nlayer a\npoint 5 5", 10.2, 2));
+    QCOMPARE(layersOf(store, 9.9), std::size_t{0});
+    QCOMPARE(layersOf(store, 10.0), std::size_t{2});
+    QCOMPARE(layersOf(store, 10.5), std::size_t{3});
+    QVERIFY((store.at(10.5).back().robot == RobotKey{2, 2}));
+    QVERIFY(store.take("PBD1 1\nmore a\npoint 2 2", 10.5));
+    QCOMPARE(store.at(10.6).front().layers.front()->shapes.size(), std::size_t{2});
+    QVERIFY(store.take("PBD1 1\nlayer a\npoint 3 3", 10.7));
+    const auto now = store.at(10.8).front().layers.front();
     QCOMPARE(now->shapes.size(), std::size_t{1});
     QVERIFY((now->shapes[0].points == std::vector<Point>{{3, 3}}));
-    QCOMPARE(layersOf(book, 11.7), std::size_t{1});  // b has three seconds
-    QCOMPARE(layersOf(book, 13.0), std::size_t{0});
-    QVERIFY(book.take("PBD1 1\nlayer b", 11.0));
-    QCOMPARE(layersOf(book, 11.1), std::size_t{2});
+    QCOMPARE(layersOf(store, 11.7), std::size_t{1});  // b has three seconds
+    QCOMPARE(layersOf(store, 13.0), std::size_t{0});
+    QVERIFY(store.take("PBD1 1\nlayer b", 11.0));
+    QCOMPARE(layersOf(store, 11.1), std::size_t{2});
     // A robot that was put back to an earlier moment draws there.
-    QVERIFY(book.take("PBD1 1\nlayer c\npoint 0 0", 2.0));
-    QCOMPARE(layersOf(book, 2.1), std::size_t{1});
+    QVERIFY(store.take("PBD1 1\nlayer c\npoint 0 0", 2.0));
+    QCOMPARE(layersOf(store, 2.1), std::size_t{1});
   }
 
   void pagesMakeTheBookAgain() {
-    DrawingBook book, copy;
-    QVERIFY(book.take("PBD1 1\nlayer a 5\nline 0 0 0.1 0.3\nlayer b robot 2\ndisc 0 0 1", 1.0));
-    QVERIFY(book.take("PBD1 2\nlayer a belief 3\ncolour blue\ntext 0 0 hello", 1.5, 3));
-    for (const DrawingBook::Page& page : book.pages(2.0))
+    DrawingStore store, copy;
+    QVERIFY(store.take("PBD1 1\nlayer a 5\nline 0 0 0.1 0.3\nlayer b robot 2\ndisc 0 0 1", 1.0));
+    QVERIFY(store.take("PBD1 2\nlayer a belief 3\ncolour blue\ntext 0 0 hello", 1.5, 3));
+    for (const DrawingStore::Page& page : store.pages(2.0))
       QVERIFY(copy.take(page.text, page.time, page.team));
-    for (const double time : {2.0, 2.9, 3.1, 4.6, 6.1}) QVERIFY(copy.at(time) == book.at(time));
+    for (const double time : {2.0, 2.9, 3.1, 4.6, 6.1}) QVERIFY(copy.at(time) == store.at(time));
   }
 
   void aRobotCannotFillTheMemory() {
-    DrawingBook book;
+    DrawingStore store;
     const auto layer = [](int robot, int number, int points) {
       std::string text =
           "PBD1 " + std::to_string(robot) + "\nlayer l" + std::to_string(number) + " 10\nline";
       for (int i = 0; i < points; ++i) text += " 0 0";
       return text;
     };
-    for (int i = 0; i < 5; ++i) QVERIFY(book.take(layer(1, i, 4000), 1.0));
-    QVERIFY(!book.take(layer(1, 6, 2), 1.0));
-    QVERIFY(QString::fromStdString(book.lastProblem()).contains("20000 points"));
-    for (int i = 0; i < 32; ++i) QVERIFY(book.take(layer(2, i, 2), 1.0));
-    QVERIFY(!book.take(layer(2, 33, 2), 1.0));
-    QCOMPARE(layersOf(book, 1.0), std::size_t{37});
-    QVERIFY(!book.take("PBD1 1\nmore l0 10\nline 0 0 1 1", 1.0));
-    for (int robot = 3; robot <= 64; ++robot) QVERIFY(book.take(layer(robot, 1, 2), 1.0));
-    QVERIFY(!book.take(layer(65, 1, 2), 1.0));
-    QCOMPARE(book.refused(), std::uint64_t{4});
+    for (int i = 0; i < 5; ++i) QVERIFY(store.take(layer(1, i, 4000), 1.0));
+    QVERIFY(!store.take(layer(1, 6, 2), 1.0));
+    QVERIFY(QString::fromStdString(store.lastProblem()).contains("20000 points"));
+    for (int i = 0; i < 32; ++i) QVERIFY(store.take(layer(2, i, 2), 1.0));
+    QVERIFY(!store.take(layer(2, 33, 2), 1.0));
+    QCOMPARE(layersOf(store, 1.0), std::size_t{37});
+    QVERIFY(!store.take("PBD1 1\nmore l0 10\nline 0 0 1 1", 1.0));
+    for (int robot = 3; robot <= 64; ++robot) QVERIFY(store.take(layer(robot, 1, 2), 1.0));
+    QVERIFY(!store.take(layer(65, 1, 2), 1.0));
+    QCOMPARE(store.refused(), std::uint64_t{4});
     // What is gone makes room.
-    QVERIFY(book.take(layer(65, 1, 2), 12.0));
+    QVERIFY(store.take(layer(65, 1, 2), 12.0));
   }
 };
 

@@ -179,9 +179,9 @@ class TestTeamMonitor : public QObject {
       QCOMPARE(robot.battery->fraction, 0.25);
       QCOMPARE(robot.battery->volts, 0.0);
       QVERIFY(robot.battery->low);  // as low as 16 V of five cells: 30 %
-      const std::string books = monitor.robotsText(start);
+      const std::string state = monitor.robotsText(start);
       TeamMonitor again(profile, options);
-      QVERIFY(again.restoreRobots(books, start));
+      QVERIFY(again.restoreRobots(state, start));
       QVERIFY(again.status(start).robots.at(0).battery == robot.battery);
       QCOMPARE(give(monitor, unit == std::string("%") ? "3 35" : "3 0.35", start + 1s),
                Verdict::Used);

@@ -169,8 +169,8 @@ class TestUdpReceiver : public QObject {
     }
     QCOMPARE(takeAll(**receiver, 34).size(), std::size_t(34));
     receiver->reset();
-    QVERIFY(!robot.heard());
-    QVERIFY(!referee.heard());
+    QVERIFY(!robot.received());
+    QVERIFY(!referee.received());
   }
 
   /// What cannot be called cannot happen by mistake: of the library's objects only the sender knows
@@ -218,7 +218,7 @@ class TestUdpReceiver : public QObject {
     char bytes[64];
     QCOMPARE(recv(referee.descriptor(), bytes, sizeof bytes, 0), ssize_t(5));
     QCOMPARE(QByteArray(bytes, 5), QByteArray("RGTr\0", 5));
-    QVERIFY(!referee.heard());
+    QVERIFY(!referee.received());
   }
 };
 

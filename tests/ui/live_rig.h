@@ -59,7 +59,7 @@ class Robot {
   }
   bool say() const { return say(message(m_number)); }
   bool say(std::string_view text) const { return m_socket.send(m_port, text); }
-  bool heard() const { return m_socket.heard(); }
+  bool received() const { return m_socket.received(); }
   std::uint16_t port() const { return m_socket.port(); }
 
  private:

@@ -9,9 +9,9 @@
 #include <fstream>
 #include <utility>
 
-#include <base/descriptor.h>
 #include <base/system_reason.h>
 #include <base/try.h>
+#include <base/unique_fd.h>
 #include <robotlink/blackboard/match_number.h>
 #include <robotlink/blackboard/system_v.h>
 
@@ -21,7 +21,7 @@ namespace {
 /// The name of an abstract Unix socket as a lock that cannot outlive its owner: the kernel frees it
 /// whatever happens. Names are shared by all users of the machine, so the user is part of them.
 struct NameLock {
-  Descriptor socket;   ///< holds the name while it is open; empty: somebody else holds it
+  UniqueFd socket;     ///< holds the name while it is open; empty: somebody else holds it
   std::string holder;  ///< "pitchboard, process 123", "this program"; empty: it is just changing
 };
 
@@ -40,13 +40,13 @@ struct Address {
   const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&value); }
 };
 
-Descriptor newSocket() {
-  return Descriptor(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+UniqueFd newSocket() {
+  return UniqueFd(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
 }
 
 // Who listens at the name: 0 when it is nobody (any more), −1 when it cannot be told.
 pid_t holderOf(const Address& address) {
-  const Descriptor client = newSocket();
+  const UniqueFd client = newSocket();
   if (!client) return -1;
   pid_t holder = -1;
   if (connect(client.get(), address.get(), address.length) == 0) {
@@ -77,7 +77,7 @@ Result<NameLock> lockName(const std::string& name, const std::string& context) {
   const Address address(name);
   // The holder may go away between bind and asking who it is; then the name is free.
   for (int attempt = 0; attempt < 8; ++attempt) {
-    Descriptor server = newSocket();
+    UniqueFd server = newSocket();
     if (!server) return refused("socket");
     if (bind(server.get(), address.get(), address.length) == 0) {
       // Listening is what lets the refused one learn who holds the claim.

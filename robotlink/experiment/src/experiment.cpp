@@ -124,12 +124,12 @@ bool hasRobot(const Scenario& scenario, std::string_view name) {
 }
 
 /// Who plays decides how runs are played, and which figures they have.
-void findOwnPrograms(Experiment& e, const JsonObject& root) {
+void findTeamPrograms(Experiment& e, const JsonObject& root) {
   for (const Condition& condition : e.conditions) {
     const auto own = usesTeamPrograms(condition.scenario, e.separateProcesses,
                                       "add \"processes\": \"separate\"");
     if (!own) return root.fail("scenario", "runtime: " + own.error().text());
-    e.ownPrograms = e.ownPrograms || *own;
+    e.teamPrograms = e.teamPrograms || *own;
   }
 }
 
@@ -254,7 +254,7 @@ Result<Experiment> experimentFromJson(std::string_view text, std::string_view so
     if (changes.seed) e.seed = *changes.seed;
     if (makeConditions(e, parts, report)) checkRandom(e, report);
   }
-  if (!report.failed()) findOwnPrograms(e, JsonObject(report, *root, ""));
+  if (!report.failed()) findTeamPrograms(e, JsonObject(report, *root, ""));
   if (!report.failed()) checkWhole(e, JsonObject(report, *root, ""));
   if (report.failed()) return tl::unexpected(report.error());
   Json whole = jsonOf(*root);

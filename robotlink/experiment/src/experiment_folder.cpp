@@ -68,7 +68,7 @@ Result<std::uint64_t> eachResult(const std::string& path, const Experiment& expe
   return offset;
 }
 
-Result<void> writeAll(const Descriptor& into, std::string_view text, const std::string& path) {
+Result<void> writeAll(const UniqueFd& into, std::string_view text, const std::string& path) {
   while (!text.empty()) {
     const ssize_t written = ::write(into.get(), text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
@@ -125,7 +125,7 @@ Result<ExperimentFolder> ExperimentFolder::begin(const std::string& path,
   } else {
     TRY(writeFile(made.file(experimentFile), experiment.text, IfExists::Replace));
   }
-  made.m_lines = Descriptor(::open(lines.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+  made.m_lines = UniqueFd(::open(lines.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
   if (made.m_lines.get() < 0) return made.failed();
   if (::flock(made.m_lines.get(), LOCK_EX | LOCK_NB) != 0) {
     return failure(ErrorCode::Conflict, "another program is playing this experiment", path);
@@ -152,7 +152,7 @@ Result<void> ExperimentFolder::add(const RunResult& result, std::optional<double
 Result<void> ExperimentFolder::putTimes(std::string_view rows) {
   const std::string name = file(timesFile);
   if (m_times.get() < 0) {
-    m_times = Descriptor(::open(name.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+    m_times = UniqueFd(::open(name.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
     if (m_times.get() < 0) {
       return failure(ErrorCode::SystemError, "cannot be written: " + systemReason(errno), name);
     }

@@ -34,10 +34,11 @@ std::string conditionText(const Experiment& e) {
          (e.commonSeeds && e.conditions.size() > 1
               ? "; the same seeds in every condition (common random numbers)."
               : ".") +
-         (e.ownPrograms ? " A team's own programs play: at most " + number(e.speed) +
-                              " times as fast as real time, slower when they cannot keep up; their "
-                              "runs do not repeat."
-                        : "");
+         (e.teamPrograms
+              ? " A team's own programs play: at most " + number(e.speed) +
+                    " times as fast as real time, slower when they cannot keep up; their "
+                    "runs do not repeat."
+              : "");
 }
 
 Table endsTable(const ExperimentSummary& s) {

@@ -15,9 +15,9 @@
 #include <telemetry/wire/live_clock.h>
 
 #include "checks.h"
-#include "own_programs.h"
 #include "run_layout.h"
 #include "run_measure.h"
+#include "team_programs.h"
 
 namespace pitchboard::link {
 namespace {
@@ -95,9 +95,9 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   const RunPlace run = placeOf(e, number);
   const auto scenario = TRY(scenarioOf(e, run));
   MatchOptions options;
-  options.cognition = e.separateProcesses ? Cognition::External : Cognition::Inline;
+  options.cognition = e.separateProcesses ? Cognition::Separate : Cognition::Inline;
   options.robotProgram = m_settings.robotProgram;
-  options.speed = e.ownPrograms ? e.speed : MatchPlayer::unlimitedSpeed;
+  options.speed = e.teamPrograms ? e.speed : MatchPlayer::unlimitedSpeed;
   auto match = TRY(SimulatedMatch::create(scenario, options));
 
   const auto begin = WallClock::now();
@@ -126,8 +126,8 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   player.observe(measure);
   if (measure->problem()) return tl::unexpected(*measure->problem());
 
-  std::optional<OwnPrograms> own;
-  if (e.ownPrograms) own.emplace(player, e.speed);
+  std::optional<TeamPrograms> own;
+  if (e.teamPrograms) own.emplace(player, e.speed);
   TRY(own ? own->begin(m_settings.cancelled) : Result<void>());
   const auto firstTick = player.currentTick();
   const auto first = WallClock::now();
@@ -153,7 +153,7 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
 
 /// Until the run is over.
 Result<void> RunPlayer::loop(MatchPlayer& player, const RunMeasure& measure, std::size_t condition,
-                             OwnPrograms* own) {
+                             TeamPrograms* own) {
   const Experiment& e = *m_experiment;
   Hand hand(e.conditions[condition].placed, player);
   auto looked = WallClock::now();
@@ -188,7 +188,7 @@ namespace {
 Result<RunResult> playAndKeep(RunPlayer& player, const Experiment& e, std::size_t number,
                               const PlaySettings& settings) {
   const bool mayBeWanted = isRecorded(e, number, true) || isRecorded(e, number, false);
-  if (!e.ownPrograms || settings.folder.empty() || !mayBeWanted) return player.play(number);
+  if (!e.teamPrograms || settings.folder.empty() || !mayBeWanted) return player.play(number);
   const std::filesystem::path path = sessionPath(settings.folder, number);
   std::error_code ignored;
   std::filesystem::create_directories(path.parent_path(), ignored);

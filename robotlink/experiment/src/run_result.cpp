@@ -88,7 +88,7 @@ std::vector<MetricInfo> metricsOf(const Experiment& experiment) {
     out.push_back({metric.name, metric.unit, metric.name, false});
   }
   // A measured time differs from run to run, which those of reference processes must not.
-  if (experiment.ownPrograms) {
+  if (experiment.teamPrograms) {
     out.push_back({"times_real_time", "", "Played, times real time", false});
     out.push_back({"own_programs_kept", "", "What own programs kept of that (1 = all)", false});
   }

@@ -35,14 +35,14 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
     {Kind::GamePhase, "game-phase", "normal time", Shape::None, 0, false, false, "referee"},
     {Kind::PlayStopped, "play-stopped", "play is stopped", Shape::None, 0, false, false, "referee"},
     {Kind::PlayGoesOn, "play-goes-on", "play goes on", Shape::None, 0, false, false, "referee"},
-    {Kind::RefereeHeard, "referee-heard", "heard", Shape::None, 0, false, false, "referee"},
-    {Kind::RefereeSilent, "referee-silent", "not heard any more: the last state is shown",
+    {Kind::RefereeReceived, "referee-heard", "heard", Shape::None, 0, false, false, "referee"},
+    {Kind::RefereeOffline, "referee-silent", "not heard any more: the last state is shown",
      Shape::None, 0, false, true, "referee"},
     {Kind::RefereeBack, "referee-back", "is heard again", Shape::None, 0, false, false, "referee"},
     {Kind::SecondReferee, "second-referee", "a second referee program is heard", Shape::None, 0,
      false, true, "referee"},
-    {Kind::RobotHeard, "robot-heard", "is heard", Shape::None, 0, false, false, ""},
-    {Kind::RobotSilent, "timeout", "is not heard any more", Shape::Silent, 7, false, true, ""},
+    {Kind::RobotReceived, "robot-heard", "is heard", Shape::None, 0, false, false, ""},
+    {Kind::RobotOffline, "timeout", "is not heard any more", Shape::Silent, 7, false, true, ""},
     {Kind::RobotBack, "recovery", "is heard again", Shape::Back, 2, false, false, ""},
     {Kind::SecondSender, "second-sender", "is also sent by another program", Shape::None, 0, false,
      true, ""},
@@ -140,12 +140,12 @@ std::string predicateOf(const MatchEvent& event) {
       [[fallthrough]];
     case Kind::GamePhase:
       return event.detail.empty() ? std::string(info(event.kind).words) : event.detail;
-    case Kind::RefereeHeard:
+    case Kind::RefereeReceived:
       return wordsAnd(event) +
              (event.value ? ", version " + std::to_string(*event.value) : std::string());
     case Kind::SecondReferee:
       return wordsAnd(event, "; shown is ");
-    case Kind::RobotHeard:
+    case Kind::RobotReceived:
       return wordsAnd(event, " from ");
     case Kind::SecondSender:
       return wordsAnd(event, "; this one is ");

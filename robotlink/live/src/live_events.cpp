@@ -42,7 +42,7 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, std::vector
   if (isFirst || now.sender != before.sender || now.version != before.version) {
     std::string who = now.sender;
     if (isFirst) who += ", " + teamWords(now.teams[0]) + " against " + teamWords(now.teams[1]);
-    out.push_back(made(Kind::RefereeHeard, time, std::move(who), now.version));
+    out.push_back(made(Kind::RefereeReceived, time, std::move(who), now.version));
   }
   if (now.state != before.state) {
     out.push_back(made(Kind::GameState, time, now.state, now.secondsLeft));
@@ -59,7 +59,7 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, std::vector
     out.push_back(made(now.stopped ? Kind::PlayStopped : Kind::PlayGoesOn, time));
   }
   if (now.timedOut != before.timedOut) {
-    out.push_back(made(now.timedOut ? Kind::RefereeSilent : Kind::RefereeBack, time));
+    out.push_back(made(now.timedOut ? Kind::RefereeOffline : Kind::RefereeBack, time));
   }
   if (now.conflict && !before.conflict) {
     out.push_back(made(Kind::SecondReferee, time, now.sender));
@@ -79,26 +79,27 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, std::vector
   }
 }
 
-void LiveEvents::compareRobot(const RobotFrame& heard, double time, std::vector<MatchEvent>& out) {
-  const telemetry::LinkHealth& link = *heard.link;
+void LiveEvents::compareRobot(const RobotFrame& received, double time,
+                              std::vector<MatchEvent>& out) {
+  const telemetry::LinkHealth& link = *received.link;
   const auto say = [&](Kind kind, std::string detail = {}, std::optional<int> value = {}) {
-    MatchEvent event = eventOf(kind, time, heard.key, heard.name);
+    MatchEvent event = eventOf(kind, time, received.key, received.name);
     event.detail = std::move(detail);
     event.value = value;
     out.push_back(std::move(event));
   };
-  const auto [entry, isNew] = m_robots.try_emplace(heard.key);
+  const auto [entry, isNew] = m_robots.try_emplace(received.key);
   Known& known = entry->second;
   if (isNew) {
-    say(Kind::RobotHeard, link.sender.text());
+    say(Kind::RobotReceived, link.sender.text());
   } else if (link.sender.address != known.address) {
     say(Kind::AddressChanged, known.address.text() + " to " + link.sender.address.text());
   }
   if (link.timedOut != known.timedOut) {
-    say(link.timedOut ? Kind::RobotSilent : Kind::RobotBack);
+    say(link.timedOut ? Kind::RobotOffline : Kind::RobotBack);
   }
   if (link.conflict && !known.conflict) say(Kind::SecondSender, link.sender.text());
-  const auto& penalty = heard.penalty;
+  const auto& penalty = received.penalty;
   if (penalty && (!known.penalty || known.penalty->words != penalty->words)) {
     say(Kind::Penalised, penalty->words, penalty->secondsLeft);
   } else if (!penalty && known.penalty) {
@@ -107,15 +108,16 @@ void LiveEvents::compareRobot(const RobotFrame& heard, double time, std::vector<
   // A voltage trembles: it is low until it is well above.
   constexpr double well = 0.1;
   bool low = known.batteryLow;
-  if (heard.battery && !link.timedOut) {
-    low = heard.battery->low || (low && heard.battery->fraction < known.lowFraction + well);
+  if (received.battery && !link.timedOut) {
+    low = received.battery->low || (low && received.battery->fraction < known.lowFraction + well);
     if (low && !known.batteryLow) {
-      if (heard.battery->volts > 0.0) {
-        say(Kind::BatteryLow, {}, static_cast<int>(std::lround(heard.battery->volts * 10.0)));
+      if (received.battery->volts > 0.0) {
+        say(Kind::BatteryLow, {}, static_cast<int>(std::lround(received.battery->volts * 10.0)));
       } else {
-        say(Kind::BatteryLow, std::to_string(std::lround(heard.battery->fraction * 100.0)) + " %");
+        say(Kind::BatteryLow,
+            std::to_string(std::lround(received.battery->fraction * 100.0)) + " %");
       }
-      known.lowFraction = heard.battery->fraction;
+      known.lowFraction = received.battery->fraction;
     }
   }
   known.address = link.sender.address;

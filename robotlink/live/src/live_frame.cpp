@@ -16,8 +16,8 @@ using telemetry::FieldMeaning;
 using telemetry::RefereeState;
 using telemetry::RobotStatus;
 
-std::vector<HeardValue> valuesOf(const RobotStatus& robot) {
-  std::vector<HeardValue> values;
+std::vector<ReceivedValue> valuesOf(const RobotStatus& robot) {
+  std::vector<ReceivedValue> values;
   values.reserve(robot.words.size());
   const auto& fields = robot.decoder->profile().fields;
   for (std::size_t i = 0; i < robot.words.size(); ++i) {
@@ -51,8 +51,8 @@ std::vector<RobotReplyView> repliesOf(const telemetry::RefereeTracker& tracker,
 }
 
 /// As it is heard: from whom, how long ago, and what else is known.
-RefereeView heardView(const telemetry::RefereeTracker& tracker, int ourTeam,
-                      telemetry::WallTime now) {
+RefereeView receivedView(const telemetry::RefereeTracker& tracker, int ourTeam,
+                         telemetry::WallTime now) {
   RefereeView view = viewOf(*tracker.state(), ourTeam);
   view.sender = tracker.sender()->text();
   view.age = telemetry::secondsOf(*tracker.age(now));
@@ -96,7 +96,7 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
   frame.speed = 1.0;
   const RefereeState* state = referee.state() ? &*referee.state() : nullptr;
   if (state != nullptr) {
-    frame.referee = heardView(referee, options.ourTeam, team.time);
+    frame.referee = receivedView(referee, options.ourTeam, team.time);
     frame.snapshot.score = {frame.referee->teams[0].score, frame.referee->teams[1].score};
     frame.snapshot.clock = frame.referee->secondsLeft;
     frame.snapshot.clockRunning = frame.referee->state == "PLAYING" && !frame.referee->timedOut;

@@ -15,7 +15,8 @@ using telemetry::GroupInfo;
 using telemetry::WallTime;
 
 constexpr double reportPeriod = 0.25;  // s
-constexpr double booksPeriod = 15.0;  // s; a moment of a recording is made from the books before it
+constexpr double snapshotPeriod =
+    15.0;  // s; a moment of a recording is made from the books before it
 constexpr std::size_t maxQueued = 10'000;
 
 }  // namespace
@@ -68,33 +69,33 @@ void RowFan::append(GroupId group, const telemetry::RowView& row) {
 LivePipeline::LivePipeline(LiveOptions options, WallTime zero)
     : m_options(std::move(options)),
       m_zero(zero),
-      m_books(m_options),
+      m_state(m_options),
       m_rows(m_fan, rowsOptions(m_options, m_teams, zero)),
       m_boardRows(m_fan) {}
 
 void LivePipeline::setOptions(LiveOptions options, WallTime now) {
   const LiveOptions old = std::exchange(m_options, std::move(options));
-  if (!(old.profile == m_options.profile)) m_books.monitor.setProfile(m_options.profile);
-  m_books.setTeams(monitorOptions(m_options));
-  m_books.referee.setOptions(LiveBooks::refereeOptions(m_options));
-  noteTeams(m_books.monitor.renamings());
-  tellBooks(now);
+  if (!(old.profile == m_options.profile)) m_state.monitor.setProfile(m_options.profile);
+  m_state.setTeams(monitorOptions(m_options));
+  m_state.referee.setOptions(LiveState::refereeOptions(m_options));
+  noteTeams(m_state.monitor.renamings());
+  sendSnapshot(now);
 }
 
 void LivePipeline::clear(WallTime now) {
-  m_books.clear(m_options);
+  m_state.clear(m_options);
   m_events = {};
   noteTeams({});
   m_rows.clearRefused();
   m_unknownReferee = m_refusedReferees = 0;
   m_unknownReason.clear();
   m_unknownSample.clear();
-  tellBooks(now);
+  sendSnapshot(now);
 }
 
 void LivePipeline::forget(const RobotKey& robot, WallTime now) {
-  m_books.monitor.forget(robot);
-  tellBooks(now);
+  m_state.monitor.forget(robot);
+  sendSnapshot(now);
 }
 
 void LivePipeline::takeReferee(const DatagramView& datagram) {
@@ -104,8 +105,8 @@ void LivePipeline::takeReferee(const DatagramView& datagram) {
   }
   const auto packet = telemetry::decodeReferee(datagram.payload);
   if (packet) {
-    m_books.takeReferee(*packet, datagram);
-    if (m_books.teams(m_options) != m_teams) noteTeams({});
+    m_state.takeReferee(*packet, datagram);
+    if (m_state.teams(m_options) != m_teams) noteTeams({});
   } else {
     ++m_unknownReferee;
     m_unknownReason = packet.error().message;
@@ -124,9 +125,9 @@ void LivePipeline::take(const DatagramView& datagram) {
     return;
   }
   const double time = std::max(0.0, seconds(datagram.time));
-  const telemetry::TeamMonitor& monitor = m_books.monitor;
+  const telemetry::TeamMonitor& monitor = m_state.monitor;
   LiveDatagram taken{.time = time, .view = datagram, .teams = m_teams};
-  taken.verdict = m_books.takeRobot(datagram, time);
+  taken.verdict = m_state.takeRobot(datagram, time);
   if (taken.verdict) {
     if (!monitor.renamings().empty()) noteTeams(monitor.renamings());
     taken.decoder = &monitor.decoder();
@@ -138,20 +139,20 @@ void LivePipeline::take(const DatagramView& datagram) {
         m_rows.take(datagram, monitor.decoded(), monitor.decoder(), taken.robot);
       }
     }
-  } else if (m_books.lastDrawer) {
-    taken.robot = *m_books.lastDrawer;
+  } else if (m_state.lastDrawer) {
+    taken.robot = *m_state.lastDrawer;
   } else if (!monitor.placeOf(datagram, {})) {
     return;  // a stranger's drawing
   } else {
-    taken.drawingProblem = m_books.drawings.lastProblem();
+    taken.drawingProblem = m_state.drawings.lastProblem();
   }
   tell(taken);
 }
 
 MatchFrame LivePipeline::frame(WallTime now, AttachedRobots* boards) {
-  const telemetry::TeamStatus team = m_books.monitor.status(now);
+  const telemetry::TeamStatus team = m_state.monitor.status(now);
   const double time = seconds(now);
-  MatchFrame frame = m_books.frame(m_options, team, time);
+  MatchFrame frame = m_state.frame(m_options, team, time);
   frame.serial = ++m_serial;
   if (boards != nullptr) {
     boards->addTo(frame);
@@ -166,7 +167,7 @@ MatchFrame LivePipeline::frame(WallTime now, AttachedRobots* boards) {
     m_nextReport = time + reportPeriod;
     if (!m_fan->isEmpty()) m_rows.report(team);
   }
-  if (time >= m_nextBooks) tellBooks(now);
+  if (time >= m_nextSnapshot) sendSnapshot(now);
   return frame;
 }
 
@@ -180,9 +181,9 @@ void LivePipeline::noticePorts(const telemetry::ReceiverStatus& network, double 
 
 LiveDetails LivePipeline::details(WallTime now) const {
   LiveDetails details;
-  details.team = m_books.monitor.status(now);
+  details.team = m_state.monitor.status(now);
   details.teams = m_teams;
-  details.referee = m_books.referee.counts();
+  details.referee = m_state.referee.counts();
   details.unknownReferee = m_unknownReferee;
   details.unknownRefereeReason = m_unknownReason;
   details.unknownRefereeSample = m_unknownSample;
@@ -192,17 +193,17 @@ LiveDetails LivePipeline::details(WallTime now) const {
 }
 
 /// What an observer hears after it, is not in the books.
-void LivePipeline::tellBooks(WallTime now) {
+void LivePipeline::sendSnapshot(WallTime now) {
   const double time = seconds(now);
-  m_nextBooks = time + booksPeriod;
+  m_nextSnapshot = time + snapshotPeriod;
   if (m_observers.empty()) return;
-  const std::string text = m_books.text(m_options, time, m_zero);
+  const std::string text = m_state.text(m_options, time, m_zero);
   for (const auto& observer : m_observers) observer->remembered(time, text);
 }
 
 /// Teams may be called otherwise from now on, and these robots have other keys.
 void LivePipeline::noteTeams(const std::vector<Renaming>& renamings) {
-  m_teams = m_books.teams(m_options);
+  m_teams = m_state.teams(m_options);
   m_rows.setOptions(rowsOptions(m_options, m_teams, m_zero), renamings);
   if (renamings.empty()) return;
   m_events.rename(renamings);
@@ -210,7 +211,7 @@ void LivePipeline::noteTeams(const std::vector<Renaming>& renamings) {
 }
 
 void LivePipeline::tell(const LiveDatagram& datagram) {
-  for (const auto& observer : m_observers) observer->heard(datagram);
+  for (const auto& observer : m_observers) observer->received(datagram);
 }
 
 void LivePipeline::tell(const std::vector<MatchEvent>& events) {
@@ -225,7 +226,7 @@ void LivePipeline::tell(const std::vector<MatchEvent>& events) {
 }
 
 void LivePipeline::observe(std::shared_ptr<LiveObserver> observer, WallTime now) {
-  observer->remembered(seconds(now), m_books.text(m_options, seconds(now), m_zero));
+  observer->remembered(seconds(now), m_state.text(m_options, seconds(now), m_zero));
   if (auto rows = observer->rows()) m_fan->add(std::move(rows));
   m_observers.push_back(std::move(observer));
 }

@@ -263,16 +263,16 @@ void LiveRows::take(const DatagramView& datagram, const DecodedText& decoded,
 
 void LiveRows::report(const TeamStatus& status) {
   const double now = timeOf(status.time);
-  for (const RobotStatus& heard : status.robots) {
-    const auto robot = std::ranges::find(m_robots, heard.key, &Robot::key);
+  for (const RobotStatus& received : status.robots) {
+    const auto robot = std::ranges::find(m_robots, received.key, &Robot::key);
     if (robot == m_robots.end()) continue;  // nothing of it could be used yet
-    const bool wasTimedOut = std::exchange(robot->timedOut, heard.timedOut);
-    if (heard.timedOut && wasTimedOut) continue;
+    const bool wasTimedOut = std::exchange(robot->timedOut, received.timedOut);
+    if (received.timedOut && wasTimedOut) continue;
     const bool due = now >= robot->lastHealth + healthPeriod - reportSlack;
-    if (!due && heard.timedOut == wasTimedOut) continue;
+    if (!due && received.timedOut == wasTimedOut) continue;
     robot->lastHealth = std::max(robot->lastHealth, now);
     m_newest = std::max(m_newest, robot->lastHealth);
-    const auto values = healthValues(heard);
+    const auto values = healthValues(received);
     m_sink->append(robot->link, {robot->lastHealth, {}, values});
   }
 }

@@ -14,7 +14,7 @@ namespace {
 using namespace std::chrono_literals;
 using telemetry::FieldMeaning;
 
-constexpr auto thoughtsInterval = 100ms;
+constexpr auto debugInterval = 100ms;
 constexpr auto speedWindow = 1s;
 static_assert(static_cast<int>(ProcessState::GivenUp) ==
               static_cast<int>(ProcessSummary::State::GivenUp));
@@ -55,7 +55,7 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
     const auto processes = m_processes.find(robot.slot());
     robot.processList = processes == m_processes.end() ? nullptr : processes->second;
     fillRobot(match, robot);
-    robot.thoughts.reset();
+    robot.cognitionDebug.reset();
     robot.runtime = runtimeChoiceToText(match.robots().find(robot.slot())->choice);
     robot.ofOthers = false;
   }
@@ -65,21 +65,21 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   const auto& claim = match.robots().claim();
   out.matchNumber = claim ? std::optional(claim->number().value) : std::nullopt;
   out.inLockStep = match.pace().inLockStep();
-  out.slowestOwnProgram = match.pace().slowestOwnProgram();
+  out.slowestTeamProgram = match.pace().slowestTeamProgram();
   std::erase_if(m_lamps, [&](const auto& entry) { return !simulation.indexOf(entry.first); });
-  if (still || now - m_thoughtsTime >= thoughtsInterval) {
-    m_thoughts = match.thoughts();
-    m_thoughtsTime = now;
+  if (still || now - m_debugTime >= debugInterval) {
+    m_cognitionDebug = match.cognitionDebug();
+    m_debugTime = now;
   }
-  for (const RobotThoughts& thoughts : m_thoughts) {
-    if (const auto index = simulation.indexOf(thoughts.robot)) {
-      out.robots[*index].thoughts = thoughts;
+  for (const CognitionDebug& cognitionDebug : m_cognitionDebug) {
+    if (const auto index = simulation.indexOf(cognitionDebug.robot)) {
+      out.robots[*index].cognitionDebug = cognitionDebug;
     }
   }
   out.drawings.clear();
   out.drawingProblem.clear();
   if (const MatchDrawings* drawings = match.drawings()) {
-    out.drawings = drawings->book().at(m_snapshot.time);
+    out.drawings = drawings->store().at(m_snapshot.time);
     keyDrawings(out);
     out.drawingProblem = drawings->problem();
   }

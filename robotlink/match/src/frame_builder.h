@@ -50,8 +50,9 @@ class FrameBuilder {
   sim::Snapshot m_snapshot;  // keeps its memory
   std::uint64_t m_processVersion = 0;
   std::map<RobotId, std::shared_ptr<const std::vector<ProcessSummary>>> m_processes;
-  std::vector<RobotThoughts> m_thoughts;  // change seldom, and cost more than the rest of a frame
-  Time m_thoughtsTime{};
+  std::vector<CognitionDebug>
+      m_cognitionDebug;  // change seldom, and cost more than the rest of a frame
+  Time m_debugTime{};
 };
 
 }  // namespace pitchboard::link

@@ -21,7 +21,7 @@ struct MatchBase {
   const VariableCatalog* catalog = nullptr;
   RobotVariables variables;
   TimedWrites writes;
-  std::optional<ThoughtsReceiver> thoughts{};
+  std::optional<CognitionDebugReceiver> cognitionDebug{};
   // In the order of the robots.
   std::vector<sim::RobotCommand> commands{};
   std::vector<sim::Percepts> percepts{};

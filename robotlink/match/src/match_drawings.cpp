@@ -23,7 +23,7 @@ MatchDrawings::MatchDrawings(int port) {
   }
 }
 
-void MatchDrawings::hear(double time, std::vector<HeardDrawing>& out) {
+void MatchDrawings::hear(double time, std::vector<ReceivedDrawing>& out) {
   if (!m_receiver) return;
   if (!m_isBound) lookAtPort();
   if (!m_receiver->take(m_batch)) return;
@@ -32,7 +32,7 @@ void MatchDrawings::hear(double time, std::vector<HeardDrawing>& out) {
     // Of a message with a drawing behind it only the drawing concerns the match.
     const std::string_view drawing = telemetry::partsOf(datagram.payload).drawing;
     const std::string_view text = drawing.empty() ? datagram.payload : drawing;
-    if (!m_book.take(text, time)) continue;
+    if (!m_store.take(text, time)) continue;
     out.push_back({time, datagram.sender, datagram.localPort, std::string(text)});
   }
 }
@@ -46,7 +46,7 @@ void MatchDrawings::lookAtPort() {
 }
 
 const std::string& MatchDrawings::problem() const {
-  return m_problem.empty() ? m_book.lastProblem() : m_problem;
+  return m_problem.empty() ? m_store.lastProblem() : m_problem;
 }
 
 }  // namespace pitchboard::link

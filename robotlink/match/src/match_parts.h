@@ -29,7 +29,7 @@ struct SimulatedMatch::Parts {
   void followJump();
   void startAnew();
   void playThrough(const MomentPast& past);
-  void recall(const RobotsMemory& memory);
+  void restore(const RobotsMemory& memory);
   Result<void> restore(const Moment& moment);
 
   MatchBase base;

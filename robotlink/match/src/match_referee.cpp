@@ -54,8 +54,8 @@ Result<void> MatchReferee::obey(int port, sim::Simulation& simulation) {
 }
 
 bool MatchReferee::listen(sim::Simulation& simulation) {
-  bool heard = false;
-  if (!m_receiver->take(m_batch)) return heard;
+  bool received = false;
+  if (!m_receiver->take(m_batch)) return received;
   for (std::size_t i = 0; i < m_batch.size(); ++i) {
     const telemetry::DatagramView datagram = m_batch[i];
     const auto packet = telemetry::decodeReferee(datagram.payload);
@@ -71,9 +71,9 @@ bool MatchReferee::listen(sim::Simulation& simulation) {
       (void)simulation.placeBall({});
     }
     m_packet = *state;
-    heard = true;
+    received = true;
   }
-  return heard;
+  return received;
 }
 
 bool MatchReferee::tick(sim::Simulation& simulation, bool again) {

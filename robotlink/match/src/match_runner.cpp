@@ -123,7 +123,7 @@ class MatchLoop {
   void pollProcesses();
   bool refreshesWhileStill() const;
   /// Slower while a team's own programs cannot keep up, if that is wanted, and faster again.
-  void followOwnPrograms(Clock::time_point now);
+  void followTeamPrograms(Clock::time_point now);
 
   MatchRunner::Shared& m_shared;
   MatchPlayer m_player;
@@ -153,7 +153,7 @@ void MatchLoop::run(const std::stop_token& stop) {
     auto now = Clock::now();
     if (now - m_lastPoll >= pollInterval) {
       pollProcesses();
-      followOwnPrograms(now);
+      followTeamPrograms(now);
       m_lastPoll = now;
       publishNow = publishNow || refreshesWhileStill();
     }
@@ -218,7 +218,7 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
                                                  m_match.simulation().state().settings.tickRate);
     for (int i = 0; i < singleSteps && !m_match.finished(); ++i) {
       m_player.tick();
-      m_match.pace().letOwnProgramsRun(tickTime);
+      m_match.pace().letTeamProgramsRun(tickTime);
     }
     lock.lock();
     m_shared.singleSteps -= singleSteps;
@@ -244,13 +244,13 @@ void MatchLoop::collectEvents() {
   m_newEvents->list.clear();
 }
 
-void MatchLoop::followOwnPrograms(Clock::time_point now) {
+void MatchLoop::followTeamPrograms(Clock::time_point now) {
   if (m_still || m_wantedSpeed == MatchRunner::unlimitedSpeed ||
       now - m_lastFollow < ProcessPace::ownPaceInterval) {
     return;
   }
   m_lastFollow = now;
-  const double speed = m_match.pace().waitForOwnPrograms
+  const double speed = m_match.pace().waitForTeamPrograms
                            ? m_match.pace().ownPace(m_wantedSpeed, m_speed)
                            : m_wantedSpeed;
   if (speed == m_speed) return;

@@ -19,7 +19,7 @@ bool fallsBehind(const ProcessStatus& program) {
 
 ProcessPace::ProcessPace(MatchBase& base, RobotSlots& robots, MatchEvents& events)
     : robotsPace(base.options.pace),
-      waitForOwnPrograms(base.options.waitForOwnPrograms),
+      waitForTeamPrograms(base.options.waitForTeamPrograms),
       m_base(base),
       m_slots(robots),
       m_events(events) {}
@@ -75,7 +75,7 @@ double ProcessPace::ownPace(double wanted, double now) const {
   return slowest ? std::max(least, std::min(*slowest, wanted)) : std::min(wanted, now * faster);
 }
 
-std::optional<double> ProcessPace::slowestOwnProgram() const {
+std::optional<double> ProcessPace::slowestTeamProgram() const {
   std::optional<double> slowest;
   for (const ProcessStatus& one : m_slots.processes().statuses()) {
     if (fallsBehind(one)) slowest = std::min(slowest.value_or(one.achieved), one.achieved);
@@ -129,7 +129,7 @@ bool ProcessPace::hasAttached(const ProcessStatus& program) const {
          m_slots.processes().hasSegment(program.id, segment->shmid);
 }
 
-void ProcessPace::letOwnProgramsRun(std::chrono::duration<double> time) {
+void ProcessPace::letTeamProgramsRun(std::chrono::duration<double> time) {
   ProcessManager& processes = m_slots.processes();
   if (std::ranges::none_of(processes.statuses(), &ProcessStatus::foreign)) return;
   processes.setPaused(false, std::chrono::steady_clock::now());

@@ -183,8 +183,8 @@ telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNu
   fillTeam(world, game.teams[1 - left], dialect, out.teams[1]);
   // What this version does not send is not known to those who hear it.
   if (const auto bytes = telemetry::encodeReferee(out)) {
-    const auto heard = telemetry::decodeReferee(std::string_view(*bytes));
-    if (const auto* state = heard ? std::get_if<telemetry::RefereeState>(&*heard) : nullptr) {
+    const auto received = telemetry::decodeReferee(std::string_view(*bytes));
+    if (const auto* state = received ? std::get_if<telemetry::RefereeState>(&*received) : nullptr) {
       return *state;
     }
   }

@@ -543,8 +543,8 @@ std::vector<std::string> RobotSlots::commandOf(const RobotSlot& slot,
     command.insert(command.end(), {"--attack", identity.imuStartsAt180 ? "left" : "right"});
   }
   if (options.publishedLocalization) command.emplace_back("--published-localization");
-  if (m_base.thoughts) {
-    command.insert(command.end(), {"--thoughts-port", std::to_string(m_base.thoughts->port())});
+  if (m_base.cognitionDebug) {
+    command.insert(command.end(), {"--debug-port", std::to_string(m_base.cognitionDebug->port())});
   }
   return command;
 }

@@ -87,7 +87,7 @@ void SimulatedMatch::Parts::startAnew() {
   }
 }
 
-void SimulatedMatch::Parts::recall(const RobotsMemory& memory) {
+void SimulatedMatch::Parts::restore(const RobotsMemory& memory) {
   referee.setRhythm(memory.referee);
   for (std::size_t i = 0; i < slots.teamChannels().size(); ++i) {
     if (slots.teamChannels()[i]) *slots.teamChannels()[i] = memory.channels[i];
@@ -106,7 +106,7 @@ void SimulatedMatch::Parts::recall(const RobotsMemory& memory) {
           std::find_if(robot.processes.begin(), robot.processes.end(),
                        [&](const auto& one) { return one.name == process->profile.name; });
       if (found != robot.processes.end() && found->memory) {
-        (void)process->inside->recall(*found->memory);
+        (void)process->inside->restore(*found->memory);
       }
     }
   }
@@ -128,7 +128,7 @@ void SimulatedMatch::Parts::playThrough(const MomentPast& past) {
     followJump();
     if (!std::exchange(begun, true)) {
       startAnew();
-      recall(*past.memory);
+      restore(*past.memory);
     }
     for (const std::vector<sim::RobotCommand>& told : stretch.commands) {
       base.writes.applyDue(base.tick(), slots);
@@ -136,7 +136,7 @@ void SimulatedMatch::Parts::playThrough(const MomentPast& past) {
       advance(true);
     }
   }
-  if (!begun) recall(*past.memory);
+  if (!begun) restore(*past.memory);
 }
 
 }  // namespace pitchboard::link

@@ -29,8 +29,8 @@ Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const Ma
   ProcessManager& processes = parts->slots.processes();
   processes.setClocksFollow(options.speed != 1.0);
   if (options.speed > 0.0) processes.setSpeed(options.speed, std::chrono::steady_clock::now());
-  if (options.thoughts && options.cognition == Cognition::External) {
-    base.thoughts = TRY(ThoughtsReceiver::listen());
+  if (options.cognitionDebug && options.cognition == Cognition::Separate) {
+    base.cognitionDebug = TRY(CognitionDebugReceiver::listen());
   }
   base.simulation.setScore(scenario.score);
   base.simulation.editState().clockTicks =
@@ -153,7 +153,7 @@ void SimulatedMatch::takeEvents(std::vector<MatchEvent>& out) {
   events.take(out);
 }
 
-void SimulatedMatch::takeDrawings(std::vector<HeardDrawing>& out) {
+void SimulatedMatch::takeDrawings(std::vector<ReceivedDrawing>& out) {
   const auto& claim = robots().claim();
   if (!claim) return;
   auto& drawings = m_parts->drawings;
@@ -162,19 +162,19 @@ void SimulatedMatch::takeDrawings(std::vector<HeardDrawing>& out) {
   drawings->hear(static_cast<double>(state.tick) / state.settings.tickRate, out);
 }
 
-std::vector<RobotThoughts> SimulatedMatch::thoughts() {
-  if (auto& heard = m_parts->base.thoughts) {
+std::vector<CognitionDebug> SimulatedMatch::cognitionDebug() {
+  if (auto& received = m_parts->base.cognitionDebug) {
     const auto now = std::chrono::steady_clock::now();
-    heard->poll(now);
-    return heard->thoughts(now);
+    received->poll(now);
+    return received->cognitionDebug(now);
   }
-  std::vector<RobotThoughts> all;
-  if (!m_parts->base.options.thoughts) return all;
+  std::vector<CognitionDebug> all;
+  if (!m_parts->base.options.cognitionDebug) return all;
   for (const auto& slot : robots().all()) {
-    RobotThoughts one;
+    CognitionDebug one;
     one.robot = slot->id;
     for (const auto& process : slot->processes) {
-      if (process->inside) process->inside->tellThoughts(one);
+      if (process->inside) process->inside->sendDebugData(one);
     }
     if (one.cloud || one.path) all.push_back(std::move(one));
   }

@@ -38,7 +38,7 @@ std::string describe(const siginfo_t& end) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(Spawned child, Descriptor keeper, pid_t pid)
+ChildProcess::ChildProcess(Spawned child, UniqueFd keeper, pid_t pid)
     : m_child(std::move(child)), m_keeper(std::move(keeper)), m_pid(pid) {}
 
 Result<ChildProcess> ChildProcess::start(const ChildSpec& spec, const std::string& robotProgram) {

@@ -78,8 +78,8 @@ Result<Kept> spawnKept(const SpawnRequest& request, const std::string& robotProg
     return failure(ErrorCode::SystemError,
                    "the robots' processes cannot be kept: " + systemReason(errno));
   }
-  Kept kept{{}, Descriptor(ends[0])};
-  Descriptor its(ends[1]);
+  Kept kept{{}, UniqueFd(ends[0])};
+  UniqueFd its(ends[1]);
   // The environment is the program's alone: a library that it loads is not for the keeper.
   SpawnRequest keeper{{robotProgram, std::string(keepCommand), request.directory,
                        std::to_string(request.environment.size())}};
@@ -114,7 +114,7 @@ void keep(const std::vector<std::string>& words) {
   ::sigemptyset(&ended);
   ::sigaddset(&ended, SIGCHLD);
   ::sigprocmask(SIG_BLOCK, &ended, nullptr);
-  const Descriptor ends(::signalfd(-1, &ended, SFD_CLOEXEC | SFD_NONBLOCK));
+  const UniqueFd ends(::signalfd(-1, &ended, SFD_CLOEXEC | SFD_NONBLOCK));
 
   SpawnRequest request;
   request.directory = words.at(0);

@@ -108,7 +108,7 @@ Place& at(const TurnPages& pages, int place) {
   return pages.memory().all[static_cast<std::size_t>(place)];
 }
 
-Result<std::unique_ptr<TurnPages>> mapped(Descriptor descriptor, bool fresh) {
+Result<std::unique_ptr<TurnPages>> mapped(UniqueFd descriptor, bool fresh) {
   void* const address =
       ::mmap(nullptr, sizeof(TurnMemory), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor.get(), 0);
   if (address == MAP_FAILED) {
@@ -131,7 +131,7 @@ MatchTurns::MatchTurns(std::unique_ptr<TurnPages> pages)
     : m_pages(std::move(pages)), m_taken(places, false) {}
 
 Result<std::unique_ptr<MatchTurns>> MatchTurns::create() {
-  Descriptor descriptor(::memfd_create("pitchboard-match", MFD_CLOEXEC));
+  UniqueFd descriptor(::memfd_create("pitchboard-match", MFD_CLOEXEC));
   if (!descriptor || ::ftruncate(descriptor.get(), sizeof(TurnMemory)) != 0) {
     return failure(ErrorCode::SystemError,
                    "the match's clock cannot be shared: " + systemReason(errno));
@@ -214,7 +214,7 @@ Result<std::shared_ptr<ProcessTurns>> ProcessTurns::join(int place) {
                    "plays a match uses this option",
                    "--match-turns");
   }
-  auto pages = TRY(mapped(Descriptor(::fcntl(descriptor, F_DUPFD_CLOEXEC, 3)), false));
+  auto pages = TRY(mapped(UniqueFd(::fcntl(descriptor, F_DUPFD_CLOEXEC, 3)), false));
   if (pages->memory().magicWord != magic) {
     return failure(ErrorCode::Unsupported,
                    "the program that plays the match has another version than this one; install "

@@ -66,8 +66,8 @@ Result<void> ProcessManager::keepGuard() {
     return failure(ErrorCode::SystemError,
                    "the robots' processes cannot be guarded: " + systemReason(errno));
   }
-  Descriptor ours(ends[0]);
-  const Descriptor its(ends[1]);
+  UniqueFd ours(ends[0]);
+  const UniqueFd its(ends[1]);
   SpawnRequest request{{m_program, std::string(guardCommand)}};
   request.input = its.get();
   request.outlives = true;

@@ -11,19 +11,19 @@
 #include <cstdlib>
 
 #include <base/system_reason.h>
-#include <robotlink/processes/own_program.h>
+#include <robotlink/processes/team_program.h>
 
 #include "time_page.h"
 
 namespace pitchboard::link {
 
 Result<std::unique_ptr<ProgramClock>> ProgramClock::create() {
-  const std::string file = besideOwnProgram(std::string("../lib/pitchboard/") + library);
+  const std::string file = besideTeamProgram(std::string("../lib/pitchboard/") + library);
   if (::access(file.c_str(), R_OK) != 0) {
     return failure(ErrorCode::NotFound, "Cannot read " + file + ": " + systemReason(errno) +
                                             ". Programs keep real time without it.");
   }
-  Descriptor memory(::memfd_create("pitchboard-time", MFD_CLOEXEC));
+  UniqueFd memory(::memfd_create("pitchboard-time", MFD_CLOEXEC));
   if (!memory || ::ftruncate(memory.get(), sizeof(pitchboard_time_page)) != 0) {
     return failure(ErrorCode::SystemError,
                    "Cannot share the time with a program: " + systemReason(errno));
@@ -38,7 +38,7 @@ Result<std::unique_ptr<ProgramClock>> ProgramClock::create() {
       new ProgramClock(file, std::move(memory), static_cast<pitchboard_time_page*>(page)));
 }
 
-ProgramClock::ProgramClock(std::string path, Descriptor file, pitchboard_time_page* page)
+ProgramClock::ProgramClock(std::string path, UniqueFd file, pitchboard_time_page* page)
     : m_library(std::move(path)), m_file(std::move(file)), m_page(page) {}
 
 ProgramClock::~ProgramClock() {

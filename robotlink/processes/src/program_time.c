@@ -709,7 +709,7 @@ EXPORT long syscall(long number, ...) {
  */
 
 /* An armed timer, in the program's time. */
-enum timer_kind { NoTimer, Interval, Posix, Descriptor };
+enum timer_kind { NoTimer, Interval, Posix, UniqueFd };
 struct timer {
   enum timer_kind kind;
   union {
@@ -765,7 +765,7 @@ static int set_kernel_timer(struct timer* t) {
     }
     case Posix:
       return REAL(timer_settime)(t->posix, 0, &real, NULL);
-    case Descriptor:
+    case UniqueFd:
       return REAL(timerfd_settime)(t->fd, 0, &real, NULL);
     default:
       return 0;
@@ -810,7 +810,7 @@ static struct timer* find_timer(enum timer_kind kind, timer_t posix, int fd) {
     struct timer* t = &timers[i];
     if (t->kind != kind) continue;
     if (kind == Interval || (kind == Posix && t->posix == posix) ||
-        (kind == Descriptor && t->fd == fd))
+        (kind == UniqueFd && t->fd == fd))
       return t;
   }
   return NULL;
@@ -824,7 +824,7 @@ static struct timer* make_timer(enum timer_kind kind, timer_t posix, int fd) {
   memset(t, 0, sizeof *t);
   t->kind = kind;
   if (kind == Posix) t->posix = posix;
-  if (kind == Descriptor) t->fd = fd;
+  if (kind == UniqueFd) t->fd = fd;
   return t;
 }
 
@@ -917,7 +917,7 @@ EXPORT int timerfd_create(clockid_t clock, int flags) {
   const int fd = REAL(timerfd_create)(clock, flags);
   if (fd < 0 || !follows() || !is_shifted(clock)) return fd;
   const sigset_t before = lock_timers();
-  struct timer* t = make_timer(Descriptor, NULL, fd);
+  struct timer* t = make_timer(UniqueFd, NULL, fd);
   if (t != NULL) t->clock = clock;
   unlock_timers(&before);
   return fd;
@@ -925,7 +925,7 @@ EXPORT int timerfd_create(clockid_t clock, int flags) {
 EXPORT int timerfd_settime(int fd, int flags, const struct itimerspec* value,
                            struct itimerspec* old) {
   const sigset_t before = lock_timers();
-  struct timer* t = follows() && value != NULL ? find_timer(Descriptor, NULL, fd) : NULL;
+  struct timer* t = follows() && value != NULL ? find_timer(UniqueFd, NULL, fd) : NULL;
   if (t != NULL && old != NULL) *old = remaining_of(t);
   const int result = t != NULL ? arm(t, t->clock, (flags & TFD_TIMER_ABSTIME) != 0, value)
                                : REAL(timerfd_settime)(fd, flags, value, old);
@@ -934,7 +934,7 @@ EXPORT int timerfd_settime(int fd, int flags, const struct itimerspec* value,
 }
 EXPORT int timerfd_gettime(int fd, struct itimerspec* value) {
   const sigset_t before = lock_timers();
-  const struct timer* t = follows() ? find_timer(Descriptor, NULL, fd) : NULL;
+  const struct timer* t = follows() ? find_timer(UniqueFd, NULL, fd) : NULL;
   if (t != NULL) *value = remaining_of(t);
   const int result = t != NULL ? 0 : REAL(timerfd_gettime)(fd, value);
   unlock_timers(&before);
@@ -999,7 +999,7 @@ static void after_fork(void) {
   pthread_mutex_init(&waiters_lock, NULL);
   memset(waiters, 0, sizeof waiters);
   for (int i = 0; i < most_timers; ++i) {
-    if (timers[i].kind != Descriptor) timers[i].kind = NoTimer;
+    if (timers[i].kind != UniqueFd) timers[i].kind = NoTimer;
   }
   atomic_store(&keeper_state, 0);
 }
@@ -1127,7 +1127,7 @@ EXPORT int close(int fd) {
     atomic_store_explicit(&receive_timeout[fd], 0, memory_order_relaxed);
     atomic_store_explicit(&send_timeout[fd], 0, memory_order_relaxed);
     const sigset_t before = lock_timers();
-    struct timer* t = find_timer(Descriptor, NULL, fd);
+    struct timer* t = find_timer(UniqueFd, NULL, fd);
     if (t != NULL) t->kind = NoTimer;
     unlock_timers(&before);
   }

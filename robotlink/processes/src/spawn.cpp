@@ -15,23 +15,23 @@
 #include <system_error>
 #include <utility>
 
-#include <base/descriptor.h>
 #include <base/system_reason.h>
 #include <base/try.h>
+#include <base/unique_fd.h>
 
 namespace pitchboard::link {
 namespace {
 
 // Descriptors 0 to 2 are about to be replaced in the child; a parent without standard streams would
 // otherwise be given exactly these numbers.
-Descriptor aboveStandard(int fd) {
-  Descriptor low(fd);
+UniqueFd aboveStandard(int fd) {
+  UniqueFd low(fd);
   if (fd < 0 || fd > 2) return low;
-  return Descriptor(::fcntl(fd, F_DUPFD_CLOEXEC, 3));
+  return UniqueFd(::fcntl(fd, F_DUPFD_CLOEXEC, 3));
 }
 
 struct Ends {
-  Descriptor read, write;
+  UniqueFd read, write;
 };
 
 bool makePipe(Ends& ends) {
@@ -202,7 +202,7 @@ Result<Spawned> spawn(const SpawnRequest& request) {
 
   Ends output, report;
   const bool collects = request.output < 0;
-  const Descriptor nothing = aboveStandard(::open("/dev/null", O_RDWR | O_CLOEXEC));
+  const UniqueFd nothing = aboveStandard(::open("/dev/null", O_RDWR | O_CLOEXEC));
   if (!nothing || !makePipe(report)) return cannotStart(program, errno);
   if (collects && (!makePipe(output) || ::fcntl(output.read.get(), F_SETFL, O_NONBLOCK) != 0)) {
     return cannotStart(program, errno);

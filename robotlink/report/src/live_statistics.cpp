@@ -49,7 +49,7 @@ class Walk {
       const auto found = m_robots.find(event.robot);
       if (found == m_robots.end()) continue;
       RobotSummary::Link& link = *found->second.out.link;
-      if (event.kind == MatchEventKind::RobotSilent) ++link.silences;
+      if (event.kind == MatchEventKind::RobotOffline) ++link.silences;
       if (event.kind == MatchEventKind::Penalised) ++link.penalties;
     }
     for (auto& [id, robot] : m_robots) {
@@ -58,7 +58,7 @@ class Walk {
       for (std::size_t i = 0; i < s.uptime.size(); ++i) {
         if (robot.known[i] > 0.0) s.uptime[i] = robot.worked[i] / robot.known[i];
       }
-      if (robot.present > 0.0) s.link->heard = s.seconds / robot.present;
+      if (robot.present > 0.0) s.link->received = s.seconds / robot.present;
       m_sums.add(s);
     }
     // Both teams of the referee, also the one of which no robot is heard.

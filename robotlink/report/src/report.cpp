@@ -141,12 +141,13 @@ std::string links(const SessionStatistics& s) {
       "<th>Least battery</th></tr></thead><tbody>\n";
   for (const RobotSummary& r : s.robots) {
     if (!r.link) continue;
-    out += "<tr>" + cell(badge(r), "l") +
-           cell(fixed(100 * r.link->heard, 1) + " %", r.link->heard < lowUptime ? "low" : "") +
-           cell(std::to_string(r.link->messages)) +
-           cell(r.link->loss ? fixed(100 * *r.link->loss, 1) + " %" : "–") +
-           cell(std::to_string(r.link->silences)) + cell(std::to_string(r.link->penalties)) +
-           cell(r.link->leastVolts ? fixed(*r.link->leastVolts, 1) + " V" : "–") + "</tr>\n";
+    out +=
+        "<tr>" + cell(badge(r), "l") +
+        cell(fixed(100 * r.link->received, 1) + " %", r.link->received < lowUptime ? "low" : "") +
+        cell(std::to_string(r.link->messages)) +
+        cell(r.link->loss ? fixed(100 * *r.link->loss, 1) + " %" : "–") +
+        cell(std::to_string(r.link->silences)) + cell(std::to_string(r.link->penalties)) +
+        cell(r.link->leastVolts ? fixed(*r.link->leastVolts, 1) + " V" : "–") + "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }

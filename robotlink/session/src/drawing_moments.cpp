@@ -17,19 +17,19 @@ std::vector<telemetry::RobotDrawings> DrawingMoments::at(const LiveHistory& hist
   // Nothing older than a layer can live matters.
   const bool goesOn = m_begun && time >= m_time && time - m_time <= longestLife;
   const double from = goesOn ? m_time : time - longestLife;
-  if (!goesOn) m_book.clear();
+  if (!goesOn) m_store.clear();
   history.walk(telemetryOnly, {from, time}, [&](const LiveRecord& record) {
     if (goesOn && record.time <= from) return true;
     const telemetry::DatagramParts parts = telemetry::partsOf(record.datagram.payload);
-    if (!parts.drawing.empty()) (void)m_book.take(parts.drawing, record.time);
+    if (!parts.drawing.empty()) (void)m_store.take(parts.drawing, record.time);
     return true;
   });
   m_begun = true;
   m_time = time;
-  return m_book.at(time);
+  return m_store.at(time);
 }
 
-LiveRecord drawingRecord(const HeardDrawing& drawing) {
+LiveRecord drawingRecord(const ReceivedDrawing& drawing) {
   LiveRecord record;
   record.stream = SessionStream::Telemetry;
   record.time = drawing.time;
@@ -42,8 +42,8 @@ void DrawingMemory::ticked(const SimulatedMatch& match, std::chrono::nanoseconds
   forgetAfter(static_cast<double>(state.tick) / state.settings.tickRate);
 }
 
-void DrawingMemory::drew(std::span<const HeardDrawing> drawings) {
-  for (const HeardDrawing& drawing : drawings) remember(drawingRecord(drawing));
+void DrawingMemory::drew(std::span<const ReceivedDrawing> drawings) {
+  for (const ReceivedDrawing& drawing : drawings) remember(drawingRecord(drawing));
 }
 
 }  // namespace pitchboard::link

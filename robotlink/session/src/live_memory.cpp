@@ -20,7 +20,7 @@ std::size_t bytesOf(const LiveRecord& record) {
 
 }  // namespace
 
-void LiveRecords::heard(const LiveDatagram& datagram) {
+void LiveRecords::received(const LiveDatagram& datagram) {
   if (datagram.isStranger()) return;
   LiveRecord record;
   record.stream = datagram.referee ? SessionStream::RefereeRaw : SessionStream::Telemetry;
@@ -42,11 +42,11 @@ void LiveRecords::frameMade(const MatchFrame& frame) {
   keep(std::move(record));
 }
 
-void LiveRecords::remembered(double time, std::string_view books) {
+void LiveRecords::remembered(double time, std::string_view state) {
   LiveRecord record;
   record.stream = SessionStream::LiveState;
   record.time = time;
-  record.json = books;
+  record.json = state;
   keep(std::move(record));
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include <robotlink/live/live_books.h>
+#include <robotlink/live/live_state.h>
 
 namespace pitchboard::link {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 using telemetry::SessionStream;
 using telemetry::WallTime;
 
-constexpr std::array booksOnly{SessionStream::LiveState};
+constexpr std::array snapshotsOnly{SessionStream::LiveState};
 constexpr std::array everything{SessionStream::Telemetry, SessionStream::RefereeRaw,
                                 SessionStream::LiveState};
 constexpr double usualStep = 20.0;   // s; books are kept every 15
@@ -55,12 +55,12 @@ double SessionHistory::begin() const {
 }
 
 struct LiveMoments::Impl {
-  std::optional<LiveBooks::Read> known;
+  std::optional<LiveState::Read> known;
   double time = 0.0;  // of `known`
 
   void take(const LiveRecord& record) {
     if (record.stream == SessionStream::LiveState) {
-      if (auto read = LiveBooks::read(record.json, WallTime{})) known = std::move(*read);
+      if (auto read = LiveState::read(record.json, WallTime{})) known = std::move(*read);
       return;
     }
     if (!known) return;
@@ -68,9 +68,9 @@ struct LiveMoments::Impl {
     const telemetry::DatagramView datagram{at(kept.time), kept.sender, kept.localPort, false,
                                            kept.payload};
     if (record.stream == SessionStream::Telemetry) {
-      (void)known->books.takeRobot(datagram, kept.time);
+      (void)known->state.takeRobot(datagram, kept.time);
     } else if (const auto packet = telemetry::decodeReferee(kept.payload)) {
-      known->books.takeReferee(*packet, datagram);
+      known->state.takeReferee(*packet, datagram);
     }
   }
 };
@@ -93,7 +93,7 @@ bool LiveMoments::goTo(const LiveHistory& history, double time) {
   }
   std::optional<double> start;
   for (double reach = usualStep; !start; reach *= 8.0) {
-    history.walk(booksOnly, {time - reach, until}, [&](const LiveRecord& record) {
+    history.walk(snapshotsOnly, {time - reach, until}, [&](const LiveRecord& record) {
       if (record.time <= until) start = record.time;
       return true;
     });
@@ -105,12 +105,12 @@ bool LiveMoments::goTo(const LiveHistory& history, double time) {
     if (time < history.begin()) return false;
     // They were lost with a part of the file: who is heard from its beginning on is shown, as the
     // next ones say what the datagrams mean.
-    history.walk(booksOnly, {until, farAway}, [&](const auto& record) {
+    history.walk(snapshotsOnly, {until, farAway}, [&](const auto& record) {
       impl.take(record);
       return !impl.known;
     });
     if (!impl.known) return false;
-    impl.known->books.clear(impl.known->options);
+    impl.known->state.clear(impl.known->options);
     start = history.begin();
     begun = true;
   }
@@ -126,16 +126,16 @@ bool LiveMoments::goTo(const LiveHistory& history, double time) {
 
 std::optional<MatchFrame> LiveMoments::frameAt(const LiveHistory& history, double time) {
   if (!goTo(history, time)) return {};
-  LiveBooks::Read& now = *m_impl->known;
-  MatchFrame frame = now.books.frame(now.options, now.books.monitor.status(at(time)), time);
+  LiveState::Read& now = *m_impl->known;
+  MatchFrame frame = now.state.frame(now.options, now.state.monitor.status(at(time)), time);
   frame.origin = FrameOrigin::Recorded;
   frame.paused = true;
   return frame;
 }
 
-std::optional<std::string> LiveMoments::booksAt(const LiveHistory& history, double time) {
+std::optional<std::string> LiveMoments::snapshotAt(const LiveHistory& history, double time) {
   if (!goTo(history, time)) return {};
-  return m_impl->known->books.text(m_impl->known->options, time, WallTime{});
+  return m_impl->known->state.text(m_impl->known->options, time, WallTime{});
 }
 
 std::vector<std::pair<SessionStream, std::string>> openingAt(
@@ -143,9 +143,9 @@ std::vector<std::pair<SessionStream, std::string>> openingAt(
   const auto range = session.range();
   if (session.count(SessionStream::LiveState) == 0 || !range || time <= range->begin) return {};
   LiveMoments moments;
-  auto books = moments.booksAt(SessionHistory(session), time);
-  if (!books) return {};
-  return {{SessionStream::LiveState, std::move(*books)}};
+  auto state = moments.snapshotAt(SessionHistory(session), time);
+  if (!state) return {};
+  return {{SessionStream::LiveState, std::move(*state)}};
 }
 
 }  // namespace pitchboard::link

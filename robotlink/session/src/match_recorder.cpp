@@ -21,20 +21,20 @@ namespace pitchboard::link {
 namespace {
 
 /// What was known when it began, and what came later.
-void appendHeard(telemetry::SessionWriter& writer, const LiveMemory& heard, double begin) {
+void appendReceived(telemetry::SessionWriter& writer, const LiveMemory& received, double begin) {
   using telemetry::SessionStream;
   LiveMoments moments;
-  const double first = std::max(begin, heard.begin());
-  if (const auto books = moments.booksAt(heard, first)) {
-    writer.appendJson(SessionStream::LiveState, first, *books);
+  const double first = std::max(begin, received.begin());
+  if (const auto state = moments.snapshotAt(received, first)) {
+    writer.appendJson(SessionStream::LiveState, first, *state);
   }
   constexpr std::array streams{SessionStream::Telemetry, SessionStream::RefereeRaw,
                                SessionStream::Referee, SessionStream::LiveState};
-  heard.walk(streams, {first, std::numeric_limits<double>::infinity()},
-             [&writer, first](const LiveRecord& record) {
-               if (record.time > first) appendRecord(writer, record);
-               return true;
-             });
+  received.walk(streams, {first, std::numeric_limits<double>::infinity()},
+                [&writer, first](const LiveRecord& record) {
+                  if (record.time > first) appendRecord(writer, record);
+                  return true;
+                });
 }
 
 double timeOf(const sim::WorldState& state) {
@@ -101,7 +101,7 @@ void MatchRecorder::ticked(const SimulatedMatch& match, std::chrono::nanoseconds
 void MatchRecorder::writeEvents() {
   for (const MatchEvent& event : m_events) m_writer->append(sessionEvent(event));
   m_events.clear();
-  for (const HeardDrawing& drawing : m_drawings) appendRecord(*m_writer, drawingRecord(drawing));
+  for (const ReceivedDrawing& drawing : m_drawings) appendRecord(*m_writer, drawingRecord(drawing));
   m_drawings.clear();
 }
 
@@ -109,7 +109,7 @@ void MatchRecorder::happened(std::span<const MatchEvent> events) {
   m_events.insert(m_events.end(), events.begin(), events.end());
 }
 
-void MatchRecorder::drew(std::span<const HeardDrawing> drawings) {
+void MatchRecorder::drew(std::span<const ReceivedDrawing> drawings) {
   m_drawings.insert(m_drawings.end(), drawings.begin(), drawings.end());
 }
 
@@ -174,7 +174,7 @@ Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seco
                if (isNew) known->second = (*writer)->addGroup(group);
                (*writer)->append(known->second, row);
              });
-  if (past.heard) appendHeard(**writer, *past.heard, begin);
+  if (past.received) appendReceived(**writer, *past.received, begin);
   if (past.drawn) {
     constexpr std::array drawings{telemetry::SessionStream::Telemetry};
     past.drawn->walk(drawings, {begin, range->end}, [&writer](const LiveRecord& record) {

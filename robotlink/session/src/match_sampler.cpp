@@ -58,7 +58,7 @@ void MatchSampler::sampleInto(std::span<const Outlet> outlets, const SimulatedMa
   readMatch(match.simulation().state(), m_snapshot,
             std::chrono::duration<double, std::micro>(tickTime).count(), m_matchValues);
   append(0, {m_snapshot.time, {}, m_matchValues});
-  for (std::size_t i = 0; i < m_seats.size(); ++i) {
+  for (std::size_t i = 0; i < m_sampled.size(); ++i) {
     const sim::RobotSnapshot& robot = m_snapshot.robots[i];
     const Blackboard* board = match.blackboard(robot.identity.id);
     if (!board) continue;
@@ -70,11 +70,12 @@ void MatchSampler::sampleInto(std::span<const Outlet> outlets, const SimulatedMa
 
 bool MatchSampler::sameRobots(const SimulatedMatch& match) const {
   if (m_catalog != &match.catalog()) return false;
-  return std::ranges::equal(m_seats, m_snapshot.robots, [&](const Seat& seat, const auto& robot) {
-    const RobotSlot* slot = match.robots().find(robot.identity.id);
-    return seat.identity == robot.identity && slot && seat.key == slot->board.key() &&
-           seat.behaviour == slot->behaviour;
-  });
+  return std::ranges::equal(
+      m_sampled, m_snapshot.robots, [&](const SampledRobot& sampled, const auto& robot) {
+        const RobotSlot* slot = match.robots().find(robot.identity.id);
+        return sampled.identity == robot.identity && slot && sampled.key == slot->board.key() &&
+               sampled.behaviour == slot->behaviour;
+      });
 }
 
 void MatchSampler::takeRobots(const SimulatedMatch& match) {
@@ -101,29 +102,29 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
   }
   m_words.resize(m_board->size());
   m_truth.resize(truth.size());
-  m_seats.clear();
+  m_sampled.clear();
   for (const sim::RobotSnapshot& robot : m_snapshot.robots) {
     const sim::RobotIdentity& identity = robot.identity;
     const RobotSlot& slot = *match.robots().find(identity.id);
-    Seat seat{identity, slot.board.key(), slot.behaviour};
+    SampledRobot sampled{identity, slot.board.key(), slot.behaviour};
     telemetry::GroupInfo info{groupName(identity), m_board->columns(), {}};
     info.columns.insert(info.columns.end(), truth.begin(), truth.end());
     info.attributes = {{"robot", std::to_string(identity.id.value)},
                        {"team", std::string(pitchboard::info(identity.team).name)},
                        {"number", std::to_string(identity.number)},
-                       {"key", std::to_string(seat.key)},
+                       {"key", std::to_string(sampled.key)},
                        {"imu180", identity.imuStartsAt180 ? "1" : "0"},
-                       {"behaviour", seat.behaviour}};
+                       {"behaviour", sampled.behaviour}};
     m_groups.push_back(std::move(info));
-    m_seats.push_back(std::move(seat));
+    m_sampled.push_back(std::move(sampled));
   }
 }
 
 std::string MatchSampler::groupName(const sim::RobotIdentity& robot) const {
   const std::string name = robot.name();
   // Two robots of a team may have one number by mistake; their rows must not mix.
-  const bool taken = std::ranges::any_of(m_seats, [&](const Seat& seat) {
-    return seat.identity.team == robot.team && seat.identity.number == robot.number;
+  const bool taken = std::ranges::any_of(m_sampled, [&](const SampledRobot& sampled) {
+    return sampled.identity.team == robot.team && sampled.identity.number == robot.number;
   });
   return taken ? name + " (" + std::to_string(robot.id.value) + ")" : name;
 }

@@ -58,7 +58,7 @@ std::vector<BoardWord> boardWords(const telemetry::GroupInfo& group,
 
 Result<Moment> momentFromMemory(const StateArchive& archive, const telemetry::SeriesStore& rows,
                                 std::uint64_t tick, const VariableCatalog& catalog) {
-  auto state = TRY(archive.reenter(tick));
+  auto state = TRY(archive.restore(tick));
   Moment moment{std::move(state), {}, archive.past(tick)};
   const double rate = moment.state.settings.tickRate;
   const double time = (static_cast<double>(tick) + tickTolerance) / rate;

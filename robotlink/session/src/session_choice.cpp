@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <robotlink/frame/build_robot.h>
-#include <robotlink/live/live_books.h>
+#include <robotlink/live/live_state.h>
 #include <robotlink/live/live_teams.h>
 #include <robotlink/session/live_moments.h>
 #include <telemetry/wire/lenient_json.h>
@@ -78,9 +78,9 @@ class Choice {
     const telemetry::DatagramView datagram{
         WallTime(telemetry::Duration(std::llround(kept->time * 1e9))), kept->sender,
         kept->localPort, false, kept->payload};
-    telemetry::TeamMonitor& monitor = m_known->books.monitor;
+    telemetry::TeamMonitor& monitor = m_known->state.monitor;
     RobotKey robot;
-    if (const auto verdict = m_known->books.takeRobot(datagram, kept->time)) {
+    if (const auto verdict = m_known->state.takeRobot(datagram, kept->time)) {
       robot = {monitor.decoded().place, monitor.decoded().robot, 0};
       if (*verdict == telemetry::TeamMonitor::Verdict::Used) robot = monitor.used();
     } else if (drawing) {
@@ -91,7 +91,7 @@ class Choice {
   }
 
   std::string nameOf(const RobotKey& robot) const {
-    return robotName(robot, m_known->books.teams(m_known->options));
+    return robotName(robot, m_known->state.teams(m_known->options));
   }
 
   bool keepPlayers(std::string& text) const {
@@ -118,29 +118,29 @@ class Choice {
   }
 
   bool keepState(std::string& text) {
-    auto all = LiveBooks::read(text, WallTime{});
-    auto part = LiveBooks::read(text, WallTime{});
+    auto all = LiveState::read(text, WallTime{});
+    auto part = LiveState::read(text, WallTime{});
     if (!all || !part) return false;
     m_known.emplace(std::move(*all));
     const double time = lenient::number(lenient::parsed<Json>(text), "time").value_or(0.0);
     const WallTime now(telemetry::Duration(std::llround(time * 1e9)));
     // Backwards: when the first program of a number is forgotten, the next one moves up.
-    auto robots = m_known->books.monitor.status(now).robots;
+    auto robots = m_known->state.monitor.status(now).robots;
     std::ranges::reverse(robots);
     for (const telemetry::RobotStatus& robot : robots) {
       if (isChosen(nameOf(robot.key), m_robots)) continue;
-      part->books.monitor.forget(robot.key);
+      part->state.monitor.forget(robot.key);
     }
-    part->books.drawings.forget(
+    part->state.drawings.forget(
         [&](const RobotKey& robot) { return !isChosen(nameOf(robot), m_robots); });
-    text = part->books.text(part->options, time, WallTime{});
+    text = part->state.text(part->options, time, WallTime{});
     return true;
   }
 
   std::vector<std::string> m_robots, m_groups;
   std::map<std::string, std::string> m_nameOfBoard;
   bool m_isLive = false;
-  std::optional<LiveBooks::Read> m_known;  // of all robots
+  std::optional<LiveState::Read> m_known;  // of all robots
 };
 
 }  // namespace

@@ -150,7 +150,7 @@ std::shared_ptr<const StateSegment> StateArchive::segmentAt(std::uint64_t tick) 
   return found && tick <= found->lastTick() ? found : nullptr;
 }
 
-Result<sim::WorldState> StateArchive::reenter(std::uint64_t tick) const {
+Result<sim::WorldState> StateArchive::restore(std::uint64_t tick) const {
   const auto found = segmentAt(tick);
   if (!found) {
     return failure(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The loops behind ManyDraws, once for each width of the processor's registers. All give the same
+// The loops behind RandomBatch, once for each width of the processor's registers. All give the same
 // bits. Pure functions on arrays of the caller.
 
 #include <cstddef>

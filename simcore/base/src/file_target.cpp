@@ -32,7 +32,7 @@ std::string folderOf(const std::string& path) {
 
 /// 0, or the errno of what failed.
 int syncPath(const std::string& path, int flags) {
-  const Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags));
+  const UniqueFd descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags));
   if (!descriptor) return errno;
   const int error = ::fsync(descriptor.get()) == 0 ? 0 : errno;
   // Some network file systems do not know the call: nothing more can be done there.

@@ -23,7 +23,7 @@ Result<NewFile> NewFile::openDevice(const std::string& path) {
 }
 
 Result<NewFile> NewFile::open(const std::string& path, int flags, const std::string& shownAs) {
-  Descriptor descriptor;
+  UniqueFd descriptor;
   do {
     descriptor.reset(::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0644));
   } while (!descriptor && errno == EINTR);
@@ -33,7 +33,7 @@ Result<NewFile> NewFile::open(const std::string& path, int flags, const std::str
 
 Result<void> NewFile::write(std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(m_descriptor.get(), bytes.data(), bytes.size());
+    const ssize_t written = ::write(m_fd.get(), bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return cannotWrite(written < 0 ? errno : ENOSPC, m_path);
     m_size += static_cast<std::uint64_t>(written);
@@ -44,13 +44,13 @@ Result<void> NewFile::write(std::string_view bytes) {
 
 Result<void> NewFile::sync() const {
   // Pipes and some network file systems do not know the call: nothing more can be done there.
-  if (::fdatasync(m_descriptor.get()) == 0 || errno == EINVAL || errno == ENOSYS) return {};
+  if (::fdatasync(m_fd.get()) == 0 || errno == EINVAL || errno == ENOSYS) return {};
   return cannotWrite(errno, m_path);
 }
 
 Result<void> NewFile::syncFolder() const {
   const std::string folder = std::filesystem::path(m_path).parent_path().string();
-  const Descriptor opened(
+  const UniqueFd opened(
       ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // A folder that may be written but not read cannot be asked.
   if (!opened) return {};
@@ -60,12 +60,12 @@ Result<void> NewFile::syncFolder() const {
 }
 
 void NewFile::cutAt(std::uint64_t size) {
-  if (::ftruncate(m_descriptor.get(), static_cast<off_t>(size)) != 0) return;
-  if (::lseek(m_descriptor.get(), static_cast<off_t>(size), SEEK_SET) >= 0) m_size = size;
+  if (::ftruncate(m_fd.get(), static_cast<off_t>(size)) != 0) return;
+  if (::lseek(m_fd.get(), static_cast<off_t>(size), SEEK_SET) >= 0) m_size = size;
 }
 
 Result<void> NewFile::keepRoom(std::uint64_t bytes) {
-  const bool kept = ::fallocate(m_descriptor.get(), FALLOC_FL_KEEP_SIZE, static_cast<off_t>(m_size),
+  const bool kept = ::fallocate(m_fd.get(), FALLOC_FL_KEEP_SIZE, static_cast<off_t>(m_size),
                                 static_cast<off_t>(bytes)) == 0;
   if (!kept && errno == ENOSPC) return cannotWrite(ENOSPC, m_path);
   return {};
@@ -73,13 +73,13 @@ Result<void> NewFile::keepRoom(std::uint64_t bytes) {
 
 Result<void> NewFile::stillThere() const {
   struct stat status {};
-  if (::fstat(m_descriptor.get(), &status) != 0) return cannotWrite(errno, m_path);
+  if (::fstat(m_fd.get(), &status) != 0) return cannotWrite(errno, m_path);
   if (status.st_nlink > 0) return {};
   return failure(ErrorCode::SystemError, "The file was removed while it was written.", m_path);
 }
 
 Result<void> NewFile::close() {
-  const int descriptor = m_descriptor.release();
+  const int descriptor = m_fd.release();
   if (descriptor < 0 || ::close(descriptor) == 0 || errno == EINTR) return {};
   return cannotWrite(errno, m_path);
 }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cerrno>
 
-#include <base/descriptor.h>
 #include <base/system_reason.h>
+#include <base/unique_fd.h>
 
 namespace pitchboard {
 namespace {
@@ -47,7 +47,7 @@ Result<std::string> readDescriptor(int descriptor, std::size_t mostBytes, const 
 
 Result<std::string> readFile(const std::string& path, std::size_t mostBytes,
                              const std::string& what) {
-  Descriptor descriptor;
+  UniqueFd descriptor;
   do {
     descriptor.reset(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   } while (!descriptor && errno == EINTR);

@@ -38,8 +38,8 @@ class PublishedModel : public PhysicsModel {
     return state && state->robots.size() == world.robots.size();
   }
 
-  BallWay move(WorldState& world, std::span<const RobotCommand> commands,
-               std::span<Percepts> percepts, std::vector<Event>& events) override {
+  BallSweep move(WorldState& world, std::span<const RobotCommand> commands,
+                 std::span<Percepts> percepts, std::vector<Event>& events) override {
     const PublishedGeometry& geometry = geometryOf(world.settings.field);
     const std::size_t count = world.robots.size();
     for (std::size_t i = 0; i < count; ++i) {

@@ -250,10 +250,10 @@ void controlRobot(WorldState& world, const PublishedGeometry& geometry, std::siz
   }
 }
 
-BallWay moveBall(WorldState& world, const PublishedGeometry& geometry) {
+BallSweep moveBall(WorldState& world, const PublishedGeometry& geometry) {
   PublishedBall& ball = stateOf(world).ball;
   const FieldSpec& field = world.settings.field;
-  BallWay way;
+  BallSweep way;
   way.from = published_frame::studioFromWindow(field, ball.x, ball.y);
   ball.vx *= ball.friction;
   ball.vy *= ball.friction;

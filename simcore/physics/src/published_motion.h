@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include <simcore/world/ball_way.h>
+#include <simcore/world/ball_sweep.h>
 #include <simcore/world/event.h>
 
 #include <simcore/world/published_geometry.h>
@@ -21,6 +21,6 @@ void controlRobot(WorldState& world, const PublishedGeometry& geometry, std::siz
                   const RobotCommand& command, Percepts& percepts, std::vector<Event>& events);
 
 /// Slows and moves the ball and bounces it off posts and walls; says where it came from.
-BallWay moveBall(WorldState& world, const PublishedGeometry& geometry);
+BallSweep moveBall(WorldState& world, const PublishedGeometry& geometry);
 
 }  // namespace pitchboard::sim::published

@@ -135,7 +135,7 @@ bool motionIsNoisy(const NoiseParameters& noise) {
 MotionNoise drawNoise(const Tick& tick, std::size_t index) {
   const NoiseParameters& noise = tick.noise(index);
   if (!tick.state.robots[index].inMotion || !motionIsNoisy(noise)) return {};
-  ManyDraws::Draws random = tick.draws.motion.of(index);
+  RandomBatch::Draws random = tick.draws.motion.of(index);
   // One statement each: the published order is rotation, forward, sideways.
   MotionNoise drawn;
   drawn.turn = random.normal(0.0, noise.rotation * tick.sqrtFrames);

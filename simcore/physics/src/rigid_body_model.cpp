@@ -53,8 +53,8 @@ class RigidBodyModel final : public PhysicsModel {
            });
   }
 
-  BallWay move(WorldState& world, std::span<const RobotCommand> commands,
-               std::span<Percepts> percepts, std::vector<Event>& events) override {
+  BallSweep move(WorldState& world, std::span<const RobotCommand> commands,
+                 std::span<Percepts> percepts, std::vector<Event>& events) override {
     Scratch& used = scratch();
     rigid::Tick tick = tickOf(world, events, used);
     const double dt = tick.dt;

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include <base/angles.h>
-#include <base/many_draws.h>
+#include <base/random_batch.h>
 #include <base/repeatable_math.h>
-#include <simcore/world/ball_way.h>
+#include <simcore/world/ball_sweep.h>
 #include <simcore/world/event.h>
 #include <simcore/world/world_state.h>
 
@@ -55,7 +55,7 @@ struct Motion {
 /// What noise all robots have in this tick, stream by stream; made where the stream is used first.
 struct Noise {
   std::vector<int> robots;  ///< their numbers
-  ManyDraws motion, imu, ball;
+  RandomBatch motion, imu, ball;
   bool ballDrawn = false;  ///< in this tick: only where somebody sees the ball
 };
 
@@ -68,7 +68,7 @@ struct Tick {
   Noise& draws;
   double dt = 0.0;          ///< s
   double sqrtFrames = 0.0;  ///< root of the tick in 1/60 s: scales noise given per 1/60 s
-  BallWay ball = {};        ///< set by the collisions
+  BallSweep ball = {};      ///< set by the collisions
 
   const SimulationSettings& settings() const { return world.settings; }
   const RobotModel& model(std::size_t robot) const { return world.models[robot]; }
@@ -77,7 +77,7 @@ struct Tick {
   }
   /// Fills `stream` when the noise of some robot wants it.
   template <class Wants>
-  void draw(ManyDraws& stream, NoiseStream name, int count, const Wants& wants) const {
+  void draw(RandomBatch& stream, NoiseStream name, int count, const Wants& wants) const {
     const std::size_t robots = world.robots.size();
     bool any = false;
     for (std::size_t i = 0; i < robots && !any; ++i) any = wants(noise(i));

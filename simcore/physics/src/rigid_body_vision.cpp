@@ -137,7 +137,7 @@ std::optional<Polar> lookAtBall(const Tick& tick, std::size_t index, Image& imag
     tick.draw(tick.draws.ball, NoiseStream::BallVision, 3, ballVisionIsNoisy);
     tick.draws.ballDrawn = true;
   }
-  ManyDraws::Draws random = tick.draws.ball.of(index);
+  RandomBatch::Draws random = tick.draws.ball.of(index);
   if (random.uniform() < noise.missedDetection) return {};
   const double distance =
       std::max(0.0, random.normal(seen->distance, noise.visionDistance * seen->distance));

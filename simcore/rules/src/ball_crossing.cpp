@@ -79,7 +79,7 @@ bool isInGoal(const FieldSpec& field, const Point& ball) {
          std::abs(ball.y) < field.goalWidth / 2.0;
 }
 
-Crossing crossingOf(const FieldSpec& field, const BallWay& way, const Point& now,
+Crossing crossingOf(const FieldSpec& field, const BallSweep& way, const Point& now,
                     std::span<const Standing> robots) {
   if (!isInField(field, way.from)) return {};
   const bool isOut = !isInField(field, now);

@@ -49,7 +49,7 @@ void putBackWhenOut(const PublishedGeometry& g, PublishedBall& ball, std::uint64
   }
 }
 
-void applyRules(WorldState& world, PublishedState& state, const BallWay& /*way*/,
+void applyRules(WorldState& world, PublishedState& state, const BallSweep& /*way*/,
                 std::vector<Event>& events) {
   const PublishedGeometry g(world.settings.field);
   PublishedBall& ball = state.ball;
@@ -77,7 +77,7 @@ void scoreGoal(WorldState& world, RigidBall& ball, bool leftScored, std::vector<
   }
 }
 
-void applyRules(WorldState& world, RigidBodyState& state, const BallWay& way,
+void applyRules(WorldState& world, RigidBodyState& state, const BallSweep& way,
                 std::vector<Event>& events) {
   const FieldSpec& field = world.settings.field;
   RigidBall& ball = state.ball;
@@ -108,7 +108,7 @@ void applyRules(WorldState& world, RigidBodyState& state, const BallWay& way,
 
 }  // namespace
 
-void applyPublishedRules(WorldState& world, const BallWay& way, std::vector<Event>& events) {
+void applyPublishedRules(WorldState& world, const BallSweep& way, std::vector<Event>& events) {
   std::visit([&](auto& state) { applyRules(world, state, way, events); }, world.physics);
 }
 

@@ -164,8 +164,8 @@ Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCa
   return RefereeTable(world, now, placements, events).call(call);
 }
 
-void stepReferee(WorldState& world, const Snapshot& now, const BallWay& way, Placements& placements,
-                 std::vector<Event>& events) {
+void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& way,
+                 Placements& placements, std::vector<Event>& events) {
   RefereeTable(world, now, placements, events).tick(way);
 }
 

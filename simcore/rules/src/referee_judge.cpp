@@ -25,7 +25,7 @@ constexpr double longestEnd = 10.0;     // s that a half waits for the ball
 
 }  // namespace
 
-void RefereeTable::judge(const BallWay& way) {
+void RefereeTable::judge(const BallSweep& way) {
   followTouches(way);
   const PlayState before = m_game.state;
   if (m_rules.goals && judgeLines(way)) return;
@@ -37,7 +37,7 @@ void RefereeTable::judge(const BallWay& way) {
 }
 
 /// Who has the ball: a kick of this tick, else the nearest that touches it.
-void RefereeTable::followTouches(const BallWay&) {
+void RefereeTable::followTouches(const BallSweep&) {
   Restart& restart = m_game.restart;
   const bool placed = restart.step != Restart::Step::Placing;
   std::optional<std::size_t> toucher;
@@ -81,7 +81,7 @@ void RefereeTable::followTouches(const BallWay&) {
 }
 
 /// Goals and a ball that is out. True when play does not go on as it was.
-bool RefereeTable::judgeLines(const BallWay& way) {
+bool RefereeTable::judgeLines(const BallSweep& way) {
   if (m_game.restart.step == Restart::Step::Placing) return false;  // the ball is dead
   std::array<Standing, highestRobotNumber> robots;
   const std::size_t count = std::min(robots.size(), m_now.robots.size());

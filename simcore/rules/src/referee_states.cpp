@@ -253,7 +253,7 @@ void RefereeTable::mirror() {
   m_world.clockRunning = m_game.state == PlayState::Playing && clockRuns();
 }
 
-void RefereeTable::tick(const BallWay& way) {
+void RefereeTable::tick(const BallSweep& way) {
   runClocks();
   runPenalties();
   if (m_game.state == PlayState::Playing) {

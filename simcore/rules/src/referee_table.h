@@ -31,7 +31,7 @@ class RefereeTable {
   }
 
   Result<void> call(const RefereeCall& call);
-  void tick(const BallWay& way);
+  void tick(const BallSweep& way);
 
  private:
   // States.
@@ -71,9 +71,9 @@ class RefereeTable {
   int removalTicks(std::size_t robot, PenaltyKind penalty) const;
 
   // Judging.
-  void judge(const BallWay& way);
-  void followTouches(const BallWay& way);
-  bool judgeLines(const BallWay& way);
+  void judge(const BallSweep& way);
+  void followTouches(const BallSweep& way);
+  bool judgeLines(const BallSweep& way);
   void judgeGoal(bool right, const Point& where);
   void judgeRest();
   void judgeRobots();

@@ -87,7 +87,7 @@ void Simulation::step(std::span<const RobotCommand> commands, std::span<Percepts
   assert(commands.size() == robotCount() && percepts.size() == robotCount());
   m_events.clear();
   m_events.swap(m_called);
-  const BallWay way = m_model->move(m_state, commands, percepts, m_events);
+  const BallSweep way = m_model->move(m_state, commands, percepts, m_events);
   if (m_state.game) {
     snapshot(m_seen);
     m_placements.clear();

@@ -21,14 +21,14 @@ constexpr std::size_t windowBytes = 256 * 1024;
 Result<McapSource> McapSource::file(const std::string& path) {
   McapSource source;
   source.m_name = path;
-  source.m_descriptor = Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (!source.m_descriptor) {
+  source.m_fd = UniqueFd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!source.m_fd) {
     if (errno == ENOENT) return failure(ErrorCode::NotFound, "There is no such file.", path);
     return failure(ErrorCode::SystemError,
                    "The file cannot be opened: " + systemReason(errno) + ".", path);
   }
   struct stat status {};
-  if (::fstat(source.m_descriptor.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
+  if (::fstat(source.m_fd.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
     return failure(ErrorCode::InvalidArgument, "This is not a file.", path);
   }
   source.m_size = static_cast<std::uint64_t>(status.st_size);
@@ -46,14 +46,14 @@ McapSource McapSource::memory(std::string bytes) {
 std::size_t McapSource::readSome(std::uint64_t offset, char* to, std::size_t count) const {
   if (offset >= m_size) return 0;
   count = static_cast<std::size_t>(std::min<std::uint64_t>(count, m_size - offset));
-  if (!m_descriptor) {
+  if (!m_fd) {
     std::memcpy(to, m_bytes.data() + offset, count);
     return count;
   }
   std::size_t done = 0;
   while (done < count) {
     const ssize_t got =
-        ::pread(m_descriptor.get(), to + done, count - done, static_cast<off_t>(offset + done));
+        ::pread(m_fd.get(), to + done, count - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) break;  // cut meanwhile, or a bad disk: what is not there is not read
     done += static_cast<std::size_t>(got);
@@ -70,7 +70,7 @@ bool McapSource::read(std::uint64_t offset, std::size_t count, std::string& out)
 std::string_view McapSource::look(std::uint64_t offset, std::size_t count) const {
   if (offset >= m_size) return {};
   count = static_cast<std::size_t>(std::min<std::uint64_t>(count, m_size - offset));
-  if (!m_descriptor) return std::string_view(m_bytes).substr(offset, count);
+  if (!m_fd) return std::string_view(m_bytes).substr(offset, count);
   if (offset < m_windowOffset || offset + count > m_windowOffset + m_window.size()) {
     m_window.resize(std::max(count, windowBytes));
     m_window.resize(readSome(offset, m_window.data(), m_window.size()));

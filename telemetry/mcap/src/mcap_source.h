@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include <base/descriptor.h>
 #include <base/result.h>
+#include <base/unique_fd.h>
 
 namespace pitchboard::telemetry {
 
@@ -32,7 +32,7 @@ class McapSource {
 
   std::string m_name;
   std::string m_bytes;
-  Descriptor m_descriptor;
+  UniqueFd m_fd;
   std::uint64_t m_size = 0;
   mutable std::string m_window;
   mutable std::uint64_t m_windowOffset = 0;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "team_monitor_books.h"
+#include "team_monitor_snapshot.h"
 
 namespace pitchboard::telemetry {
 namespace {

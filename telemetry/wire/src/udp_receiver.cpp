@@ -116,7 +116,7 @@ struct UdpReceiver::Impl {
   ReceiverOptions options;
   std::function<void()> onReady;
   DatagramQueue queue;
-  Descriptor poll, wake;
+  UniqueFd poll, wake;
   std::vector<std::optional<UdpSocket>> sockets;
   ReceiveBuffers buffers;
   DatagramBatch received;

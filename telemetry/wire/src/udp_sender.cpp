@@ -9,7 +9,7 @@
 namespace pitchboard::telemetry {
 
 Result<UdpSender> UdpSender::to(Address address) {
-  Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  UniqueFd socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket) {
     return failure(ErrorCode::SystemError, "cannot make a UDP socket: " + systemReason(errno));
   }

@@ -58,8 +58,8 @@ Result<UdpSocket> UdpSocket::bind(Address address, std::uint16_t port, int recei
                                                " cannot be received: " + reason(error) + ".");
   };
   UdpSocket socket;
-  socket.m_descriptor = Descriptor(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (!socket.m_descriptor) return refused(errno);
+  socket.m_fd = UniqueFd(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!socket.m_fd) return refused(errno);
   // With address reuse every listener on a port gets each broadcast, and the last one that was
   // started gets the unicast ones whole. SO_REUSEPORT would divide unicast among the listeners by
   // sender, so it is only set where the other listener has it and would be in the way otherwise.
@@ -92,8 +92,7 @@ std::size_t UdpSocket::receive(ReceiveBuffers& buffers, const LiveClock& clock,
   buffers.prepare();
   int count = 0;
   do {
-    count =
-        recvmmsg(m_descriptor.get(), buffers.heads.data(), ReceiveBuffers::messages, 0, nullptr);
+    count = recvmmsg(m_fd.get(), buffers.heads.data(), ReceiveBuffers::messages, 0, nullptr);
   } while (count < 0 && errno == EINTR);
   if (count <= 0) return 0;
   const WallTime now = clock.now();

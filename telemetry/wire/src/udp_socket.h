@@ -10,7 +10,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include <base/descriptor.h>
+#include <base/unique_fd.h>
 #include <telemetry/wire/datagram.h>
 #include <telemetry/wire/live_clock.h>
 
@@ -39,7 +39,7 @@ class UdpSocket {
   /// Error SystemError with the reason in a sentence.
   static Result<UdpSocket> bind(Address address, std::uint16_t port, int receiveBufferBytes);
 
-  int descriptor() const { return m_descriptor.get(); }
+  int descriptor() const { return m_fd.get(); }
   std::uint16_t port() const { return m_port; }
 
   /// Appends up to ReceiveBuffers::messages datagrams to `batch`. Returns how many came; fewer than
@@ -48,7 +48,7 @@ class UdpSocket {
                       std::uint64_t& kernelDrops);
 
  private:
-  Descriptor m_descriptor;
+  UniqueFd m_fd;
   std::uint16_t m_port = 0;
   std::uint32_t m_lastDrops = 0;
 };

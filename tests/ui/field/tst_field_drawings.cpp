@@ -12,7 +12,7 @@
 
 #include <robotlink/frame/drawing_origin.h>
 #include <robotlink/frame/match_frame.h>
-#include <telemetry/wire/drawing_book.h>
+#include <telemetry/wire/drawing_store.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 
@@ -57,17 +57,17 @@ class TestFieldDrawings : public QObject {
 
   void drawingsAreShownByRobotAndLayer() {
     auto frame = frameOf(2);
-    telemetry::DrawingBook book;
+    telemetry::DrawingStore store;
     QVERIFY(
-        book.take("PBD1 1\nlayer plan\nline -4 -2 4 -2\nlayer seen robot\ncolour red\n"
-                  "disc 1 0 0.3",
-                  0.0));
-    QVERIFY(book.take("PBD1 2\nlayer plan\nline -4 -2.5 4 -2.5", 0.0));
+        store.take("PBD1 1\nlayer plan\nline -4 -2 4 -2\nlayer seen robot\ncolour red\n"
+                   "disc 1 0 0.3",
+                   0.0));
+    QVERIFY(store.take("PBD1 2\nlayer plan\nline -4 -2.5 4 -2.5", 0.0));
     const QSize size(1040, 740);
     m_view->showFrame(frame);
     const QImage without = m_view->picture(size);
     frame = std::make_shared<link::MatchFrame>(*frame);
-    frame->drawings = book.at(0.0);
+    frame->drawings = store.at(0.0);
     link::keyDrawings(*frame);
     m_view->showFrame(frame);
     const QImage all = m_view->picture(size);

@@ -23,12 +23,12 @@ QString wordsOf(const FieldOrder& order) {
                                    "fit",       "help",       "add",    "add by shift", "ball",
                                    "move here", "remove",     "action", "search",       "load",
                                    "reset",     "clear",      "pause"};
-  QString words = QLatin1String(names[static_cast<std::size_t>(order.deed)]);
-  using enum FieldDeed;
-  for (const FieldDeed counted : {Select, Nudge, Layer, AddRobot, Act, Search}) {
-    if (order.deed == counted) words += QStringLiteral(" %1").arg(order.value);
+  QString words = QLatin1String(names[static_cast<std::size_t>(order.action)]);
+  using enum FieldAction;
+  for (const FieldAction counted : {Select, Nudge, Layer, AddRobot, Act, Search}) {
+    if (order.action == counted) words += QStringLiteral(" %1").arg(order.value);
   }
-  if (order.deed == Nudge || order.deed == Act) words += QStringLiteral(" %1").arg(order.other);
+  if (order.action == Nudge || order.action == Act) words += QStringLiteral(" %1").arg(order.other);
   return words;
 }
 

@@ -16,7 +16,7 @@
 #include <map>
 
 #include <robotlink/frame/match_frame.h>
-#include <telemetry/wire/drawing_book.h>
+#include <telemetry/wire/drawing_store.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 
@@ -114,12 +114,12 @@ class TestFieldLook : public QObject {
     believe(*frame, frame->robots[4], {{2.5, 2.0}, 1.0});
     frame->teamBalls = {{TeamColor::Blue, {1.0, -1.0}, 0.2, 2, 3},
                         {TeamColor::Red, {-2.0, 1.0}, 0.4, 4, 4}};
-    telemetry::DrawingBook book;
+    telemetry::DrawingStore store;
     QVERIFY(
-        book.take("PBD1 1\nlayer a robot\narrow 0 0 1 0.5\ntext 0.5 0.5 a rather long text\n"
-                  "width 12\npolygon 0 0 0.5 0.5 1 -0.5\nlayer b\ndisc -2 -2 0.7",
-                  0.0));
-    frame->drawings = book.at(0.0);
+        store.take("PBD1 1\nlayer a robot\narrow 0 0 1 0.5\ntext 0.5 0.5 a rather long text\n"
+                   "width 12\npolygon 0 0 0.5 0.5 1 -0.5\nlayer b\ndisc -2 -2 0.7",
+                   0.0));
+    frame->drawings = store.at(0.0);
     for (QAction* layer : m_view->actions().layers) layer->setChecked(true);
     m_view->showFrame(frame);
     m_view->select({blue(1), red(1)});
@@ -297,7 +297,7 @@ class TestFieldLook : public QObject {
     frame->robots[0].ownName = "Lea";
     auto path = std::make_shared<link::PlannedPath>();
     path->points = {{0.0, 0.0}, {1.25, -0.5}};
-    frame->robots[0].thoughts = link::RobotThoughts{RobotId{1}, nullptr, path, 0.0, 0.0};
+    frame->robots[0].cognitionDebug = link::CognitionDebug{RobotId{1}, nullptr, path, 0.0, 0.0};
     m_view->showFrame(frame);
     const QString text = hoverText(*frame, blue(1));
     for (const char* part : {"B1 Lea · Striker", "Action: stop", "Target: x 1.25 m",

@@ -208,7 +208,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     for (int i = 0; i < 200; ++i) cloud->particles.push_back({{-3.0 + 0.01 * i, 2.0}, 0.5, 0.005});
     auto path = std::make_shared<link::PlannedPath>();
     path->points = {{-1.0, -2.0}, {0.0, -2.5}, {2.0, -2.0}};
-    frame->robots.at(0).thoughts = {RobotId{1}, cloud, path, 0.0, 0.0};
+    frame->robots.at(0).cognitionDebug = {RobotId{1}, cloud, path, 0.0, 0.0};
     QCOMPARE(frame->robots[0].key, blue(1));
     FieldView view(nullptr);
     view.resize(900, 660);
@@ -229,7 +229,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
       QCOMPARE(view.picture(size), without);
     }
     auto silent = std::make_shared<link::MatchFrame>(*frame);
-    silent->robots[0].thoughts.reset();
+    silent->robots[0].cognitionDebug.reset();
     view.actions().layers[std::size_t(FieldLayer::Particles)]->setChecked(true);
     view.actions().layers[std::size_t(FieldLayer::PlannedPath)]->setChecked(true);
     view.showFrame(silent);

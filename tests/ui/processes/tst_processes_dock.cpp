@@ -49,7 +49,7 @@ class TestProcessesDock : public QObject {
 
   void open(const link::Scenario& scenario) {
     link::MatchOptions options;
-    options.cognition = link::Cognition::External;
+    options.cognition = link::Cognition::Separate;
     options.keyBase = m_base;
     options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
     m_controller = std::make_unique<MatchController>(options);

@@ -180,15 +180,15 @@ class TestMatchController : public QObject {
     QCOMPARE(c.frameAt(15.0)->settings->physics, std::string("published"));
     QCOMPARE(c.frameAt(1.0)->snapshot.tick, std::uint64_t(60));
     const auto archive = c.memory()->archive();
-    QCOMPARE(archive->reenter(60)->settings.physics, std::string("rigid-body"));
-    QCOMPARE(sim::stateHash(archive->reenter(1200).value()), c.stateHash());
+    QCOMPARE(archive->restore(60)->settings.physics, std::string("rigid-body"));
+    QCOMPARE(sim::stateHash(archive->restore(1200).value()), c.stateHash());
     // As any edit it is undone, and time goes on.
     c.edits()->undoStack()->undo();
     QTRY_COMPARE(c.frame()->settings->physics, std::string("rigid-body"));
     QCOMPARE(tickOf(c), std::uint64_t(1200));
     c.edits()->undoStack()->redo();
     QTRY_COMPARE(c.frame()->settings->physics, std::string("published"));
-    const std::uint64_t hashThen = sim::stateHash(archive->reenter(60).value());
+    const std::uint64_t hashThen = sim::stateHash(archive->restore(60).value());
     c.memory()->continueFrom(1.0);
     QTRY_COMPARE(c.frame()->settings->physics, std::string("rigid-body"));
     QCOMPARE(c.stateHash(), hashThen);
@@ -302,7 +302,7 @@ class TestMatchController : public QObject {
 
   void withoutSeparateProcessesTheMatchPlaysInside() {
     link::MatchOptions options;
-    options.cognition = link::Cognition::External;
+    options.cognition = link::Cognition::Separate;
     options.robotProgram = "/nonexistent/pitchboard-robot";
     options.keyBase = testKeyBase();
     MatchController c(options);

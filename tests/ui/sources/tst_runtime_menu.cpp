@@ -30,7 +30,7 @@ class TestRuntimeMenu : public QObject {
 
   link::MatchOptions options() const {
     link::MatchOptions made;
-    made.cognition = link::Cognition::External;
+    made.cognition = link::Cognition::Separate;
     made.keyBase = m_base;
     made.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
     return made;

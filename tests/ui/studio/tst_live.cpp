@@ -48,7 +48,7 @@ class TestLive : public QObject {
     QCOMPARE(frame->origin, link::FrameOrigin::Live);
     QVERIFY(!frame->truthKnown && !frame->ballKnown);
     const link::RobotFrame& shown = frame->robots[0];
-    QCOMPARE(shown.key, heardAs(3));
+    QCOMPARE(shown.key, receivedAs(3));
     const Pose believed = sim::published_frame::studioFromLocalization(
         s.options.field, {double(said.x), double(said.y), double(said.theta)});
     QCOMPARE(shown.pose.position.x, believed.position.x);
@@ -156,7 +156,7 @@ class TestLive : public QObject {
     const QPoint here = canvas->mapFromScene(QPointF(at.x, at.y));
     canvas->setFocus();
     QTest::mouseClick(canvas->viewport(), Qt::LeftButton, {}, here);
-    QCOMPARE(s.window.field()->selection(), std::vector{heardAs(1)});
+    QCOMPARE(s.window.field()->selection(), std::vector{receivedAs(1)});
     QTest::mousePress(canvas->viewport(), Qt::LeftButton, {}, here);
     QTest::mouseMove(canvas->viewport(), here + QPoint(60, 40));
     QTest::mouseRelease(canvas->viewport(), Qt::LeftButton, {}, here + QPoint(60, 40));
@@ -277,10 +277,10 @@ class TestLive : public QObject {
     QVERIFY(sent > 50);
     QTRY_COMPARE(s.robots() == 1 ? s.health().messages : 0, sent);
     QCOMPARE(s.health().errorCount, std::uint64_t(0));
-    QVERIFY(!robot.heard());
+    QVERIFY(!robot.received());
   }
 
-  void simulatedAndHeardStandSideBySide() {
+  void simulatedAndReceivedStandSideBySide() {
     Studio s;
     s.controller.open(link::loadScenario("match-3v3").value(), true);
     QTRY_VERIFY(s.controller.frame());

@@ -56,14 +56,14 @@ class TestLiveCards : public QObject {
     const Robot one(s.options, 4), two(s.options, 4);
     // Two programs take turns; the order is what matters.
     const std::uint64_t before = s.live()->details().network.datagrams();
-    const auto heard = [&] { return s.live()->details().network.datagrams() - before; };
+    const auto received = [&] { return s.live()->details().network.datagrams() - before; };
     for (std::uint64_t i = 0; i < 3; ++i) {
       QVERIFY(one.say());
-      QTRY_COMPARE(heard(), 2 * i + 1);
+      QTRY_COMPARE(received(), 2 * i + 1);
       telemetry::TextMessage other = live_rig::message(4);
       other.x += 100 + static_cast<int>(i);
       QVERIFY(two.say(other));
-      QTRY_COMPARE(heard(), 2 * i + 2);
+      QTRY_COMPARE(received(), 2 * i + 2);
     }
     QTRY_COMPARE(s.robots(), std::size_t(2));
     QVERIFY(s.health(0).conflict && s.health(1).conflict);
@@ -144,11 +144,11 @@ class TestLiveCards : public QObject {
     QTest::mouseMove(first, below);
     QTest::mouseRelease(first, Qt::LeftButton, {}, below);
     QCOMPARE(s.cards()[2], first);
-    dock->floatCard(heardAs(1));
+    dock->floatCard(receivedAs(1));
     QCOMPARE(s.cards().size(), qsizetype(2));
-    QVERIFY(dock->floating(heardAs(1))->isFloating());
+    QVERIFY(dock->floating(receivedAs(1))->isFloating());
     QVERIFY(first->isVisible());
-    dock->floating(heardAs(1))->close();
+    dock->floating(receivedAs(1))->close();
     QCOMPARE(s.cards().size(), qsizetype(3));
     QVERIFY(first->isVisible());
     CardParts parts = dock->parts();

@@ -62,7 +62,7 @@ class TestLiveReferee : public QObject {
     QCOMPARE(shown.right, state.teams[1].score);
     QVERIFY2(shown.state.startsWith(QString::fromUtf8(telemetry::stateName(state.state).data())),
              qPrintable(shown.state));
-    QVERIFY(!referee.heard());
+    QVERIFY(!referee.received());
   }
 
   void teamsHaveTheirNamesOnTheScoreboard() {

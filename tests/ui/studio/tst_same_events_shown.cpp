@@ -49,12 +49,12 @@ QStringList logLinesOf(const std::vector<MatchEvent>& events) {
 
 /// All that a source says from now on.
 std::shared_ptr<std::vector<MatchEvent>> listenTo(FrameSource* source) {
-  auto heard = std::make_shared<std::vector<MatchEvent>>();
+  auto received = std::make_shared<std::vector<MatchEvent>>();
   QObject::connect(source, &FrameSource::eventsReceived, source,
-                   [heard](const std::vector<MatchEvent>& events) {
-                     heard->insert(heard->end(), events.begin(), events.end());
+                   [received](const std::vector<MatchEvent>& events) {
+                     received->insert(received->end(), events.begin(), events.end());
                    });
-  return heard;
+  return received;
 }
 
 bool has(const std::vector<MatchEvent>& events, Kind kind) {
@@ -90,30 +90,31 @@ class TestSameEventsShown : public QObject {
 
   void ofASimulatedMatch() {
     Studio s(0);
-    const auto heard = listenTo(&s.controller);
+    const auto received = listenTo(&s.controller);
     link::Scenario scenario = link::loadScenario("match-3v3").value();
     scenario.stop.duration = 10.0;
     scenario.ball = {scenario.settings.field.halfLength() - 0.3, 0.0};
     scenario.ballVelocity = {2.0, 0.0};
     s.controller.open(scenario, true);
-    QTRY_VERIFY_WITH_TIMEOUT(has(*heard, Kind::GameState), 20'000);
+    QTRY_VERIFY_WITH_TIMEOUT(has(*received, Kind::GameState), 20'000);
     QTest::mouseClick(s.record(), Qt::LeftButton, {}, {8, 8});
     QVERIFY2(s.window.recording()->isRecording(), qPrintable(s.notice()));
-    const std::size_t before = heard->size();
+    const std::size_t before = received->size();
     s.controller.runTo(600);
-    QTRY_VERIFY_WITH_TIMEOUT(has(*heard, Kind::MatchOver), 60'000);
-    QVERIFY(has(*heard, Kind::Goal));
-    QCOMPARE(event_lists::linesOf(onTheTimeline(s)), event_lists::linesOf(*heard));
-    QCOMPARE(inTheLog(s), logLinesOf(*heard));
+    QTRY_VERIFY_WITH_TIMEOUT(has(*received, Kind::MatchOver), 60'000);
+    QVERIFY(has(*received, Kind::Goal));
+    QCOMPARE(event_lists::linesOf(onTheTimeline(s)), event_lists::linesOf(*received));
+    QCOMPARE(inTheLog(s), logLinesOf(*received));
     const QString path = stopRecording(s);
-    compareFile(s, path, {heard->begin() + static_cast<std::ptrdiff_t>(before), heard->end()});
+    compareFile(s, path,
+                {received->begin() + static_cast<std::ptrdiff_t>(before), received->end()});
   }
 
   void ofALiveStream() {
     Studio s(0);
     const link::LiveOptions options = live_rig::options();
     s.window.live()->setOptions(options);
-    const auto heard = listenTo(s.window.live());
+    const auto received = listenTo(s.window.live());
     s.window.showSource(SourceKind::Live);
     QTRY_VERIFY(!s.window.live()->details().network.ports.empty());
     QTest::mouseClick(s.record(), Qt::LeftButton, {}, {8, 8});
@@ -125,20 +126,20 @@ class TestSameEventsShown : public QObject {
                           live_rig::packet(QLatin1String(file)));
     };
     QVERIFY(robot.say());
-    QTRY_VERIFY(has(*heard, Kind::RobotHeard));
+    QTRY_VERIFY(has(*received, Kind::RobotReceived));
     QVERIFY(send("v12hl688_INITIAL.bin"));
-    QTRY_VERIFY(has(*heard, Kind::RefereeHeard));
+    QTRY_VERIFY(has(*received, Kind::RefereeReceived));
     QVERIFY(send("v12hl688_PLAYING_1-0.bin"));
-    QTRY_VERIFY(has(*heard, Kind::Goal));
-    QCOMPARE(event_lists::linesOf(onTheTimeline(s)), event_lists::linesOf(*heard));
-    QCOMPARE(inTheLog(s), logLinesOf(*heard));
+    QTRY_VERIFY(has(*received, Kind::Goal));
+    QCOMPARE(event_lists::linesOf(onTheTimeline(s)), event_lists::linesOf(*received));
+    QCOMPARE(inTheLog(s), logLinesOf(*received));
     const QString path = stopRecording(s);
     // On a slow machine somebody falls silent behind the end of the recording.
     const auto session = telemetry::SessionReader::open(path.toStdString());
     QVERIFY(session);
     const auto count = static_cast<std::ptrdiff_t>(session->events().size());
-    QTRY_VERIFY(static_cast<std::ptrdiff_t>(heard->size()) >= count);
-    compareFile(s, path, {heard->begin(), heard->begin() + count});
+    QTRY_VERIFY(static_cast<std::ptrdiff_t>(received->size()) >= count);
+    compareFile(s, path, {received->begin(), received->begin() + count});
   }
 };
 

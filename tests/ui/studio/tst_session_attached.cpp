@@ -262,12 +262,14 @@ class TestSessionAttached : public QObject {
       names.sort();
       return names.join(QLatin1Char(' '));
     };
-    const auto heard = [&] { return sender.say() && robotsShown() == QStringLiteral("B2 B3 R4"); };
-    QTRY_VERIFY2(heard(), qPrintable(robotsShown()));
+    const auto received = [&] {
+      return sender.say() && robotsShown() == QStringLiteral("B2 B3 R4");
+    };
+    QTRY_VERIFY2(received(), qPrintable(robotsShown()));
 
     QAction* forget = nullptr;
     const auto isOffered = [&] {
-      s.window.field()->select({heardAs(2)});  // not before the field has it, too
+      s.window.field()->select({receivedAs(2)});  // not before the field has it, too
       const QAction* robots = menu_entry::downFrom(s.window.menuBar(), {"Robots"});
       forget = robots->menu()->findChild<QAction*>(QStringLiteral("forgetRobot"));
       return forget != nullptr;
@@ -280,7 +282,7 @@ class TestSessionAttached : public QObject {
                 ->series()
                 ->find("Robot 2", "LOCALIZATION_X")
                 .has_value());  // its curves stay
-    QTRY_VERIFY(heard());
+    QTRY_VERIFY(received());
   }
 };
 

@@ -62,13 +62,13 @@ class TestSessionLive : public QObject {
     for (int i = 0; i < times; ++i) {
       const double before = live->frame() ? live->frame()->snapshot.time : -1.0;
       if (!one.say() || !two.say()) return false;
-      const bool heard = QTest::qWaitFor(
+      const bool received = QTest::qWaitFor(
           [live, before] {
             return live->frame() && live->frame()->robots.size() == 2 &&
                    live->frame()->snapshot.time > before;
           },
           30'000);
-      if (!heard) return false;
+      if (!received) return false;
     }
     return true;
   }

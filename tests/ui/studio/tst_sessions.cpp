@@ -7,7 +7,7 @@
 #include <QToolButton>
 #include <QtTest>
 
-#include <robotlink/live/live_books.h>
+#include <robotlink/live/live_state.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/state_archive.h>
 #include <telemetry/session/session_reader.h>
@@ -204,7 +204,7 @@ class TestSessions : public QObject {
     const link::LiveOptions options;
     const telemetry::WallTime zero = std::chrono::system_clock::now();
     auto recorder = link::LiveRecorder::create(path.toStdString(), options, zero).value();
-    recorder->remembered(0.5, link::LiveBooks(options).text(options, 0.5, zero));
+    recorder->remembered(0.5, link::LiveState(options).text(options, 0.5, zero));
     const auto say = [&](double time, int port, std::string_view payload) {
       const telemetry::Duration after(static_cast<std::int64_t>(time * 1e9));
       const auto from = static_cast<std::uint16_t>(4000 + port);
@@ -212,7 +212,7 @@ class TestSessions : public QObject {
           zero + after, {{0x7f000001}, from}, static_cast<std::uint16_t>(port), false, payload};
       const auto packet = telemetry::decodeReferee(payload);
       const bool isReferee = port == options.refereePort;
-      recorder->heard(
+      recorder->received(
           {.time = time, .view = datagram, .teams = {}, .referee = isReferee ? &packet : nullptr});
     };
     for (int robot = 1; robot <= 10; ++robot) {

@@ -147,7 +147,7 @@ class TestLiveIsSilent : public QObject {
     s.options.monitor = telemetry::Address{INADDR_LOOPBACK};
     s.options.monitorPort = referee.port();
     s.window.live()->setOptions(s.options);
-    QTRY_VERIFY(referee.heard());
+    QTRY_VERIFY(referee.received());
     s.window.live()->setMonitor({});
     s.options.monitor.reset();
     QTRY_VERIFY(s.window.live()->details().network.ports.size() == 17);

@@ -133,7 +133,7 @@ class TestMainWindow : public QObject {
   void theMenuSwitchesFreeRunningAndLockStep() {
     const QString entry = QStringLiteral("Robot processes run freely");
     link::MatchOptions separate;
-    separate.cognition = link::Cognition::External;
+    separate.cognition = link::Cognition::Separate;
     separate.keyBase = testKeyBase();
     separate.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
     {

@@ -142,7 +142,7 @@ class TestStudioWork : public QObject {
 
   void closingWhileOpeningLeavesNothing() {
     {
-      MatchController c(options(link::Cognition::External));
+      MatchController c(options(link::Cognition::Separate));
       c.open(match());
       c.close();
       QVERIFY(!c.isOpening());
@@ -175,7 +175,7 @@ class TestStudioWork : public QObject {
   }
 
   void theProcessesMenuRestartsAndStops() {
-    Studio s(options(link::Cognition::External));
+    Studio s(options(link::Cognition::Separate));
     s.controller.open(match());
     QTRY_VERIFY_WITH_TIMEOUT(s.child(1, "communication").pid > 0, 20000);
     const link::ProcessSummary first = s.child(1, "decision");

@@ -83,7 +83,7 @@ class TestWindowMenus : public QObject {
     QTRY_VERIFY(s.controller.frame());
     QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Robots decide"),
                      QStringLiteral("In separate processes")}));
-    QTRY_COMPARE(s.controller.cognition(), link::Cognition::External);
+    QTRY_COMPARE(s.controller.cognition(), link::Cognition::Separate);
     // Programs of the operating system, on the blackboards of this number.
     QTRY_VERIFY(s.controller.frame() && s.controller.frame()->matchNumber == free);
     QTRY_VERIFY(!s.controller.frame()->robots.empty() &&
@@ -146,7 +146,7 @@ class TestWindowMenus : public QObject {
     QTRY_VERIFY(s.controller.frame());
     QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Robots decide"),
                      QStringLiteral("In separate processes")}));
-    QTRY_VERIFY(s.controller.cognition() == link::Cognition::External && s.controller.frame() &&
+    QTRY_VERIFY(s.controller.cognition() == link::Cognition::Separate && s.controller.frame() &&
                 s.controller.frame()->matchNumber);
     s.controller.runTo(30);
     QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 30);

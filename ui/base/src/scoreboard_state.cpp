@@ -38,14 +38,14 @@ QString refereeTeam(const link::RefereeTeamView& team) {
   return QString::fromStdString(team.colour).toUpper();
 }
 
-QString refereeTip(const link::RefereeView& view, bool heard) {
+QString refereeTip(const link::RefereeView& view, bool received) {
   QStringList tip;
   for (const link::RefereeTeamView& team : view.teams) tip << refereeTeamText(team, view.ourTeam);
   tip << refereeStateText(view);
   if (const QString setPlay = refereeSetPlayText(view); !setPlay.isEmpty()) tip << setPlay;
   tip << (view.kickOffTeam ? QStringLiteral("Kick-off: team %1").arg(*view.kickOffTeam)
                            : QStringLiteral("Kick-off: nobody (drop ball)"));
-  if (!heard) return tip.join(QLatin1Char('\n'));
+  if (!received) return tip.join(QLatin1Char('\n'));
   tip << QStringLiteral("Referee at %1, version %2, heard %3 ago")
              .arg(QString::fromStdString(view.sender))
              .arg(view.version)

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include <robotlink/experiment/run_player.h>
-#include <robotlink/processes/own_program.h>
+#include <robotlink/processes/team_program.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -16,7 +16,7 @@ constexpr auto progressInterval = std::chrono::milliseconds(100);
 constexpr int mostFolders = 100'000;
 
 link::PlaySettings settingsWith(const std::atomic<bool>& cancelled) {
-  return {link::besideOwnProgram("pitchboard-robot"), {}, {}, &cancelled};
+  return {link::besideTeamProgram("pitchboard-robot"), {}, {}, &cancelled};
 }
 
 /// "name-1", the first that is free.

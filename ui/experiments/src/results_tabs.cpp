@@ -12,7 +12,7 @@
 #include <ui/base/table_style.h>
 
 #include "distribution_view.h"
-#include "ways_view.h"
+#include "trajectories_view.h"
 
 namespace pitchboard::ui {
 
@@ -21,7 +21,7 @@ ResultsTabs::ResultsTabs(bool compares, QWidget* parent)
       m_compares(compares),
       m_seeRuns(new QPushButton(this)),
       m_condition(new QComboBox(this)),
-      m_ways(new WaysView(this)),
+      m_trajectories(new TrajectoriesView(this)),
       m_distribution(new DistributionView(this)) {
   setObjectName(QStringLiteral("experimentTabs"));
   setDocumentMode(true);
@@ -59,9 +59,9 @@ void ResultsTabs::addTabs() {
     highlight();
     showChoices();
   });
-  addTab(m_ways, QStringLiteral("Ways"));
+  addTab(m_trajectories, QStringLiteral("Ways"));
   addTab(m_distribution, QStringLiteral("Distribution"));
-  cover(m_ways, QStringLiteral("experimentWaysEmpty"));
+  cover(m_trajectories, QStringLiteral("experimentTrajectoriesEmpty"));
   cover(m_distribution->area(), QStringLiteral("experimentDistributionEmpty"));
   makeCorner();
   connect(this, &QTabWidget::currentChanged, this, [this] { showChoices(); });
@@ -93,7 +93,7 @@ void ResultsTabs::makeCorner() {
   m_condition->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   connect(m_condition, &QComboBox::currentIndexChanged, this, [this](int index) {
     if (index < 0 || !m_shown) return;
-    m_ways->show(m_shown, static_cast<std::size_t>(index));
+    m_trajectories->show(m_shown, static_cast<std::size_t>(index));
     highlight();
   });
   m_seeRuns->setObjectName(QStringLiteral("experimentSeeRuns"));
@@ -131,12 +131,12 @@ void ResultsTabs::showChoices() {
   m_seeRuns->setToolTip(m_compares
                             ? QStringLiteral("Choose one run, or two (Ctrl+click) to compare")
                             : QStringLiteral("Choose a run"));
-  m_condition->setVisible(currentWidget() == m_ways && m_shown);
+  m_condition->setVisible(currentWidget() == m_trajectories && m_shown);
   m_distribution->chooser()->setVisible(currentWidget() == m_distribution && m_shown);
 }
 
 void ResultsTabs::highlight() {
-  m_ways->highlight(chosenRuns());
+  m_trajectories->highlight(chosenRuns());
 }
 
 void ResultsTabs::showResults(const PlayedPtr& played) {

@@ -18,7 +18,7 @@ class QTableView;
 namespace pitchboard::ui {
 
 class DistributionView;
-class WaysView;
+class TrajectoriesView;
 
 class ResultsTabs : public QTabWidget {
   Q_OBJECT
@@ -47,7 +47,7 @@ class ResultsTabs : public QTabWidget {
   bool m_compares;
   QPushButton* m_seeRuns;
   QComboBox* m_condition;
-  WaysView* m_ways;
+  TrajectoriesView* m_trajectories;
   DistributionView* m_distribution;
   std::vector<ResultsModel*> m_models;
   std::vector<QTableView*> m_tables;

@@ -12,7 +12,7 @@
 
 #include <base/ids.h>
 #include <base/robot_key.h>
-#include <telemetry/wire/drawing_book.h>
+#include <telemetry/wire/drawing_store.h>
 
 #include "field_item.h"
 

@@ -7,7 +7,7 @@
 namespace pitchboard::ui {
 namespace {
 
-using enum FieldDeed;
+using enum FieldAction;
 
 constexpr auto none = Qt::NoModifier;
 constexpr auto ctrl = Qt::ControlModifier;

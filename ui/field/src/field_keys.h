@@ -11,7 +11,7 @@
 namespace pitchboard::ui {
 
 /// What a key does. Those from AddRobot on need a match that can be changed.
-enum class FieldDeed {
+enum class FieldAction {
   Select,  ///< `value`: RobotId
   SelectAll,
   Escape,
@@ -33,7 +33,7 @@ enum class FieldDeed {
 };
 
 struct FieldOrder {
-  FieldDeed deed;
+  FieldAction action;
   int value = 0;
   int other = -1;
 };

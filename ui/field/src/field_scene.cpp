@@ -11,13 +11,13 @@
 #include "ball_item.h"
 #include "belief_item.h"
 #include "compared_item.h"
+#include "debug_overlay_items.h"
 #include "drawing_items.h"
 #include "live_items.h"
 #include "name_labels.h"
 #include "overlay_items.h"
 #include "robot_item.h"
 #include "sector_items.h"
-#include "thought_items.h"
 #include "trail_item.h"
 #include "view_wedge_item.h"
 
@@ -124,7 +124,7 @@ void FieldScene::showFrame(const FramePtr& frame) {
   m_ball->setBall(frame->snapshot.ball);
   for (const link::RobotFrame& robot : frame->robots) showRobot(robot);
   showNames();
-  showThoughts();
+  showDebugOverlay();
   showSelected();
 }
 
@@ -146,18 +146,18 @@ void FieldScene::showNames() {
 }
 
 // Of the selected robots, or of all while none is selected: six clouds at once hide each other.
-void FieldScene::showThoughts() {
+void FieldScene::showDebugOverlay() {
   if (!m_frame) return;
   for (auto& [id, robot] : m_robots) {
     const bool chosen = m_selection.empty() ||
                         std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
     const link::RobotFrame* now = m_frame->robot(id);
-    const bool any = chosen && now != nullptr && now->thoughts;
+    const bool any = chosen && now != nullptr && now->cognitionDebug;
     const TeamColor team = robot->body.look().team;
     robot->particles.setVisible(any && m_style.shows(FieldLayer::Particles));
     robot->path.setVisible(any && m_style.shows(FieldLayer::PlannedPath));
-    if (robot->particles.isVisible()) robot->particles.setCloud(now->thoughts->cloud, team);
-    if (robot->path.isVisible()) robot->path.setPath(now->thoughts->path, team);
+    if (robot->particles.isVisible()) robot->particles.setCloud(now->cognitionDebug->cloud, team);
+    if (robot->path.isVisible()) robot->path.setPath(now->cognitionDebug->path, team);
   }
 }
 
@@ -284,7 +284,7 @@ void FieldScene::setSelection(std::vector<RobotKey> ids) {
                             m_frame->truthKnown && (look.selected || m_style.wedgeForAll));
     robot->wedge.styleChanges();
   }
-  showThoughts();
+  showDebugOverlay();
   if (m_style.drawings.onlySelected) m_drawings->show(m_frame.get(), m_selection);
   showSelected();
   emit selectionChangedTo(m_selection);

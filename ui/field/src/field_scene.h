@@ -96,7 +96,7 @@ class FieldScene : public QGraphicsScene {
   void showRobot(const link::RobotFrame& now);
   void showOtherPose(Robot& robot, const link::RobotFrame& now);
   void showNames();
-  void showThoughts();
+  void showDebugOverlay();
   void showSelected();
   void setSelection(std::vector<RobotKey> ids);
 

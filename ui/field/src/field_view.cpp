@@ -108,12 +108,13 @@ void FieldView::Private::escape() {
 
 void FieldView::Private::carryOut(const FieldOrder& order) {
   const std::vector<RobotId> selected = scene->selectedSlots();
-  using enum FieldDeed;
-  const bool forSelected = order.deed == MoveHere || order.deed == Act || order.deed == Search;
+  using enum FieldAction;
+  const bool forSelected =
+      order.action == MoveHere || order.action == Act || order.action == Search;
   if (forSelected && scene->selection().empty()) return;
-  if (order.deed >= AddRobot && !editor()) return;
+  if (order.action >= AddRobot && !editor()) return;
   MatchEdits* edits = controller ? controller->edits() : nullptr;
-  switch (order.deed) {
+  switch (order.action) {
     case Select:
       return selectRobot(order.value);
     case SelectAll:
@@ -236,7 +237,7 @@ bool FieldView::Private::handleKey(QKeyEvent* event) {
   const auto order = fieldOrder(event->key(), event->modifiers());
   if (!order) return false;
   // What is around the field may have a use for it.
-  if (order->deed == FieldDeed::Escape && !hasEscape()) return false;
+  if (order->action == FieldAction::Escape && !hasEscape()) return false;
   carryOut(*order);
   return true;
 }

@@ -51,8 +51,9 @@ QString hoverText(const link::MatchFrame& frame, RobotKey id) {
   }
   lines << head;
   lines << QStringLiteral("Action: %1").arg(actionText(robot->decided.value_or(robot->action)));
-  if (robot->thoughts && robot->thoughts->path && !robot->thoughts->path->points.empty()) {
-    const link::PlannedPath& path = *robot->thoughts->path;
+  if (robot->cognitionDebug && robot->cognitionDebug->path &&
+      !robot->cognitionDebug->path->points.empty()) {
+    const link::PlannedPath& path = *robot->cognitionDebug->path;
     lines << QStringLiteral("Target: %1%2")
                  .arg(placeText(path.points.back()),
                       path.complete ? QString() : QStringLiteral(" (no way leads there)"));

@@ -34,7 +34,7 @@ QString emptyText(const MatchController& controller) {
       return QStringLiteral(
           "Nothing was started. Attach your own processes to the robots' "
           "blackboards: key 100 × robot number (plus the key base).");
-    case link::Cognition::External:
+    case link::Cognition::Separate:
       return QStringLiteral("There are no robots, so no processes run.");
   }
   return {};

@@ -195,7 +195,7 @@ CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
   if (robot.link) {
     card.detail = linkText(*robot.link);
     card.detailTip = linkTip(robot);
-    for (const link::HeardValue& value : robot.values) {
+    for (const link::ReceivedValue& value : robot.values) {
       card.values.push_back({QString::fromStdString(value.name), QString::fromStdString(value.text),
                              QString::fromStdString(value.unit)});
     }

@@ -248,10 +248,10 @@ void MatchController::setPace(link::RobotsPace pace) {
   emit transportChanged();
 }
 
-void MatchController::setWaitForOwnPrograms(bool on) {
-  m_options.waitForOwnPrograms = on;
+void MatchController::setWaitForTeamPrograms(bool on) {
+  m_options.waitForTeamPrograms = on;
   post([on](link::SimulatedMatch& match) {
-    match.pace().waitForOwnPrograms = on;
+    match.pace().waitForTeamPrograms = on;
     return link::Changed::No;
   });
   emit transportChanged();

@@ -114,7 +114,7 @@ void MatchMemory::continueFrom(double time) {
   m_match->edits()->adopt(*moment);
   if (!moment->past && m_match->cognition() != link::Cognition::None) {
     emit continuedWithout(
-        m_match->cognition() == link::Cognition::External
+        m_match->cognition() == link::Cognition::Separate
             ? QStringLiteral("Reference processes that run separately begin again with the belief "
                              "that they had at %1. A team's own programs are not told.")
                   .arg(clockText(time))

@@ -277,13 +277,13 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
   const auto& events = m_timeline->events()->events();
   past.events.assign(events.begin(), events.end());
   std::shared_ptr<const link::StateArchive> archive;
-  std::shared_ptr<const link::LiveMemory> heard;
+  std::shared_ptr<const link::LiveMemory> received;
   std::shared_ptr<const link::LiveHistory> drawn;
   telemetry::SessionInfo about;
   if (live) {
     about = link::liveSessionInfo(m_live->options(), m_live->began(), programName());
     past.profile = telemetry::profileText(m_live->options().profile);
-    heard = m_live->memory();
+    received = m_live->memory();
   } else {
     link::RecorderOptions options;
     options.program = programName();
@@ -294,12 +294,12 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
     archive = m_controller->memory()->archive();
     drawn = m_controller->memory()->drawn();
   }
-  return [past = std::move(past), rows, archive, heard, drawn, about,
+  return [past = std::move(past), rows, archive, received, drawn, about,
           seconds](const QString& path) -> Result<void> {
     link::RecentPast all = past;
     all.rows = rows.get();
     all.archive = archive.get();
-    all.heard = heard.get();
+    all.received = received.get();
     all.drawn = drawn.get();
     const auto done = link::saveRecent(path.toStdString(), seconds, all, about);
     if (!done) return tl::unexpected(done.error());

@@ -85,7 +85,7 @@ void CatalogChoice::offerRestart(const QString& sentence) {
   }
   QString all = sentence + QLatin1Char(' ') +
                 QStringLiteral("They name the blackboards from the next match on.");
-  if (!isPublished() && m_controller->cognition() == link::Cognition::External) {
+  if (!isPublished() && m_controller->cognition() == link::Cognition::Separate) {
     all +=
         QLatin1Char(' ') + QStringLiteral(
                                "The studio's own robot processes know the published places only: "

@@ -28,13 +28,13 @@ struct Offer {
 };
 // What somebody at a match has to act on; a further one is a line here.
 constexpr Offer offers[] = {
-    {Kind::RobotSilent, "A robot is not heard any more"},
+    {Kind::RobotOffline, "A robot is not heard any more"},
     {Kind::BatteryLow, "A robot has a low battery"},
     {Kind::Penalised, "A robot is penalised"},
     {Kind::Fall, "A robot falls"},
     {Kind::ProcessDied, "A process died"},
     {Kind::ProcessSilent, "A process is silent"},
-    {Kind::RefereeSilent, "The referee is not heard any more"},
+    {Kind::RefereeOffline, "The referee is not heard any more"},
     {Kind::SecondSender, "Two programs send as one robot"},
     {Kind::PortLost, "A port cannot be received"},
     {Kind::Goal, "A goal"},

@@ -21,7 +21,7 @@ struct WhoDecides {
   const char* fact;  // in the line about this match
 };
 constexpr std::array<WhoDecides, 3> choices{{
-    {link::Cognition::External, "In &separate processes",
+    {link::Cognition::Separate, "In &separate processes",
      "As on the field: a process for each task of each robot, on blackboards that other programs "
      "reach",
      "separate robot processes"},

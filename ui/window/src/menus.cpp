@@ -291,7 +291,7 @@ void StudioMenus::makeSimulation() {
       QStringLiteral("As on the field, jitter included; otherwise the match waits for every "
                      "process in every tick and gives the same result each time"));
   QObject::connect(menu, &QMenu::aboutToShow, freely, [freely, controller] {
-    freely->setEnabled(controller->cognition() == link::Cognition::External);
+    freely->setEnabled(controller->cognition() == link::Cognition::Separate);
     freely->setChecked(controller->pace() == link::RobotsPace::Free);
   });
   QObject::connect(freely, &QAction::triggered, controller, [controller](bool on) {
@@ -300,8 +300,8 @@ void StudioMenus::makeSimulation() {
   QAction* wait = menu->addAction(QStringLiteral("Slow &down to what own programs manage"));
   wait->setCheckable(true);
   QObject::connect(menu, &QMenu::aboutToShow, wait,
-                   [wait, controller] { wait->setChecked(controller->waitsForOwnPrograms()); });
-  QObject::connect(wait, &QAction::triggered, controller, &MatchController::setWaitForOwnPrograms);
+                   [wait, controller] { wait->setChecked(controller->waitsForTeamPrograms()); });
+  QObject::connect(wait, &QAction::triggered, controller, &MatchController::setWaitForTeamPrograms);
   QAction* clock = menu->addAction(QStringLiteral("Game &clock runs"));
   clock->setCheckable(true);
   onlyInTheMatch(clock);

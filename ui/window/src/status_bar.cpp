@@ -234,7 +234,7 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
                countText(frame.snapshot.tick))
           .arg(frame.settings->seed));
   switch (m_context.controller->cognition()) {
-    case link::Cognition::External:
+    case link::Cognition::Separate:
       m_processes->setText(frame.inLockStep
                                ? QStringLiteral("Robot processes separate, in lock-step")
                                : QStringLiteral("Robot processes separate, running freely"));
@@ -246,9 +246,9 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
       m_processes->setText(QStringLiteral("Waiting for your processes"));
       break;
   }
-  if (frame.slowestOwnProgram) {
+  if (frame.slowestTeamProgram) {
     m_processes->setText(QStringLiteral("%1 · own programs reach ×%2")
-                             .arg(m_processes->text(), numberText(*frame.slowestOwnProgram, 1)));
+                             .arg(m_processes->text(), numberText(*frame.slowestTeamProgram, 1)));
   }
   if (frame.matchNumber.value_or(0) > 0) {
     m_processes->setText(

@@ -50,7 +50,7 @@ class Localization final : public CognitiveProcess {
 
   double period() const override { return cycle; }
 
-  void tellThoughts(RobotThoughts& thoughts) const override {
+  void sendDebugData(CognitionDebug& cognitionDebug) const override {
     auto cloud = std::make_shared<ParticleCloud>();
     const int count = m_filter.size();
     const int shown = std::min(count, static_cast<int>(ParticleCloud::most));
@@ -69,7 +69,7 @@ class Localization final : public CognitiveProcess {
     cloud->count = count;
     cloud->pose = belief.pose;
     cloud->sigma = belief.sigma;
-    thoughts.cloud = std::move(cloud);
+    cognitionDebug.cloud = std::move(cloud);
   }
 
   void resume(const Blackboard& board) override {
@@ -93,7 +93,7 @@ class Localization final : public CognitiveProcess {
     return memory;
   }
 
-  bool recall(const CognitiveProcess& memory) override {
+  bool restore(const CognitiveProcess& memory) override {
     const auto* other = dynamic_cast<const Localization*>(&memory);
     if (!other) return false;
     m_filter = other->m_filter;

@@ -42,7 +42,7 @@ class Planning final : public CognitiveProcess {
 
   double period() const override { return 0.1; }
 
-  void tellThoughts(RobotThoughts& thoughts) const override {
+  void sendDebugData(CognitionDebug& cognitionDebug) const override {
     auto path = std::make_shared<PlannedPath>();
     const Path& walked = m_walk.path();
     if (walked.points.size() > 1) {
@@ -52,14 +52,14 @@ class Planning final : public CognitiveProcess {
         path->points.push_back(walked.points[i]);
       }
     }
-    thoughts.path = std::move(path);
+    cognitionDebug.path = std::move(path);
   }
 
   std::unique_ptr<const CognitiveProcess> remembered() const override {
     return std::make_unique<Planning>(*this);
   }
 
-  bool recall(const CognitiveProcess& memory) override {
+  bool restore(const CognitiveProcess& memory) override {
     const auto* other = dynamic_cast<const Planning*>(&memory);
     if (other) *this = *other;
     return other != nullptr;

@@ -48,7 +48,7 @@ class SoccerDecision final : public CognitiveProcess {
     return std::make_unique<SoccerDecision>(*this);
   }
 
-  bool recall(const CognitiveProcess& memory) override {
+  bool restore(const CognitiveProcess& memory) override {
     const auto* other = dynamic_cast<const SoccerDecision*>(&memory);
     if (!other) return false;
     const Behaviour& mine = *m_behaviour;

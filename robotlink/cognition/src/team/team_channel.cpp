@@ -7,9 +7,9 @@
 #include <charconv>
 #include <string>
 
-#include <base/descriptor.h>
 #include <base/system_reason.h>
 #include <base/try.h>
+#include <base/unique_fd.h>
 #include <robotlink/processes/match_turns.h>
 #include <telemetry/wire/socket_address.h>
 #include <telemetry/wire/udp_sender.h>
@@ -23,7 +23,7 @@ constexpr int mostTeams = 100;
 
 class UdpTeamChannel final : public TeamChannel {
  public:
-  UdpTeamChannel(Descriptor socket, telemetry::UdpSender sender, std::uint16_t port)
+  UdpTeamChannel(UniqueFd socket, telemetry::UdpSender sender, std::uint16_t port)
       : m_socket(std::move(socket)), m_sender(std::move(sender)), m_port(port) {}
 
   // A datagram starts with the sender's number, so that a robot does not hear itself.
@@ -50,7 +50,7 @@ class UdpTeamChannel final : public TeamChannel {
   }
 
  private:
-  Descriptor m_socket;
+  UniqueFd m_socket;
   telemetry::UdpSender m_sender;
   std::uint16_t m_port;
 };
@@ -65,8 +65,8 @@ class TurnsChannel final : public TeamChannel {
     m_udp->post(from, message);
   }
   std::vector<std::string> take(RobotId to) override {
-    std::vector<std::string> heard = m_udp->take(to);  // what lies there would be old news later
-    return m_turns->inLockStep() ? m_turns->messages() : heard;
+    std::vector<std::string> received = m_udp->take(to);  // what lies there would be old news later
+    return m_turns->inLockStep() ? m_turns->messages() : received;
   }
 
  private:
@@ -129,7 +129,7 @@ Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& addre
                                                    "127.0.0.1 or 192.168.1.255");
   }
   auto sender = TRY(telemetry::UdpSender::to(*to));
-  Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  UniqueFd socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket) return tl::unexpected<Error>(systemError("The system gives no UDP socket"));
   const int on = 1;
   // Several robots of one computer listen on the same port.

@@ -65,7 +65,8 @@ class TeamTalk final : public CognitiveProcess {
     for (const std::string& text : m_channel->take(m_robot)) {
       if (const auto message = TeamMessage::parse(text)) hear(*message, clock.seconds);
     }
-    std::erase_if(m_mates, [&](const Mate& mate) { return clock.seconds - mate.heard > silence; });
+    std::erase_if(m_mates,
+                  [&](const Mate& mate) { return clock.seconds - mate.received > silence; });
     writePlaces(board);
     const std::vector<const TeamMessage*> chosen = mostImportant(board);
     for (std::size_t i = 0; i < mostTeamMates; ++i) {
@@ -81,7 +82,7 @@ class TeamTalk final : public CognitiveProcess {
     return memory;
   }
 
-  bool recall(const CognitiveProcess& memory) override {
+  bool restore(const CognitiveProcess& memory) override {
     const auto* other = dynamic_cast<const TeamTalk*>(&memory);
     if (other) m_mates = other->m_mates;
     return other != nullptr;
@@ -90,7 +91,7 @@ class TeamTalk final : public CognitiveProcess {
  private:
   struct Mate {
     TeamMessage message;
-    double heard = 0.0;
+    double received = 0.0;
   };
 
   TeamMessage ownMessage(const Blackboard& board) const {

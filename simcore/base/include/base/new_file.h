@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include <base/descriptor.h>
 #include <base/result.h>
+#include <base/unique_fd.h>
 
 namespace pitchboard {
 
@@ -42,12 +42,12 @@ class NewFile {
   const std::string& path() const { return m_path; }
 
  private:
-  NewFile(std::string path, Descriptor descriptor)
-      : m_path(std::move(path)), m_descriptor(std::move(descriptor)) {}
+  NewFile(std::string path, UniqueFd descriptor)
+      : m_path(std::move(path)), m_fd(std::move(descriptor)) {}
   static Result<NewFile> open(const std::string& path, int flags, const std::string& shownAs);
 
   std::string m_path;
-  Descriptor m_descriptor;
+  UniqueFd m_fd;
   std::uint64_t m_size = 0;
 };
 

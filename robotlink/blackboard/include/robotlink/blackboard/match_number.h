@@ -7,8 +7,8 @@
 
 #include <string>
 
-#include <base/descriptor.h>
 #include <base/result.h>
+#include <base/unique_fd.h>
 
 namespace pitchboard::link {
 
@@ -51,13 +51,13 @@ class MatchClaim {
   const std::string& publishedHolder() const { return m_publishedHolder; }
 
  private:
-  MatchClaim(MatchNumber number, Descriptor socket, std::string publishedHolder)
+  MatchClaim(MatchNumber number, UniqueFd socket, std::string publishedHolder)
       : m_number(number),
         m_socket(std::move(socket)),
         m_publishedHolder(std::move(publishedHolder)) {}
 
   MatchNumber m_number;
-  Descriptor m_socket;
+  UniqueFd m_socket;
   std::string m_publishedHolder;
 };
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <base/descriptor.h>
+#include <base/unique_fd.h>
 #include <robotlink/blackboard/blackboard.h>
 
 namespace pitchboard::link {
@@ -87,8 +87,8 @@ class BridgeClaim {
   static Result<BridgeClaim> take(int key);
 
  private:
-  explicit BridgeClaim(Descriptor socket) : m_socket(std::move(socket)) {}
-  Descriptor m_socket;
+  explicit BridgeClaim(UniqueFd socket) : m_socket(std::move(socket)) {}
+  UniqueFd m_socket;
 };
 
 }  // namespace pitchboard::link

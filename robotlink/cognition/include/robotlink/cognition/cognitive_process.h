@@ -14,7 +14,7 @@
 #include <robotlink/blackboard/blackboard.h>
 #include <robotlink/blackboard/match_number.h>
 #include <robotlink/cognition/behaviour_parameters.h>
-#include <robotlink/cognition/robot_thoughts.h>
+#include <robotlink/cognition/cognition_debug.h>
 #include <robotlink/cognition/team_channel.h>
 #include <simcore/world/field.h>
 #include <simcore/world/robot_model.h>
@@ -37,7 +37,7 @@ class CognitiveProcess {
   virtual double period() const = 0;
   /// What it has in mind, for a display: fills its own part (particles or path), leaves the rest.
   /// Called between steps, as seldom as the display likes; changes nothing.
-  virtual void tellThoughts(RobotThoughts& thoughts) const { (void)thoughts; }
+  virtual void sendDebugData(CognitionDebug& cognitionDebug) const { (void)cognitionDebug; }
 
   // A match that is put back to an earlier moment starts its robots' processes anew, and then:
   /// Before the first step, of a robot that has been playing: begins with what stands on its
@@ -47,7 +47,7 @@ class CognitiveProcess {
   virtual std::unique_ptr<const CognitiveProcess> remembered() const { return nullptr; }
   /// Goes on as the one would have that remembered this. False, and nothing has changed, when that
   /// was of another kind.
-  virtual bool recall(const CognitiveProcess& memory) {
+  virtual bool restore(const CognitiveProcess& memory) {
     (void)memory;
     return false;
   }

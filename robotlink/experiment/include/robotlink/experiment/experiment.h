@@ -124,7 +124,7 @@ struct Experiment {
   Record record = Record::Nothing;
   std::vector<std::size_t> recorded;  ///< numbers of runs, with Record::Chosen
   bool separateProcesses = false;     ///< reference processes as programs, in lock-step
-  bool ownPrograms = false;           ///< a team's own programs play, too: runs do not repeat
+  bool teamPrograms = false;          ///< a team's own programs play, too: runs do not repeat
   double speed = 10.0;                ///< times real time of runs with own programs, at most
   std::size_t pathsShown = 30;        ///< runs of a condition that the report draws
   std::string text;  ///< the file with its scenario inside: what a results folder keeps

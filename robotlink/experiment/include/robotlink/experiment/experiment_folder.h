@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include <base/descriptor.h>
 #include <base/result.h>
+#include <base/unique_fd.h>
 #include <robotlink/experiment/experiment_summary.h>
 
 namespace pitchboard::link {
@@ -58,7 +58,7 @@ class ExperimentFolder {
   const Experiment* m_experiment;
   std::vector<char> m_finished;
   std::size_t m_count = 0;
-  Descriptor m_lines, m_times;
+  UniqueFd m_lines, m_times;
 };
 
 /// The experiment whose results these are.

@@ -20,7 +20,7 @@ namespace pitchboard::link {
 
 class Check;
 class MatchPlayer;
-class OwnPrograms;
+class TeamPrograms;
 class RunMeasure;
 
 struct PlaySettings {
@@ -58,7 +58,7 @@ class RunPlayer {
   struct Recording;
   Result<RunResult> playOne(std::size_t number, const Recording* recording);
   Result<void> loop(MatchPlayer& player, const RunMeasure& measure, std::size_t condition,
-                    OwnPrograms* own);
+                    TeamPrograms* own);
 
   const Experiment* m_experiment;
   PlaySettings m_settings;

@@ -24,11 +24,11 @@ struct Penalty {
 };
 
 /// One value of a robot's message that is not a field of its own elsewhere.
-struct HeardValue {
+struct ReceivedValue {
   std::string name;  ///< as in the profile, or OTHER_1, ...
   std::string text;  ///< as sent
   std::string unit;
-  bool operator==(const HeardValue&) const = default;
+  bool operator==(const ReceivedValue&) const = default;
 };
 
 /// One player of a team's list; substitutes that wait are not in it.

@@ -34,12 +34,12 @@ enum class MatchEventKind : std::uint8_t {
   GamePhase,           ///< detail: "penalty shoot-out"; empty: normal time
   PlayStopped,         ///< by the referee
   PlayGoesOn,          ///<
-  RefereeHeard,        ///< for the first time, or another one; detail: who; value: its version
-  RefereeSilent,       ///<
+  RefereeReceived,     ///< for the first time, or another one; detail: who; value: its version
+  RefereeOffline,      ///<
   RefereeBack,         ///<
   SecondReferee,       ///< detail: the one that is shown
-  RobotHeard,          ///< robot; for the first time; detail: its sender
-  RobotSilent,         ///< robot
+  RobotReceived,       ///< robot; for the first time; detail: its sender
+  RobotOffline,        ///< robot
   RobotBack,           ///< robot
   SecondSender,        ///< robot; detail: the sender that is shown
   BatteryLow,          ///< robot; value: tenths of a volt

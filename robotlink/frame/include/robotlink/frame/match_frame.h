@@ -18,7 +18,7 @@
 #include <simcore/world/field.h>
 #include <simcore/world/noise.h>
 #include <simcore/world/snapshot.h>
-#include <telemetry/wire/drawing_book.h>
+#include <telemetry/wire/drawing_store.h>
 
 namespace pitchboard::link {
 
@@ -60,7 +60,7 @@ struct MatchFrame {
   /// Of a match that shares blackboards with other programs of this computer.
   std::optional<int> matchNumber;
   /// What the slowest of a team's own programs manages, times real time; nothing: all keep up.
-  std::optional<double> slowestOwnProgram;
+  std::optional<double> slowestTeamProgram;
   bool inLockStep = true;           ///< separate reference processes are waited for in every tick
   std::string finishedBy;           ///< "goal", "ball_out", "duration"; empty unless finished
   std::uint64_t droppedEvents = 0;  ///< nobody took them in time

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include <base/robot_key.h>
-#include <robotlink/cognition/robot_thoughts.h>
+#include <robotlink/cognition/cognition_debug.h>
 #include <robotlink/frame/live_values.h>
 #include <simcore/world/snapshot.h>
 
@@ -69,13 +69,14 @@ struct RobotView {
   std::array<telemetry::ProcessStatus, telemetry::processCount> lamps{};
   std::optional<telemetry::LinkHealth> link;  ///< of one that is heard, or whose blackboard is read
   std::optional<Penalty> penalty;             ///< as its referee says
-  std::vector<HeardValue> values;             ///< of its message: all, in their order
+  std::vector<ReceivedValue> values;          ///< of its message: all, in their order
   std::optional<int> boardKey;                ///< of its blackboard: System V key, 0: heap
   std::string behaviour;
   std::string ownName;    ///< what its team calls it (team setups)
   std::string runtime;    ///< who runs, as it was chosen for it; empty: nothing was
   bool ofOthers = false;  ///< its processes were started by somebody else, if by anybody
-  std::optional<RobotThoughts> thoughts;  ///< of one that tells it (MatchOptions::thoughts)
+  std::optional<CognitionDebug>
+      cognitionDebug;  ///< of one that tells it (MatchOptions::cognitionDebug)
   /// Shared by many frames: processes seldom change. Read with processes().
   std::shared_ptr<const std::vector<ProcessSummary>> processList;
 

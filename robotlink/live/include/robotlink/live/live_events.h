@@ -33,7 +33,7 @@ class LiveEvents {
     double lowFraction = 0.0;  // when it became low
   };
   void compareReferee(const RefereeView& now, double time, std::vector<MatchEvent>& out);
-  void compareRobot(const RobotFrame& heard, double time, std::vector<MatchEvent>& out);
+  void compareRobot(const RobotFrame& received, double time, std::vector<MatchEvent>& out);
 
   std::optional<RefereeView> m_referee;
   std::map<RobotKey, Known> m_robots;

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <robotlink/live/attached_robots.h>
-#include <robotlink/live/live_books.h>
 #include <robotlink/live/live_events.h>
 #include <robotlink/live/live_rows.h>
+#include <robotlink/live/live_state.h>
 #include <robotlink/live/live_watch.h>
 
 namespace pitchboard::link {
@@ -74,18 +74,18 @@ class LivePipeline {
   void takeReferee(const telemetry::DatagramView& datagram);
   void tell(const LiveDatagram& datagram);
   void tell(const std::vector<MatchEvent>& events);
-  void tellBooks(telemetry::WallTime now);
+  void sendSnapshot(telemetry::WallTime now);
   void noteTeams(const std::vector<Renaming>& renamings);
 
   LiveOptions m_options;
   const telemetry::WallTime m_zero;
-  LiveBooks m_books;
-  Teams m_teams = m_books.teams(m_options);
+  LiveState m_state;
+  Teams m_teams = m_state.teams(m_options);
   LiveEvents m_events;
   std::shared_ptr<RowFan> m_fan = std::make_shared<RowFan>();
   telemetry::LiveRows m_rows;
   BoardRowKeeper m_boardRows;
-  double m_nextReport = 0.0, m_nextBooks = 0.0;  // s
+  double m_nextReport = 0.0, m_nextSnapshot = 0.0;  // s
   std::uint64_t m_serial = 0, m_unknownReferee = 0, m_refusedReferees = 0;
   std::string m_unknownReason, m_unknownSample;
   LiveNews m_news;

@@ -100,11 +100,11 @@ class LiveObserver {
  public:
   virtual ~LiveObserver() = default;
   /// Every datagram, but those of senders that may not be the referee.
-  virtual void heard(const LiveDatagram&) {}
+  virtual void received(const LiveDatagram&) {}
   virtual void happened(const MatchEvent&) {}
   /// Whenever a frame was made.
   virtual void frameMade(const MatchFrame&) {}
-  /// Everything that is known at this moment (LiveBooks::text): at once, on the observing thread,
+  /// Everything that is known at this moment (LiveState::text): at once, on the observing thread,
   /// then every 15 s and whenever options have changed or everything was forgotten. Nothing else is
   /// told at the same time.
   virtual void remembered(double /*time*/, std::string_view /*books*/) {}

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include <telemetry/wire/drawing_book.h>
+#include <telemetry/wire/drawing_store.h>
 #include <telemetry/wire/udp_receiver.h>
 
 namespace pitchboard::link {
 
 /// A datagram with a drawing in it, as it came.
-struct HeardDrawing {
+struct ReceivedDrawing {
   double time = 0.0;  ///< s of the match
   telemetry::Sender sender;
   std::uint16_t port = 0;
@@ -28,8 +28,8 @@ class MatchDrawings {
   explicit MatchDrawings(int port);
 
   /// Takes what has come since the last call, as of this time; never waits.
-  void hear(double time, std::vector<HeardDrawing>& out);
-  const telemetry::DrawingBook& book() const { return m_book; }
+  void hear(double time, std::vector<ReceivedDrawing>& out);
+  const telemetry::DrawingStore& store() const { return m_store; }
   /// Why nothing is heard, or the last drawing was refused; empty: all is well.
   const std::string& problem() const;
 
@@ -39,7 +39,7 @@ class MatchDrawings {
   std::unique_ptr<telemetry::UdpReceiver> m_receiver;
   bool m_isBound = false;
   telemetry::DatagramBatch m_batch;
-  telemetry::DrawingBook m_book;
+  telemetry::DrawingStore m_store;
   std::string m_problem;
 };
 

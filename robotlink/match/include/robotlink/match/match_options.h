@@ -12,7 +12,7 @@
 namespace pitchboard::link {
 
 enum class Cognition {
-  External,  ///< System V blackboards; the processes of every robot's runtime profile are started
+  Separate,  ///< System V blackboards; the processes of every robot's runtime profile are started
   Inline,    ///< heap blackboards, reference processes inside this program, in lock-step
   None       ///< System V blackboards, nothing started: every robot is somebody else's
 };
@@ -26,18 +26,18 @@ enum class RobotsPace {
 
 struct MatchOptions {
   Cognition cognition = Cognition::Inline;
-  bool systemV = false;        ///< with Inline: System V blackboards, for watching
-  std::optional<int> match;    ///< number of the match; nothing: the next free one
-  std::optional<int> keyBase;  ///< key = this + 100 × robot number; nothing: the match's
-  std::string robotProgram;    ///< pitchboard-robot; needed where processes run separately
-  ProcessOptions process;      ///< for the processes; the ports are the match's
-  bool thoughts = false;       ///< hear particles and paths, for display
+  bool systemV = false;         ///< with Inline: System V blackboards, for watching
+  std::optional<int> match;     ///< number of the match; nothing: the next free one
+  std::optional<int> keyBase;   ///< key = this + 100 × robot number; nothing: the match's
+  std::string robotProgram;     ///< pitchboard-robot; needed where processes run separately
+  ProcessOptions process;       ///< for the processes; the ports are the match's
+  bool cognitionDebug = false;  ///< hear particles and paths, for display
   RobotsPace pace = RobotsPace::LockStep;
   /// Times real time, with which it begins; 0 = as fast as possible. A team's programs that are
   /// started at 1 keep real time. MatchRunner plays at it, others say it by setPlaying().
   double speed = 1.0;
   /// Played at ×n, the match slows down to what a team's own programs manage.
-  bool waitForOwnPrograms = false;
+  bool waitForTeamPrograms = false;
   /// Reference processes are told where their team attacks; else they find out.
   bool tellSides = true;
   /// Of robots of which neither the scenario nor their behaviour says who runs.

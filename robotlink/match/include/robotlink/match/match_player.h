@@ -66,7 +66,7 @@ class MatchPlayer {
   bool m_awaits = false;
   std::vector<std::shared_ptr<TickObserver>> m_observers;
   std::vector<MatchEvent> m_events;  // scratch of tellEvents()
-  std::vector<HeardDrawing> m_drawings;
+  std::vector<ReceivedDrawing> m_drawings;
 };
 
 }  // namespace pitchboard::link

@@ -26,7 +26,7 @@ class ProcessPace {
 
   // As in MatchOptions; may change while it is played.
   RobotsPace robotsPace;
-  bool waitForOwnPrograms;
+  bool waitForTeamPrograms;
 
   /// Starts again what died, notices what is silent, takes what was written. About 20 times a
   /// second, also while the match stands still.
@@ -44,7 +44,7 @@ class ProcessPace {
   /// of all of them can follow.
   double ownPace(double wanted, double now) const;
   /// Times real time: the slowest of them that cannot keep up; nothing: all do.
-  std::optional<double> slowestOwnProgram() const;
+  std::optional<double> slowestTeamProgram() const;
   /// One that has just been started has not attached to its blackboard, so that a match without a
   /// pace is to wait; meanwhile the clocks of programs run at ×1. Ask again, and look after the
   /// processes, until it is false: the last one has attached, or ended, or was given up after its
@@ -53,7 +53,7 @@ class ProcessPace {
   /// This program, or one that it started, has attached to the blackboard of its robot.
   bool hasAttached(const ProcessStatus& program) const;
   /// Lets them go on for this time while the match stands still.
-  void letOwnProgramsRun(std::chrono::duration<double> time);
+  void letTeamProgramsRun(std::chrono::duration<double> time);
 
  private:
   bool isAwaited(const RobotSlot& slot, SlotProcess& process, Time now);

@@ -24,7 +24,7 @@
 namespace pitchboard::link {
 
 class MatchDrawings;
-struct HeardDrawing;
+struct ReceivedDrawing;
 struct Moment;
 struct RobotsMemory;
 
@@ -55,7 +55,7 @@ class SimulatedMatch {
 
   /// Appends what programs have drawn since the last call. A match that shares blackboards with
   /// other programs hears it on its drawing port (MatchNumber).
-  void takeDrawings(std::vector<HeardDrawing>& out);
+  void takeDrawings(std::vector<ReceivedDrawing>& out);
   /// Null while nothing can be heard.
   const MatchDrawings* drawings() const;
 
@@ -67,9 +67,9 @@ class SimulatedMatch {
   const RobotSlots& robots() const;
   /// Nothing when there is no such robot.
   Blackboard* blackboard(RobotId id) const;
-  /// Particles and paths of the robots, by number; none unless MatchOptions::thoughts. Asks inline
-  /// processes, or takes what separate ones have sent.
-  std::vector<RobotThoughts> thoughts();
+  /// Particles and paths of the robots, by number; none unless MatchOptions::cognitionDebug. Asks
+  /// inline processes, or takes what separate ones have sent.
+  std::vector<CognitionDebug> cognitionDebug();
   const RobotVariables& variables() const;
   const VariableCatalog& catalog() const;
   /// What the bridge read before the last tick, in the order of the simulation's robots (a robot

@@ -29,7 +29,7 @@ class TickObserver {
   /// still.
   virtual void worldChanged(const SimulatedMatch& /*match*/) {}
   /// As happened(): what programs have drawn on the field.
-  virtual void drew(std::span<const HeardDrawing> /*drawings*/) {}
+  virtual void drew(std::span<const ReceivedDrawing> /*drawings*/) {}
   virtual void logged(const LogLine& /*line*/) {}
   /// It was taken out of the observers: nothing more is shown to it.
   virtual void left() {}

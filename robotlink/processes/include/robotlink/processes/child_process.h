@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include <base/descriptor.h>
 #include <base/ids.h>
 #include <base/result.h>
+#include <base/unique_fd.h>
 #include <robotlink/processes/spawn.h>
 
 namespace pitchboard::link {
@@ -58,12 +58,12 @@ class ChildProcess {
   std::optional<End> poll(std::vector<std::string>& lines);
 
  private:
-  ChildProcess(Spawned child, Descriptor keeper, pid_t pid);
+  ChildProcess(Spawned child, UniqueFd keeper, pid_t pid);
   void readOutput(std::vector<std::string>& lines, std::size_t limit);
   void endLine(std::vector<std::string>& lines);
 
-  Spawned m_child;      // the keeper of a team's program
-  Descriptor m_keeper;  // to it; empty: there is none
+  Spawned m_child;    // the keeper of a team's program
+  UniqueFd m_keeper;  // to it; empty: there is none
   pid_t m_pid = 0;
   std::string m_partial;  // the line that has no end yet
 };

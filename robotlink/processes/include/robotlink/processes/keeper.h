@@ -18,8 +18,8 @@ namespace pitchboard::link {
 inline constexpr std::string_view keepCommand = "keep";
 
 struct Kept {
-  Spawned keeper;      ///< its output is the program's
-  Descriptor control;  ///< a byte is the number of a signal; its end kills all
+  Spawned keeper;    ///< its output is the program's
+  UniqueFd control;  ///< a byte is the number of a signal; its end kills all
   pid_t program = 0;
 };
 

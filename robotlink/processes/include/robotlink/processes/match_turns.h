@@ -21,8 +21,8 @@
 #include <string_view>
 #include <vector>
 
-#include <base/descriptor.h>
 #include <base/result.h>
+#include <base/unique_fd.h>
 
 namespace pitchboard::link {
 
@@ -31,17 +31,17 @@ struct TurnMemory;  // the shared memory; private to the file
 /// The mapping of the memory, and the descriptor behind it.
 class TurnPages {
  public:
-  TurnPages(TurnMemory* memory, Descriptor descriptor)
-      : m_memory(memory), m_descriptor(std::move(descriptor)) {}
+  TurnPages(TurnMemory* memory, UniqueFd descriptor)
+      : m_memory(memory), m_fd(std::move(descriptor)) {}
   TurnPages(const TurnPages&) = delete;
   TurnPages& operator=(const TurnPages&) = delete;
   ~TurnPages();
   TurnMemory& memory() const { return *m_memory; }
-  int descriptor() const { return m_descriptor.get(); }
+  int descriptor() const { return m_fd.get(); }
 
  private:
   TurnMemory* m_memory;
-  Descriptor m_descriptor;
+  UniqueFd m_fd;
 };
 
 /// The match's side.

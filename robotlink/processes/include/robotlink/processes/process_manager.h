@@ -226,7 +226,7 @@ class ProcessManager {
   void changed() { ++m_version; }
 
   std::string m_program;
-  Descriptor m_guard;  // to the guard; empty: there is none
+  UniqueFd m_guard;  // to the guard; empty: there is none
   pid_t m_guardPid = 0;
   std::vector<Entry> m_entries;
   std::map<RobotId, Time> m_lastStart;  // of a robot's processes, for their order

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include <base/descriptor.h>
 #include <base/result.h>
+#include <base/unique_fd.h>
 
 struct pitchboard_time_page;
 
@@ -38,11 +38,11 @@ class ProgramClock {
   void setSpeed(double speed, Time now);
 
  private:
-  ProgramClock(std::string path, Descriptor file, pitchboard_time_page* page);
+  ProgramClock(std::string path, UniqueFd file, pitchboard_time_page* page);
   void write(std::chrono::nanoseconds offset, double speed, Time now);
 
   std::string m_library;
-  Descriptor m_file;
+  UniqueFd m_file;
   pitchboard_time_page* m_page;
 };
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <base/descriptor.h>
 #include <base/result.h>
+#include <base/unique_fd.h>
 
 namespace pitchboard::link {
 
@@ -24,8 +24,8 @@ struct SpawnRequest {
 };
 
 struct Spawned {
-  pid_t pid = 0;      ///< also its process group
-  Descriptor output;  ///< read end of its pipe to us; non-blocking, close-on-exec
+  pid_t pid = 0;    ///< also its process group
+  UniqueFd output;  ///< read end of its pipe to us; non-blocking, close-on-exec
 };
 
 /// Starts a program. From a process with any number of threads: nothing but async-signal-safe calls

@@ -34,7 +34,7 @@ struct RobotSummary {
   std::vector<double> errorCurve;  ///< mean belief error, cm, in equal parts of the time; NaN: none
   /// How a live robot was heard.
   struct Link {
-    double heard = 0.0;  ///< share of the time from its first message on, 0 to 1
+    double received = 0.0;  ///< share of the time from its first message on, 0 to 1
     std::uint64_t messages = 0;
     std::optional<double> loss;  ///< 0 to 1, where its messages are numbered
     int silences = 0, penalties = 0;

@@ -16,13 +16,13 @@ class DrawingMoments {
   std::vector<telemetry::RobotDrawings> at(const LiveHistory& history, double time);
 
  private:
-  telemetry::DrawingBook m_book;
+  telemetry::DrawingStore m_store;
   double m_time = 0.0;  // of the book
   bool m_begun = false;
 };
 
 /// A datagram that was drawn, as a session keeps it.
-LiveRecord drawingRecord(const HeardDrawing& drawing);
+LiveRecord drawingRecord(const ReceivedDrawing& drawing);
 
 /// Of a match, which it observes.
 class DrawingMemory : public TickObserver, public RecordMemory {
@@ -30,7 +30,7 @@ class DrawingMemory : public TickObserver, public RecordMemory {
   explicit DrawingMemory(std::size_t bytes = std::size_t{64} << 20) : RecordMemory(bytes) {}
 
   void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) override;
-  void drew(std::span<const HeardDrawing> drawings) override;
+  void drew(std::span<const ReceivedDrawing> drawings) override;
 };
 
 }  // namespace pitchboard::link

@@ -16,9 +16,9 @@ namespace pitchboard::link {
 /// Makes records of what a watch tells, in its thread.
 class LiveRecords : public LiveObserver {
  public:
-  void heard(const LiveDatagram& datagram) override;
+  void received(const LiveDatagram& datagram) override;
   void frameMade(const MatchFrame& frame) override;
-  void remembered(double time, std::string_view books) override;
+  void remembered(double time, std::string_view state) override;
 
  protected:
   virtual void keep(LiveRecord record) = 0;

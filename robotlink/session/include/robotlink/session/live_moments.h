@@ -2,7 +2,7 @@
 #pragma once
 
 // Moments of a live match as they were seen: made again from the datagrams, on top of what was
-// known before them (LiveBooks), wherever both are kept. Times are seconds of the source.
+// known before them (LiveState), wherever both are kept. Times are seconds of the source.
 
 #include <functional>
 #include <memory>
@@ -64,8 +64,8 @@ class LiveMoments {
   /// The frame of this moment; origin is Recorded, the serial is left at 0. Nothing before the
   /// first books.
   std::optional<MatchFrame> frameAt(const LiveHistory& history, double time);
-  /// The books of this moment, as LiveBooks::text().
-  std::optional<std::string> booksAt(const LiveHistory& history, double time);
+  /// The books of this moment, as LiveState::text().
+  std::optional<std::string> snapshotAt(const LiveHistory& history, double time);
 
  private:
   struct Impl;

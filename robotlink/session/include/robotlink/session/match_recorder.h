@@ -59,7 +59,7 @@ class MatchRecorder : public TickObserver {
   // The match's thread.
   void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) override;
   void happened(std::span<const MatchEvent> events) override;
-  void drew(std::span<const HeardDrawing> drawings) override;
+  void drew(std::span<const ReceivedDrawing> drawings) override;
   void worldChanged(const SimulatedMatch& match) override;
   void logged(const LogLine& line) override;
   void left() override;
@@ -81,7 +81,7 @@ class MatchRecorder : public TickObserver {
   bool m_getsRows = false;
   StateSegmenter m_segmenter;
   std::vector<MatchEvent> m_events;  // since the last tick
-  std::vector<HeardDrawing> m_drawings;
+  std::vector<ReceivedDrawing> m_drawings;
 };
 
 /// What has just happened, from memory into a new session file: the rows of the last `seconds` of
@@ -90,7 +90,7 @@ class MatchRecorder : public TickObserver {
 struct RecentPast {
   const telemetry::SeriesStore* rows = nullptr;
   const StateArchive* archive = nullptr;  ///< null: a live source
-  const LiveMemory* heard = nullptr;      ///< null: a simulated one
+  const LiveMemory* received = nullptr;   ///< null: a simulated one
   const LiveHistory* drawn = nullptr;     ///< by programs of a simulated match; null: nothing
   std::vector<MatchEvent> events;
   std::vector<LogLine> log;

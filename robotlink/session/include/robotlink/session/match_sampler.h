@@ -44,7 +44,7 @@ class MatchSampler : public TickObserver {
   void setEveryNth(int ticks) { m_options.everyNth = std::max(1, ticks); }
 
  private:
-  struct Seat {
+  struct SampledRobot {
     sim::RobotIdentity identity;
     int key = 0;
     std::string behaviour;
@@ -65,8 +65,8 @@ class MatchSampler : public TickObserver {
   MatchSamplerOptions m_options;
   std::unique_ptr<BoardColumns> m_board;
   const VariableCatalog* m_catalog = nullptr;  // of which m_board is
-  std::vector<telemetry::GroupInfo> m_groups;  // of the match, then of each seat
-  std::vector<Seat> m_seats;                   // in the order of the snapshot's robots
+  std::vector<telemetry::GroupInfo> m_groups;  // of the match, then of each sampled robot
+  std::vector<SampledRobot> m_sampled;         // in the order of the snapshot's robots
   sim::Snapshot m_snapshot;
   std::vector<std::uint32_t> m_words;
   std::vector<double> m_truth, m_matchValues;

@@ -65,7 +65,7 @@ class StateArchive : public TickObserver {
   std::optional<TickRange> range() const;
   /// The state that the match went on from at this tick: after changes by hand, where there were
   /// some. Error NotFound when the tick is not (or no longer) there.
-  Result<sim::WorldState> reenter(std::uint64_t tick) const;
+  Result<sim::WorldState> restore(std::uint64_t tick) const;
   /// What the match was played with at this tick; nothing when it is not (or no longer) there.
   std::optional<sim::SimulationSettings> settings(std::uint64_t tick) const;
   /// From what the robots' processes remembered to this tick; null when that is not (or no longer)

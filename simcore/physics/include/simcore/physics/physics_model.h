@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include <simcore/world/ball_way.h>
+#include <simcore/world/ball_sweep.h>
 #include <simcore/world/event.h>
 #include <simcore/world/robot_io.h>
 #include <simcore/world/snapshot.h>
@@ -39,8 +39,8 @@ class PhysicsModel {
 
   /// The first half of a tick: control and motion of all bodies. Fills what control says of itself,
   /// and whatever a model senses at that moment.
-  virtual BallWay move(WorldState& world, std::span<const RobotCommand> commands,
-                       std::span<Percepts> percepts, std::vector<Event>& events) = 0;
+  virtual BallSweep move(WorldState& world, std::span<const RobotCommand> commands,
+                         std::span<Percepts> percepts, std::vector<Event>& events) = 0;
   /// The second half, after the rules: what robots sense of the world as it is then.
   virtual void sense(WorldState& world, std::span<const RobotCommand> commands,
                      std::span<Percepts> percepts) = 0;

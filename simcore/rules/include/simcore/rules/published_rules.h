@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include <simcore/world/ball_way.h>
+#include <simcore/world/ball_sweep.h>
 #include <simcore/world/event.h>
 #include <simcore/world/world_state.h>
 
@@ -16,6 +16,6 @@ namespace pitchboard::sim {
 /// Goal when the ball crosses the goal line wholly between the posts; it counts while the clock
 /// runs. Out when it is wholly over a line elsewhere: it is put back inside, at rest. What happened
 /// is appended to `events`.
-void applyPublishedRules(WorldState& world, const BallWay& way, std::vector<Event>& events);
+void applyPublishedRules(WorldState& world, const BallSweep& way, std::vector<Event>& events);
 
 }  // namespace pitchboard::sim

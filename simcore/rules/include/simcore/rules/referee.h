@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <base/result.h>
-#include <simcore/world/ball_way.h>
+#include <simcore/world/ball_sweep.h>
 #include <simcore/world/event.h>
 #include <simcore/world/snapshot.h>
 
@@ -78,8 +78,8 @@ Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCa
 
 /// One tick of a match with a referee, after bodies have moved. `events` has those of the physics,
 /// and gets those of the game. `world.game` is there.
-void stepReferee(WorldState& world, const Snapshot& now, const BallWay& way, Placements& placements,
-                 std::vector<Event>& events);
+void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& way,
+                 Placements& placements, std::vector<Event>& events);
 
 /// The teams defend the other goals, and their robots are told so; nobody is moved. world.game is
 /// there.

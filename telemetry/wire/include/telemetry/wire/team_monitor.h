@@ -140,7 +140,7 @@ class TeamMonitor {
  private:
   struct Robot;
   struct SenderRecord;
-  friend struct MonitorBooks;  // writes and reads all of it
+  friend struct MonitorSnapshot;  // writes and reads all of it
   Robot* findRobot(int team, int number, const Sender& sender, WallTime time);
   Robot* newRobot(int team, int number, WallTime time);
   RobotKey freeKey(int team, int number) const;

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include <base/descriptor.h>
+#include <base/unique_fd.h>
 #include <telemetry/wire/datagram.h>
 
 namespace pitchboard::telemetry {
@@ -25,9 +25,9 @@ class UdpSender {
   std::uint64_t errors() const { return m_errors; }
 
  private:
-  UdpSender(Descriptor socket, Address address) : m_socket(std::move(socket)), m_address(address) {}
+  UdpSender(UniqueFd socket, Address address) : m_socket(std::move(socket)), m_address(address) {}
 
-  Descriptor m_socket;
+  UniqueFd m_socket;
   Address m_address;
   std::uint64_t m_errors = 0;
 };

@@ -13,7 +13,7 @@
 #include <memory>
 #include <mutex>
 
-#include <base/descriptor.h>
+#include <base/unique_fd.h>
 
 class QSocketNotifier;
 
@@ -40,7 +40,7 @@ class UiQueue : public QObject {
   Call next();
   void runNext();
 
-  Descriptor m_wake;  // an eventfd that counts what was posted
+  UniqueFd m_wake;  // an eventfd that counts what was posted
   std::unique_ptr<QSocketNotifier> m_notifier;
   std::mutex m_mutex;
   std::deque<Call> m_waiting;  // guarded by m_mutex

@@ -100,8 +100,8 @@ class MatchController : public FrameSource {
   void setPace(link::RobotsPace pace);
   link::RobotsPace pace() const { return m_options.pace; }
   /// Whether the match slows down to what a team's own programs manage.
-  void setWaitForOwnPrograms(bool on);
-  bool waitsForOwnPrograms() const { return m_options.waitForOwnPrograms; }
+  void setWaitForTeamPrograms(bool on);
+  bool waitsForTeamPrograms() const { return m_options.waitForTeamPrograms; }
   bool isPaused() const { return m_paused; }
   /// Plays beginning(). Refused as an edit is (MatchEdits::allowsChange()).
   void restart();

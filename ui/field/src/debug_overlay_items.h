@@ -2,12 +2,12 @@
 #pragma once
 
 // What robots have in mind: the particles of localization, the path that decision planned. Only
-// robots that tell it have these (robotlink/robot_thoughts.h).
+// robots that tell it have these (robotlink/cognition_debug.h).
 
 #include <memory>
 
 #include <base/ids.h>
-#include <robotlink/cognition/robot_thoughts.h>
+#include <robotlink/cognition/cognition_debug.h>
 #include "field_item.h"
 
 namespace pitchboard::ui {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The datagrams' way over the loopback device.
 #include <base/try.h>
-#include <robotlink/cognition/robot_thoughts.h>
+#include <robotlink/cognition/cognition_debug.h>
 
 #include <cerrno>
 #include <utility>
@@ -18,29 +18,29 @@ constexpr std::chrono::seconds memory{3};
 
 Result<void> checkPort(int port, int least) {
   if (port >= least && port <= telemetry::highestPort) return {};
-  return failure(ErrorCode::InvalidArgument,
-                 "the port for thoughts is " + std::to_string(port) + ", allowed are 1 to 65535");
+  return failure(ErrorCode::InvalidArgument, "the port for cognition debug data is " +
+                                                 std::to_string(port) + ", allowed are 1 to 65535");
 }
 
 }  // namespace
 
-Result<ThoughtsSender> ThoughtsSender::to(int port) {
+Result<CognitionDebugSender> CognitionDebugSender::to(int port) {
   if (const Result<void> valid = checkPort(port, 1); !valid)
     return tl::unexpected<Error>(valid.error());
   auto sender = TRY(telemetry::UdpSender::to({INADDR_LOOPBACK}));
-  return ThoughtsSender(std::move(sender), static_cast<std::uint16_t>(port));
+  return CognitionDebugSender(std::move(sender), static_cast<std::uint16_t>(port));
 }
 
-void ThoughtsSender::send(const RobotThoughts& thoughts) {
-  for (const std::string& datagram : thoughtDatagrams(thoughts)) {
+void CognitionDebugSender::send(const CognitionDebug& cognitionDebug) {
+  for (const std::string& datagram : debugDatagrams(cognitionDebug)) {
     (void)m_sender.send(m_port, datagram);
   }
 }
 
-Result<ThoughtsReceiver> ThoughtsReceiver::listen(int port) {
+Result<CognitionDebugReceiver> CognitionDebugReceiver::listen(int port) {
   if (const Result<void> valid = checkPort(port, 0); !valid)
     return tl::unexpected<Error>(valid.error());
-  Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  UniqueFd socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket) {
     return failure(ErrorCode::SystemError, "cannot make a UDP socket: " + systemReason(errno));
   }
@@ -51,46 +51,46 @@ Result<ThoughtsReceiver> ThoughtsReceiver::listen(int port) {
   socklen_t size = sizeof name;
   if (::bind(fd, reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0 ||
       ::getsockname(fd, reinterpret_cast<sockaddr*>(&name), &size) != 0) {
-    return failure(
-        ErrorCode::SystemError,
-        "port " + std::to_string(port) + " for thoughts cannot be had: " + systemReason(errno));
+    return failure(ErrorCode::SystemError,
+                   "port " + std::to_string(port) +
+                       " for cognition debug data cannot be opened: " + systemReason(errno));
   }
-  ThoughtsReceiver receiver(std::move(socket), ntohs(name.sin_port));
+  CognitionDebugReceiver receiver(std::move(socket), ntohs(name.sin_port));
   receiver.m_buffer.resize(longestDatagram);
   return receiver;
 }
 
-void ThoughtsReceiver::poll(Time now) {
+void CognitionDebugReceiver::poll(Time now) {
   for (int i = 0; i < mostPerPoll; ++i) {
     const ssize_t size = ::recv(m_socket.get(), m_buffer.data(), m_buffer.size(), 0);
     if (size < 0) break;
-    RobotThoughts said;
-    if (!readThoughtDatagram({m_buffer.data(), static_cast<std::size_t>(size)}, said)) {
+    CognitionDebug said;
+    if (!readDebugDatagram({m_buffer.data(), static_cast<std::size_t>(size)}, said)) {
       ++m_strange;
       continue;
     }
-    Heard& heard = m_heard[said.robot];
-    heard.thoughts.robot = said.robot;
+    Received& received = m_received[said.robot];
+    received.cognitionDebug.robot = said.robot;
     if (said.cloud) {
-      heard.thoughts.cloud = std::move(said.cloud);
-      heard.cloudTime = now;
+      received.cognitionDebug.cloud = std::move(said.cloud);
+      received.cloudTime = now;
     }
     if (said.path) {
-      heard.thoughts.path = std::move(said.path);
-      heard.pathTime = now;
+      received.cognitionDebug.path = std::move(said.path);
+      received.pathTime = now;
     }
   }
 }
 
-std::vector<RobotThoughts> ThoughtsReceiver::thoughts(Time now) const {
+std::vector<CognitionDebug> CognitionDebugReceiver::cognitionDebug(Time now) const {
   const auto age = [now](Time then) { return std::chrono::duration<double>(now - then).count(); };
-  std::vector<RobotThoughts> all;
-  for (const auto& [robot, heard] : m_heard) {
-    RobotThoughts newest = heard.thoughts;
-    newest.cloudAge = age(heard.cloudTime);
-    newest.pathAge = age(heard.pathTime);
-    if (now - heard.cloudTime > memory) newest.cloud.reset();
-    if (now - heard.pathTime > memory) newest.path.reset();
+  std::vector<CognitionDebug> all;
+  for (const auto& [robot, received] : m_received) {
+    CognitionDebug newest = received.cognitionDebug;
+    newest.cloudAge = age(received.cloudTime);
+    newest.pathAge = age(received.pathTime);
+    if (now - received.cloudTime > memory) newest.cloud.reset();
+    if (now - received.pathTime > memory) newest.path.reset();
     if (newest.cloud || newest.path) all.push_back(std::move(newest));
   }
   return all;

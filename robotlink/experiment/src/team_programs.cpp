@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "own_programs.h"
+#include "team_programs.h"
 
 #include <algorithm>
 #include <thread>
@@ -15,7 +15,7 @@ constexpr auto glance = 20ms;  // between two looks whether the programs are the
 
 }  // namespace
 
-Result<void> OwnPrograms::missing() const {
+Result<void> TeamPrograms::missing() const {
   const SimulatedMatch& match = m_player.match();
   for (const ProcessStatus& one : match.robots().processes().statuses()) {
     // One that runs and attaches nothing may have another way to see its robot.
@@ -33,7 +33,7 @@ Result<void> OwnPrograms::missing() const {
   return {};
 }
 
-Result<void> OwnPrograms::begin(const std::atomic<bool>* cancelled) {
+Result<void> TeamPrograms::begin(const std::atomic<bool>* cancelled) {
   SimulatedMatch& match = m_player.match();
   match.pace().setPlaying(m_speed, false, Clock::now());
   while (m_player.awaitPrograms(Clock::now())) {
@@ -47,19 +47,19 @@ Result<void> OwnPrograms::begin(const std::atomic<bool>* cancelled) {
   return {};
 }
 
-void OwnPrograms::setSpeed(double speed, Clock::time_point now) {
+void TeamPrograms::setSpeed(double speed, Clock::time_point now) {
   m_now = speed;
   SimulatedMatch& match = m_player.match();
   match.pace().slowTo(speed, now);
   m_pacer.start(now, m_player.currentTick(), speed * match.simulation().state().settings.tickRate);
 }
 
-void OwnPrograms::look(Clock::time_point now) {
+void TeamPrograms::look(Clock::time_point now) {
   SimulatedMatch& match = m_player.match();
   m_looked = now;
   match.pace().lookAfterProcesses(now);
   (void)match.robots().processes().takeLines();
-  const auto slowest = match.pace().slowestOwnProgram();
+  const auto slowest = match.pace().slowestTeamProgram();
   m_kept += slowest ? std::min(1.0, *slowest / m_now) : 1.0;
   m_looks += 1.0;
   if (now - m_followed < ProcessPace::ownPaceInterval) return;
@@ -68,7 +68,7 @@ void OwnPrograms::look(Clock::time_point now) {
   if (speed != m_now) setSpeed(speed, now);
 }
 
-void OwnPrograms::wait() {
+void TeamPrograms::wait() {
   auto now = Clock::now();
   while (m_pacer.target(now) <= m_player.currentTick()) {
     if (now - m_looked >= lookInterval) look(now);

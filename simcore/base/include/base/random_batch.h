@@ -15,7 +15,7 @@
 
 namespace pitchboard {
 
-class ManyDraws {
+class RandomBatch {
  public:
   /// Draws of one robot, taken in order, as from a CounterRandom; at most as many as were made.
   class Draws {
@@ -26,7 +26,7 @@ class ManyDraws {
     double normal(double mean, double sigma);
 
    private:
-    friend class ManyDraws;
+    friend class RandomBatch;
     Draws(const double* wholes, const double* normals) : m_wholes(wholes), m_normals(normals) {}
     const double* m_wholes;
     const double* m_normals;

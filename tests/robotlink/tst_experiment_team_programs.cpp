@@ -18,7 +18,7 @@
 #include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/experiment/run_player.h>
 
-namespace tst_experiment_own_programs {
+namespace tst_experiment_team_programs {
 
 using namespace pitchboard;
 using namespace pitchboard::link;
@@ -71,7 +71,7 @@ PlaySettings settingsFor(const std::string& folder) {
 
 }  // namespace
 
-class TestExperimentOwnPrograms : public QObject {
+class TestExperimentTeamPrograms : public QObject {
   Q_OBJECT
 
  private slots:
@@ -81,11 +81,11 @@ class TestExperimentOwnPrograms : public QObject {
   void referenceProcessesGiveTheSameFilesHoweverTheyWerePlayed();
 };
 
-void TestExperimentOwnPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
+void TestExperimentTeamPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
   const Rig rig(QStringLiteral("naive_robot.py"));
   const auto e = rig.experiment();
   QVERIFY2(e.has_value(), e ? "" : e.error().text().c_str());
-  QVERIFY(e->ownPrograms);
+  QVERIFY(e->teamPrograms);
   const std::string out = rig.path("out");
   auto folder = ExperimentFolder::begin(out, *e, false);
   QVERIFY2(folder.has_value(), folder ? "" : folder.error().text().c_str());
@@ -136,7 +136,7 @@ void TestExperimentOwnPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
   }
 }
 
-void TestExperimentOwnPrograms::aProgramThatDoesNotRunIsNamed() {
+void TestExperimentTeamPrograms::aProgramThatDoesNotRunIsNamed() {
   const Rig rig(QStringLiteral("no_such_program.py"));
   const auto e = rig.experiment();
   QVERIFY(e.has_value());
@@ -148,7 +148,7 @@ void TestExperimentOwnPrograms::aProgramThatDoesNotRunIsNamed() {
   QVERIFY2(said.contains(QStringLiteral("no_such_program.py")), qPrintable(said));
 }
 
-void TestExperimentOwnPrograms::insideTheyAreRefused() {
+void TestExperimentTeamPrograms::insideTheyAreRefused() {
   const Rig rig(QStringLiteral("naive_robot.py"));
   std::string inside = rig.json();
   const std::string separate = "\"processes\": \"separate\",";
@@ -159,7 +159,7 @@ void TestExperimentOwnPrograms::insideTheyAreRefused() {
            e.error().text().c_str());
 }
 
-void TestExperimentOwnPrograms::referenceProcessesGiveTheSameFilesHoweverTheyWerePlayed() {
+void TestExperimentTeamPrograms::referenceProcessesGiveTheSameFilesHoweverTheyWerePlayed() {
   const auto e = experimentFromJson(R"({"version": 1, "name": "separate", "processes": "separate",
     "scenario": {"version": 1, "noise": "paper", "ball": {"x": 0.4, "y": 0},
       "robots": [{"team": "blue", "number": 1, "x": 0, "y": 0, "behaviour": "naive"}],
@@ -216,8 +216,8 @@ void TestExperimentOwnPrograms::referenceProcessesGiveTheSameFilesHoweverTheyWer
   }
 }
 
-PITCHBOARD_TEST(TestExperimentOwnPrograms)
+PITCHBOARD_TEST(TestExperimentTeamPrograms)
 
-}  // namespace tst_experiment_own_programs
+}  // namespace tst_experiment_team_programs
 
-#include "tst_experiment_own_programs.moc"
+#include "tst_experiment_team_programs.moc"

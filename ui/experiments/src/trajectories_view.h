@@ -11,9 +11,9 @@
 
 namespace pitchboard::ui {
 
-class WaysView : public QWidget {
+class TrajectoriesView : public QWidget {
  public:
-  explicit WaysView(QWidget* parent);
+  explicit TrajectoriesView(QWidget* parent);
 
   void show(const PlayedPtr& played, std::size_t condition);
   /// Runs that stand out; the others stay faint. Empty: all are alike.

@@ -2,7 +2,7 @@
 #pragma once
 
 // What a TeamMonitor keeps of robots and senders. Private to team_monitor.cpp and
-// team_monitor_books.cpp, which writes it as text and reads it back: a new member of Robot that
+// team_monitor_snapshot.cpp, which writes it as text and reads it back: a new member of Robot that
 // statuses follow from belongs into both functions there.
 
 #include <telemetry/wire/team_monitor.h>

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <base/many_draws.h>
+#include <base/random_batch.h>
 
 #include "draw_loops.h"
 #include "normal_quantile.h"
 
 namespace pitchboard {
 
-double ManyDraws::Draws::uniform() {
+double RandomBatch::Draws::uniform() {
   ++m_normals;
   return *m_wholes++ * 0x1.0p-53;
 }
 
-double ManyDraws::Draws::normal(double mean, double sigma) {
+double RandomBatch::Draws::normal(double mean, double sigma) {
   if (sigma == 0.0) return mean;
   const double p = draws::inside(*m_wholes++), q = p - 0.5;
   const double middle = *m_normals++;
   return mean + sigma * (quantile::isMiddle(q) ? middle : quantile::away(p, q));
 }
 
-void ManyDraws::make(std::uint64_t seed, NoiseStream stream, std::uint64_t tick,
-                     std::span<const int> robots, int count) {
+void RandomBatch::make(std::uint64_t seed, NoiseStream stream, std::uint64_t tick,
+                       std::span<const int> robots, int count) {
   const auto blocks = (static_cast<std::size_t>(count) + 1) / 2;
   const std::size_t counters = robots.size() * blocks;
   m_stride = 2 * blocks;

@@ -10,10 +10,10 @@
 namespace pitchboard::link {
 
 /// The file that this process runs.
-Result<std::string> ownProgram();
+Result<std::string> teamProgram();
 
 /// The program `name` in the same folder; only the name, which is then looked for in PATH, when the
 /// system does not tell the folder.
-std::string besideOwnProgram(const std::string& name);
+std::string besideTeamProgram(const std::string& name);
 
 }  // namespace pitchboard::link

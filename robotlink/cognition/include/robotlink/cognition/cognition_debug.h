@@ -6,8 +6,8 @@
 // unchanged robots have none. Metres and radians in the studio's frame, weights as shares.
 //
 // Two ways to the reader. Processes that run inside this program are asked
-// (CognitiveProcess::tellThoughts). Processes of their own send datagrams to a UDP port of this
-// computer's loopback device, five times a second, and only when `--thoughts-port` names one;
+// (CognitiveProcess::sendDebugData). Processes of their own send datagrams to a UDP port of this
+// computer's loopback device, five times a second, and only when `--debug-port` names one;
 // nothing stays behind when either side dies. A datagram is text; lengths are whole millimetres,
 // angles milliradians, weights millionths:
 //   PBT1 cloud ROBOT COUNT X Y YAW SIGMA  x y yaw weight  x y yaw weight ...   (at most 500)
@@ -20,10 +20,10 @@
 #include <string_view>
 #include <vector>
 
-#include <base/descriptor.h>
 #include <base/geometry.h>
 #include <base/ids.h>
 #include <base/result.h>
+#include <base/unique_fd.h>
 #include <telemetry/wire/udp_sender.h>
 
 namespace pitchboard::link {
@@ -54,7 +54,7 @@ struct PlannedPath {
 };
 
 /// The newest of one robot. Cheap to copy: what is pointed to never changes.
-struct RobotThoughts {
+struct CognitionDebug {
   RobotId robot;
   std::shared_ptr<const ParticleCloud> cloud;  ///< nothing: none heard of
   std::shared_ptr<const PlannedPath> path;     ///< nothing: none heard of
@@ -62,20 +62,20 @@ struct RobotThoughts {
 };
 
 /// The datagrams of what is there, without the line end; at most two.
-std::vector<std::string> thoughtDatagrams(const RobotThoughts& thoughts);
+std::vector<std::string> debugDatagrams(const CognitionDebug& cognitionDebug);
 /// Takes over what a datagram says; false, and nothing is changed, when it is not one of these.
-bool readThoughtDatagram(std::string_view datagram, RobotThoughts& thoughts);
+bool readDebugDatagram(std::string_view datagram, CognitionDebug& cognitionDebug);
 
 /// Tells a display on this computer. One thread at a time.
-class ThoughtsSender {
+class CognitionDebugSender {
  public:
   /// Port 1..65535 of 127.0.0.1.
-  static Result<ThoughtsSender> to(int port);
+  static Result<CognitionDebugSender> to(int port);
   /// Never waits; nobody need listen.
-  void send(const RobotThoughts& thoughts);
+  void send(const CognitionDebug& cognitionDebug);
 
  private:
-  ThoughtsSender(telemetry::UdpSender sender, std::uint16_t port)
+  CognitionDebugSender(telemetry::UdpSender sender, std::uint16_t port)
       : m_sender(std::move(sender)), m_port(port) {}
 
   telemetry::UdpSender m_sender;
@@ -84,31 +84,31 @@ class ThoughtsSender {
 
 /// Hears what processes on this computer tell. Use from one thread; poll it at the rate of the
 /// display, or the kernel's buffer drops what is older.
-class ThoughtsReceiver {
+class CognitionDebugReceiver {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   /// On 127.0.0.1; 0 takes a free port.
-  static Result<ThoughtsReceiver> listen(int port = 0);
+  static Result<CognitionDebugReceiver> listen(int port = 0);
 
   int port() const { return m_port; }
   /// Takes what waits. Never blocks.
   void poll(Time now);
   /// Of every robot heard of within the last 3 s, by number, with ages as of `now`.
-  std::vector<RobotThoughts> thoughts(Time now) const;
+  std::vector<CognitionDebug> cognitionDebug(Time now) const;
   /// Datagrams that were none of these.
   std::uint64_t strange() const { return m_strange; }
 
  private:
-  struct Heard {
-    RobotThoughts thoughts;
+  struct Received {
+    CognitionDebug cognitionDebug;
     Time cloudTime{}, pathTime{};
   };
-  ThoughtsReceiver(Descriptor socket, int port) : m_socket(std::move(socket)), m_port(port) {}
+  CognitionDebugReceiver(UniqueFd socket, int port) : m_socket(std::move(socket)), m_port(port) {}
 
-  Descriptor m_socket;
+  UniqueFd m_socket;
   int m_port = 0;
-  std::map<RobotId, Heard> m_heard;
+  std::map<RobotId, Received> m_received;
   std::vector<char> m_buffer;
   std::uint64_t m_strange = 0;
 };

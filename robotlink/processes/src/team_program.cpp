@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/processes/own_program.h>
+#include <robotlink/processes/team_program.h>
 
 #include <filesystem>
 #include <system_error>
 
 namespace pitchboard::link {
 
-Result<std::string> ownProgram() {
+Result<std::string> teamProgram() {
   std::error_code error;
   const auto path = std::filesystem::read_symlink("/proc/self/exe", error);
   if (!error) return path.string();
@@ -14,8 +14,8 @@ Result<std::string> ownProgram() {
                  "cannot find out where this program is: " + error.message());
 }
 
-std::string besideOwnProgram(const std::string& name) {
-  const Result<std::string> own = ownProgram();
+std::string besideTeamProgram(const std::string& name) {
+  const Result<std::string> own = teamProgram();
   return own ? (std::filesystem::path(*own).parent_path() / name).string() : name;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "team_monitor_books.h"
+#include "team_monitor_snapshot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace pitchboard::telemetry {
 namespace {
 
-using BookJson = nlohmann::json;
+using MonitorJson = nlohmann::json;
 using lenient::each;
 using lenient::member;
 using lenient::number;
@@ -32,25 +32,25 @@ WallTime timeOf(std::int64_t nanoseconds, WallTime zero) {
   return zero + std::clamp(Duration(nanoseconds), -century, century);
 }
 
-WallTime timeAt(const BookJson& object, const char* key, WallTime zero) {
+WallTime timeAt(const MonitorJson& object, const char* key, WallTime zero) {
   return timeOf(whole<std::int64_t>(object, key), zero);
 }
 
-BookJson sequenceJson(const SequenceStats::Counts& counts) {
-  BookJson json{{"bits", counts.bits},
-                {"highest", counts.highest},
-                {"seen", counts.seen},
-                {"span", counts.span},
-                {"received", counts.received},
-                {"lost", counts.lost},
-                {"duplicates", counts.duplicates},
-                {"late", counts.late},
-                {"restarts", counts.restarts}};
+MonitorJson sequenceJson(const SequenceStats::Counts& counts) {
+  MonitorJson json{{"bits", counts.bits},
+                   {"highest", counts.highest},
+                   {"seen", counts.seen},
+                   {"span", counts.span},
+                   {"received", counts.received},
+                   {"lost", counts.lost},
+                   {"duplicates", counts.duplicates},
+                   {"late", counts.late},
+                   {"restarts", counts.restarts}};
   if (counts.newest) json["newest"] = *counts.newest;
   return json;
 }
 
-SequenceStats sequenceFrom(const BookJson* json) {
+SequenceStats sequenceFrom(const MonitorJson* json) {
   SequenceStats::Counts counts;
   if (json == nullptr || !json->is_object()) return SequenceStats(counts);
   const auto count = [json](const char* key) { return whole<std::uint64_t>(*json, key); };
@@ -102,48 +102,48 @@ class UsualProfiles {
   std::vector<std::shared_ptr<const TextDecoder>> m_decoders;  // by team, made when wanted
 };
 
-struct MonitorBooks {
+struct MonitorSnapshot {
   using Robot = TeamMonitor::Robot;
 
-  static BookJson written(const Robot& robot, const UsualProfiles& usual, WallTime zero) {
-    BookJson json{{"team", robot.key.team},
-                  {"number", robot.key.number},
-                  {"sender", robot.key.sender},
-                  {"address", robot.sender.address.value},
-                  {"port", robot.sender.port},
-                  {"last", fromZero(robot.last, zero)},
-                  {"messages", robot.messages},
-                  {"bytes", robot.bytes},
-                  {"recoveries", robot.recoveries},
-                  {"duplicates", robot.duplicates},
-                  {"highestVolts", robot.highestVolts},
-                  {"hash", robot.lastHash},
-                  {"hashTime", fromZero(robot.lastHashTime, zero)}};
+  static MonitorJson written(const Robot& robot, const UsualProfiles& usual, WallTime zero) {
+    MonitorJson json{{"team", robot.key.team},
+                     {"number", robot.key.number},
+                     {"sender", robot.key.sender},
+                     {"address", robot.sender.address.value},
+                     {"port", robot.sender.port},
+                     {"last", fromZero(robot.last, zero)},
+                     {"messages", robot.messages},
+                     {"bytes", robot.bytes},
+                     {"recoveries", robot.recoveries},
+                     {"duplicates", robot.duplicates},
+                     {"highestVolts", robot.highestVolts},
+                     {"hash", robot.lastHash},
+                     {"hashTime", fromZero(robot.lastHashTime, zero)}};
     if (robot.previous) {
       json["previous"] =
-          BookJson{{"address", robot.previous->address.value}, {"port", robot.previous->port}};
+          MonitorJson{{"address", robot.previous->address.value}, {"port", robot.previous->port}};
     }
     for (const Robot::Other& other : robot.others) {
-      json["others"].push_back(BookJson{{"address", other.sender.address.value},
-                                        {"port", other.sender.port},
-                                        {"last", fromZero(other.last, zero)}});
+      json["others"].push_back(MonitorJson{{"address", other.sender.address.value},
+                                           {"port", other.sender.port},
+                                           {"last", fromZero(other.last, zero)}});
     }
     if (robot.volts) json["volts"] = *robot.volts;
     if (robot.charge) json["charge"] = *robot.charge;
-    BookJson& arrivals = json["arrivals"] = BookJson::array();
+    MonitorJson& arrivals = json["arrivals"] = MonitorJson::array();
     for (const WallTime time : robot.arrivals.times()) arrivals.push_back(fromZero(time, zero));
     json["sequence"] = sequenceJson(robot.sequence.counts());
     json["previousSequence"] = sequenceJson(robot.previousSequence.counts());
-    BookJson& errors = json["errors"] = BookJson::array();
+    MonitorJson& errors = json["errors"] = MonitorJson::array();
     for (std::size_t i = 0; i < textErrorCount; ++i) {
       errors.push_back(robot.errors.count(static_cast<TextError>(i)));
     }
     json["errorMessages"] = robot.errors.messages();
-    BookJson& processes = json["processes"] = BookJson::array();
+    MonitorJson& processes = json["processes"] = MonitorJson::array();
     for (const Robot::Process& process : robot.processes) {
-      processes.push_back(BookJson{{"p", process.filter.probability()},
-                                   {"known", process.known},
-                                   {"since", fromZero(process.since, zero)}});
+      processes.push_back(MonitorJson{{"p", process.filter.probability()},
+                                      {"known", process.known},
+                                      {"since", fromZero(process.since, zero)}});
     }
     // NaN becomes null.
     json["values"] = robot.values;
@@ -156,17 +156,18 @@ struct MonitorBooks {
     return json;
   }
 
-  static Robot read(const BookJson& json, UsualProfiles& usual, WallTime zero) {
+  static Robot read(const MonitorJson& json, UsualProfiles& usual, WallTime zero) {
     Robot robot;
     robot.key = keyFrom(json, usual.teams());
     robot.sender = senderFrom(json);
-    if (const BookJson* previous = member(json, "previous")) robot.previous = senderFrom(*previous);
+    if (const MonitorJson* previous = member(json, "previous"))
+      robot.previous = senderFrom(*previous);
     robot.last = timeAt(json, "last", zero);
     robot.messages = whole<std::uint64_t>(json, "messages");
     robot.bytes = whole<std::uint64_t>(json, "bytes");
     robot.recoveries = whole<std::uint64_t>(json, "recoveries");
     robot.duplicates = whole<std::uint64_t>(json, "duplicates");
-    each(json, "others", mostWords, [&](std::size_t, const BookJson& other) {
+    each(json, "others", mostWords, [&](std::size_t, const MonitorJson& other) {
       if (!other.is_object()) return;
       robot.others.push_back({senderFrom(other), timeAt(other, "last", zero)});
     });
@@ -175,34 +176,34 @@ struct MonitorBooks {
     robot.charge = number(json, "charge");
     robot.lastHash = whole<std::size_t>(json, "hash");
     robot.lastHashTime = timeAt(json, "hashTime", zero);
-    each(json, "arrivals", mostWords, [&](std::size_t, const BookJson& time) {
+    each(json, "arrivals", mostWords, [&](std::size_t, const MonitorJson& time) {
       if (time.is_number_integer()) robot.arrivals.add(timeOf(time.get<std::int64_t>(), zero));
     });
     robot.sequence = sequenceFrom(member(json, "sequence"));
     robot.previousSequence = sequenceFrom(member(json, "previousSequence"));
     std::uint64_t mistakes = 0;  // what 0.8 counted
-    each(json, "errors", textErrorCount, [&](std::size_t i, const BookJson& count) {
+    each(json, "errors", textErrorCount, [&](std::size_t i, const MonitorJson& count) {
       if (!count.is_number_unsigned()) return;
       robot.errors.add(static_cast<TextError>(i), count.get<std::uint64_t>());
       mistakes += count.get<std::uint64_t>();
     });
     robot.errors.addMessages(
         member(json, "errorMessages") ? whole<std::uint64_t>(json, "errorMessages") : mistakes);
-    each(json, "processes", processCount, [&](std::size_t i, const BookJson& process) {
+    each(json, "processes", processCount, [&](std::size_t i, const MonitorJson& process) {
       if (!process.is_object()) return;
       robot.processes[i] = {ProcessFilter(number(process, "p").value_or(0.5)),
                             lenient::flag(process, "known"), timeAt(process, "since", zero)};
     });
-    each(json, "values", mostWords, [&](std::size_t, const BookJson& value) {
+    each(json, "values", mostWords, [&](std::size_t, const MonitorJson& value) {
       robot.values.push_back(value.is_number() ? value.get<double>()
                                                : std::numeric_limits<double>::quiet_NaN());
     });
-    each(json, "words", mostWords, [&](std::size_t, const BookJson& word) {
+    each(json, "words", mostWords, [&](std::size_t, const MonitorJson& word) {
       robot.words.push_back(word.is_string()
                                 ? word.get<std::string>().substr(0, ErrorTally::sampleBytes)
                                 : std::string());
     });
-    each(json, "extras", DecodedText::maxExtras, [&](std::size_t, const BookJson& key) {
+    each(json, "extras", DecodedText::maxExtras, [&](std::size_t, const MonitorJson& key) {
       robot.extras.push_back(key.is_string()
                                  ? key.get<std::string>().substr(0, profile_words::maxNameBytes)
                                  : std::string());
@@ -217,35 +218,35 @@ struct MonitorBooks {
     return robot;
   }
 
-  static RobotKey keyFrom(const BookJson& json, std::size_t teams) {
-    const int heard = whole<int>(json, "number");
+  static RobotKey keyFrom(const MonitorJson& json, std::size_t teams) {
+    const int received = whole<int>(json, "number");
     if (member(json, "team") != nullptr) {
-      return {whole<int>(json, "team"), heard, whole<int>(json, "sender")};
+      return {whole<int>(json, "team"), received, whole<int>(json, "sender")};
     }
     // 0.8 had one number for place and robot where there were several teams.
     constexpr int step = 1000;
-    const int place = teams > 1 ? heard / step + 1 : static_cast<int>(teams);
-    return {place, teams > 1 ? heard % step : heard, whole<int>(json, "slot")};
+    const int place = teams > 1 ? received / step + 1 : static_cast<int>(teams);
+    return {place, teams > 1 ? received % step : received, whole<int>(json, "slot")};
   }
 
-  static Sender senderFrom(const BookJson& json) {
+  static Sender senderFrom(const MonitorJson& json) {
     return {{whole<std::uint32_t>(json, "address")}, whole<std::uint16_t>(json, "port")};
   }
 };
 
 std::string TeamMonitor::robotsText(WallTime zero) const {
-  BookJson robots = BookJson::array();
+  MonitorJson robots = MonitorJson::array();
   const UsualProfiles usual(m_profile, m_options);
   for (const Robot& robot : m_robots) {
-    robots.push_back(MonitorBooks::written(robot, usual, zero));
+    robots.push_back(MonitorSnapshot::written(robot, usual, zero));
   }
-  return BookJson{{"robots", std::move(robots)}}.dump(-1, ' ', false,
-                                                      BookJson::error_handler_t::replace);
+  return MonitorJson{{"robots", std::move(robots)}}.dump(-1, ' ', false,
+                                                         MonitorJson::error_handler_t::replace);
 }
 
 Result<void> TeamMonitor::restoreRobots(std::string_view text, WallTime zero) {
-  const BookJson json = lenient::parsed<BookJson>(text);
-  const BookJson* robots = json.is_object() ? member(json, "robots") : nullptr;
+  const MonitorJson json = lenient::parsed<MonitorJson>(text);
+  const MonitorJson* robots = json.is_object() ? member(json, "robots") : nullptr;
   if (robots == nullptr || !robots->is_array()) {
     return failure(ErrorCode::ParseError, "This is no state of robots that were heard.");
   }
@@ -253,9 +254,9 @@ Result<void> TeamMonitor::restoreRobots(std::string_view text, WallTime zero) {
   const std::size_t most = mostPlaces(m_options);
   read.reserve(2 * most);  // to come and there
   UsualProfiles usual(m_profile, m_options);
-  for (const BookJson& robot : *robots) {
+  for (const MonitorJson& robot : *robots) {
     if (!robot.is_object() || read.size() == most) continue;
-    Robot one = MonitorBooks::read(robot, usual, zero);
+    Robot one = MonitorSnapshot::read(robot, usual, zero);
     const RobotKey& key = one.key;
     const bool possible = key.number >= 1 && key.number <= TextDecoder::maxRobot &&
                           key.sender >= 0 && key.sender < static_cast<int>(most) && key.team >= 0 &&

@@ -6,17 +6,17 @@
 
 namespace pitchboard {
 
-class Descriptor {
+class UniqueFd {
  public:
-  Descriptor() = default;
+  UniqueFd() = default;
   /// Takes over what open(), socket() and the like returned; below 0: nothing.
-  explicit Descriptor(int value) : m_value(value) {}
-  Descriptor(Descriptor&& other) noexcept : m_value(other.release()) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
+  explicit UniqueFd(int value) : m_value(value) {}
+  UniqueFd(UniqueFd&& other) noexcept : m_value(other.release()) {}
+  UniqueFd& operator=(UniqueFd&& other) noexcept {
     if (this != &other) reset(other.release());
     return *this;
   }
-  ~Descriptor() { reset(); }
+  ~UniqueFd() { reset(); }
 
   int get() const { return m_value; }
   explicit operator bool() const { return m_value >= 0; }

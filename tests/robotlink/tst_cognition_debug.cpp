@@ -9,14 +9,14 @@
 
 #include "../support/segment_keys.h"
 
-namespace tst_robot_thoughts {
+namespace tst_cognition_debug {
 
 using namespace pitchboard;
 using namespace pitchboard::link;
 
 namespace {
 
-RobotThoughts example() {
+CognitionDebug example() {
   auto cloud = std::make_shared<ParticleCloud>();
   cloud->count = 2000;
   cloud->pose = {{1.25, -2.5}, 0.75};
@@ -34,24 +34,24 @@ Scenario match(int robots) {
   return scenario;
 }
 
-const RobotThoughts* of(const MatchFrame& frame, int robot) {
+const CognitionDebug* of(const MatchFrame& frame, int robot) {
   const RobotFrame* one = frame.robot(RobotId{robot});
-  return one && one->thoughts ? &*one->thoughts : nullptr;
+  return one && one->cognitionDebug ? &*one->cognitionDebug : nullptr;
 }
 
 }  // namespace
 
-class TestRobotThoughts : public QObject {
+class TestCognitionDebug : public QObject {
   Q_OBJECT
   const int m_base = testKeyBase();
 
-  MatchOptions separateProcesses(int team, bool thoughts) const {
+  MatchOptions separateProcesses(int team, bool cognitionDebug) const {
     MatchOptions options;
-    options.cognition = Cognition::External;
+    options.cognition = Cognition::Separate;
     options.keyBase = m_base;
     options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
     options.process.team = team;
-    options.thoughts = thoughts;
+    options.cognitionDebug = cognitionDebug;
     return options;
   }
 
@@ -61,28 +61,28 @@ class TestRobotThoughts : public QObject {
   }
 
   void thereAndBack() {
-    const RobotThoughts told = example();
-    const std::vector<std::string> datagrams = thoughtDatagrams(told);
+    const CognitionDebug told = example();
+    const std::vector<std::string> datagrams = debugDatagrams(told);
     QCOMPARE(datagrams.size(), std::size_t{2});
     QVERIFY(datagrams[0].size() < 20'000);
-    RobotThoughts heard;
-    for (const std::string& datagram : datagrams) QVERIFY(readThoughtDatagram(datagram, heard));
-    QCOMPARE(heard.robot, told.robot);
-    QVERIFY(*heard.cloud == *told.cloud);
-    QVERIFY(*heard.path == *told.path);
+    CognitionDebug received;
+    for (const std::string& datagram : datagrams) QVERIFY(readDebugDatagram(datagram, received));
+    QCOMPARE(received.robot, told.robot);
+    QVERIFY(*received.cloud == *told.cloud);
+    QVERIFY(*received.path == *told.path);
   }
 
   void strangeNumbersDoNoHarm() {
-    RobotThoughts told;
+    CognitionDebug told;
     told.robot = {1};
     auto cloud = std::make_shared<ParticleCloud>();
     cloud->particles.resize(2000, {{std::nan(""), 1e300}, INFINITY, -5});
     cloud->sigma = 1e300;
     told.cloud = cloud;
-    RobotThoughts heard;
-    QVERIFY(readThoughtDatagram(thoughtDatagrams(told).front(), heard));
-    QCOMPARE(heard.cloud->particles.size(), ParticleCloud::most);
-    QVERIFY(std::isfinite(heard.cloud->particles[0].position.y));
+    CognitionDebug received;
+    QVERIFY(readDebugDatagram(debugDatagrams(told).front(), received));
+    QCOMPARE(received.cloud->particles.size(), ParticleCloud::most);
+    QVERIFY(std::isfinite(received.cloud->particles[0].position.y));
   }
 
   void badDatagrams_data() {
@@ -116,61 +116,62 @@ class TestRobotThoughts : public QObject {
   }
   void badDatagrams() {
     QFETCH(QByteArray, datagram);
-    RobotThoughts thoughts;
-    QVERIFY(!readThoughtDatagram(datagram.toStdString(), thoughts));
-    QVERIFY(!thoughts.cloud && !thoughts.path);
+    CognitionDebug cognitionDebug;
+    QVERIFY(!readDebugDatagram(datagram.toStdString(), cognitionDebug));
+    QVERIFY(!cognitionDebug.cloud && !cognitionDebug.path);
   }
 
   void overTheLoopbackDevice() {
     using namespace std::chrono_literals;
-    auto receiver = ThoughtsReceiver::listen().value();
-    auto sender = ThoughtsSender::to(receiver.port()).value();
+    auto receiver = CognitionDebugReceiver::listen().value();
+    auto sender = CognitionDebugSender::to(receiver.port()).value();
     const auto now = std::chrono::steady_clock::now();
     sender.send(example());
-    RobotThoughts other = example();
+    CognitionDebug other = example();
     other.robot = {2};
     other.path.reset();
     sender.send(other);
     receiver.poll(now);
-    auto all = receiver.thoughts(now + 500ms);
+    auto all = receiver.cognitionDebug(now + 500ms);
     QCOMPARE(all.size(), std::size_t{2});
     QCOMPARE(all[0].robot, RobotId{2});
     QVERIFY(all[0].cloud && !all[0].path);
     QVERIFY(*all[1].path == *example().path);
     QCOMPARE(all[1].pathAge, 0.5);
-    QVERIFY(receiver.thoughts(now + 4s).empty());  // silent for too long
+    QVERIFY(receiver.cognitionDebug(now + 4s).empty());  // silent for too long
     QCOMPARE(receiver.strange(), std::uint64_t{0});
   }
 
   void refusals() {
-    QVERIFY(!ThoughtsSender::to(0));
-    QVERIFY(!ThoughtsSender::to(65536));
-    QVERIFY(!ThoughtsReceiver::listen(70000));
-    auto first = ThoughtsReceiver::listen().value();
-    QVERIFY(!ThoughtsReceiver::listen(first.port()));
+    QVERIFY(!CognitionDebugSender::to(0));
+    QVERIFY(!CognitionDebugSender::to(65536));
+    QVERIFY(!CognitionDebugReceiver::listen(70000));
+    auto first = CognitionDebugReceiver::listen().value();
+    QVERIFY(!CognitionDebugReceiver::listen(first.port()));
   }
 
   void inlineProcessesAreAsked() {
     MatchOptions options;
     options.process.particles = 2000;
-    QVERIFY(SimulatedMatch::create(match(6), options).value().thoughts().empty());  // nobody asked
-    options.thoughts = true;
+    QVERIFY(SimulatedMatch::create(match(6), options).value().cognitionDebug().empty());  // nobody
+                                                                                          // asked
+    options.cognitionDebug = true;
     auto played = SimulatedMatch::create(match(6), options).value();
     double longest = 0;
     for (int i = 0; i < 60 * 40; ++i) {
       played.tick();
       if (i % 60 != 0) continue;
-      for (const RobotThoughts& one : played.thoughts()) {
+      for (const CognitionDebug& one : played.cognitionDebug()) {
         if (one.path && one.path->points.size() > 1) {
           const Point a = one.path->points.front(), b = one.path->points.back();
           longest = std::max(longest, distance(a, b));
         }
       }
     }
-    const auto all = played.thoughts();
+    const auto all = played.cognitionDebug();
     QCOMPARE(all.size(), std::size_t{6});
     QVERIFY(longest > 0.5);
-    for (const RobotThoughts& one : all) {
+    for (const CognitionDebug& one : all) {
       QVERIFY(one.cloud && one.path);
       QVERIFY(one.cloud->particles.size() <= ParticleCloud::most);
       QVERIFY(one.cloud->count >= 200);
@@ -192,11 +193,11 @@ class TestRobotThoughts : public QObject {
   void askingChangesNothing() {
     const auto hash = [](bool asked) {
       MatchOptions options;
-      options.thoughts = asked;
+      options.cognitionDebug = asked;
       auto played = SimulatedMatch::create(match(6), options).value();
       for (int i = 0; i < 60 * 20; ++i) {
         played.tick();
-        (void)played.thoughts();
+        (void)played.cognitionDebug();
       }
       return played.simulation().hash();
     };
@@ -215,7 +216,7 @@ class TestRobotThoughts : public QObject {
     const auto farthest = [&] {
       double most = 0;
       const auto frame = runner->latest();
-      const RobotThoughts* first = frame ? of(*frame, 1) : nullptr;
+      const CognitionDebug* first = frame ? of(*frame, 1) : nullptr;
       if (!first || !first->cloud) return most;
       for (const Particle& p : first->cloud->particles)
         most = std::max(most, std::abs(p.position.x));
@@ -238,13 +239,14 @@ class TestRobotThoughts : public QObject {
     if (!asked) {
       QTRY_VERIFY(runner->latest() && !runner->latest()->robots.empty() &&
                   runner->latest()->robots[0].lamps[3].state == telemetry::ProcessState::Working);
-      QVERIFY(!runner->latest()->robots[0].thoughts && !runner->latest()->robots[1].thoughts);
+      QVERIFY(!runner->latest()->robots[0].cognitionDebug &&
+              !runner->latest()->robots[1].cognitionDebug);
       return;
     }
     const auto complete = [&] {
       const auto frame = runner->latest();
-      const RobotThoughts* first = frame ? of(*frame, 1) : nullptr;
-      const RobotThoughts* second = frame ? of(*frame, 2) : nullptr;
+      const CognitionDebug* first = frame ? of(*frame, 1) : nullptr;
+      const CognitionDebug* second = frame ? of(*frame, 2) : nullptr;
       return first && first->cloud && first->path && second && second->cloud && second->path;
     };
     QTRY_VERIFY_WITH_TIMEOUT(complete(), 20000);
@@ -255,8 +257,8 @@ class TestRobotThoughts : public QObject {
   }
 };
 
-PITCHBOARD_TEST(TestRobotThoughts)
+PITCHBOARD_TEST(TestCognitionDebug)
 
-}  // namespace tst_robot_thoughts
+}  // namespace tst_cognition_debug
 
-#include "tst_robot_thoughts.moc"
+#include "tst_cognition_debug.moc"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The text of the datagrams.
-#include <robotlink/cognition/robot_thoughts.h>
+#include <robotlink/cognition/cognition_debug.h>
 
 #include <algorithm>
 #include <charconv>
@@ -123,29 +123,31 @@ std::shared_ptr<const PlannedPath> readPath(Reader& in) {
 
 }  // namespace
 
-std::vector<std::string> thoughtDatagrams(const RobotThoughts& thoughts) {
+std::vector<std::string> debugDatagrams(const CognitionDebug& cognitionDebug) {
   std::vector<std::string> datagrams;
-  if (thoughts.cloud) datagrams.push_back(cloudText(thoughts.robot, *thoughts.cloud));
-  if (thoughts.path) datagrams.push_back(pathText(thoughts.robot, *thoughts.path));
+  if (cognitionDebug.cloud)
+    datagrams.push_back(cloudText(cognitionDebug.robot, *cognitionDebug.cloud));
+  if (cognitionDebug.path)
+    datagrams.push_back(pathText(cognitionDebug.robot, *cognitionDebug.path));
   return datagrams;
 }
 
-bool readThoughtDatagram(std::string_view datagram, RobotThoughts& thoughts) {
+bool readDebugDatagram(std::string_view datagram, CognitionDebug& cognitionDebug) {
   const bool cloud = datagram.starts_with(cloudHead);
   if (!cloud && !datagram.starts_with(pathHead)) return false;
   Reader in(datagram.substr(cloud ? cloudHead.size() : pathHead.size()));
   const RobotId robot{static_cast<int>(in.whole(1, highestRobotNumber))};
   if (!in.good()) return false;
   if (cloud) {
-    auto heard = readCloud(in);
-    if (!heard) return false;
-    thoughts.cloud = std::move(heard);
+    auto received = readCloud(in);
+    if (!received) return false;
+    cognitionDebug.cloud = std::move(received);
   } else {
-    auto heard = readPath(in);
-    if (!heard) return false;
-    thoughts.path = std::move(heard);
+    auto received = readPath(in);
+    if (!received) return false;
+    cognitionDebug.path = std::move(received);
   }
-  thoughts.robot = robot;
+  cognitionDebug.robot = robot;
   return true;
 }
 

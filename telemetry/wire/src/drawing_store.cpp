@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/wire/drawing_book.h>
+#include <telemetry/wire/drawing_store.h>
 
 #include <algorithm>
 
@@ -22,11 +22,11 @@ bool RobotDrawings::operator==(const RobotDrawings& other) const {
                             [](const auto& a, const auto& b) { return a == b || *a == *b; });
 }
 
-bool DrawingBook::Shown::isThere(double time) const {
+bool DrawingStore::Shown::isThere(double time) const {
   return since <= time + tolerance && time < since + layer->life - tolerance;
 }
 
-void DrawingBook::forgetOld(double time) {
+void DrawingStore::forgetOld(double time) {
   for (auto& [robot, layers] : m_robots) {
     std::erase_if(layers, [time](const auto& named) {
       const Shown& shown = named.second;
@@ -36,7 +36,7 @@ void DrawingBook::forgetOld(double time) {
   std::erase_if(m_robots, [](const auto& robot) { return robot.second.empty(); });
 }
 
-Result<void> DrawingBook::take(std::string_view text, double time, int team) {
+Result<void> DrawingStore::take(std::string_view text, double time, int team) {
   auto drawing = parseDrawing(text);
   if (!drawing) {
     ++m_refused;
@@ -46,7 +46,7 @@ Result<void> DrawingBook::take(std::string_view text, double time, int team) {
   return take(std::move(*drawing), time, team);
 }
 
-Result<void> DrawingBook::take(Drawing drawing, double time, int team) {
+Result<void> DrawingStore::take(Drawing drawing, double time, int team) {
   forgetOld(time);
   const RobotKey robot{team, drawing.robot};
   const auto refuse = [this, robot](const std::string& sentence) {
@@ -89,7 +89,7 @@ Result<void> DrawingBook::take(Drawing drawing, double time, int team) {
   return {};
 }
 
-std::vector<RobotDrawings> DrawingBook::at(double time) const {
+std::vector<RobotDrawings> DrawingStore::at(double time) const {
   std::vector<RobotDrawings> all;
   for (const auto& [robot, layers] : m_robots) {
     RobotDrawings one;
@@ -102,7 +102,7 @@ std::vector<RobotDrawings> DrawingBook::at(double time) const {
   return all;
 }
 
-std::vector<DrawingBook::Page> DrawingBook::pages(double time) const {
+std::vector<DrawingStore::Page> DrawingStore::pages(double time) const {
   std::vector<Page> pages;
   for (const auto& [robot, layers] : m_robots) {
     for (const auto& [name, shown] : layers) {

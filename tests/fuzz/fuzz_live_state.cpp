@@ -3,21 +3,21 @@
 // and written again it reads back.
 #include <cstdlib>
 
-#include <robotlink/live/live_books.h>
+#include <robotlink/live/live_state.h>
 
 using namespace pitchboard;
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   const telemetry::WallTime zero{std::chrono::seconds(1'700'000'000)};
-  const auto read = link::LiveBooks::read({reinterpret_cast<const char*>(data), size}, zero);
+  const auto read = link::LiveState::read({reinterpret_cast<const char*>(data), size}, zero);
   if (!read) return 0;
   const auto now = zero + std::chrono::seconds(15);
-  const telemetry::TeamStatus status = read->books.monitor.status(now);
+  const telemetry::TeamStatus status = read->state.monitor.status(now);
   if (status.robots.size() > read->options.team.mostRobots()) std::abort();
-  const link::MatchFrame frame = read->books.frame(read->options, status, 15.0);
+  const link::MatchFrame frame = read->state.frame(read->options, status, 15.0);
   if (frame.robots.size() != status.robots.size()) std::abort();
-  const auto again = link::LiveBooks::read(read->books.text(read->options, 15.0, zero), zero);
+  const auto again = link::LiveState::read(read->state.text(read->options, 15.0, zero), zero);
   if (!again) std::abort();
-  if (again->books.monitor.status(now).robots.size() != status.robots.size()) std::abort();
+  if (again->state.monitor.status(now).robots.size() != status.robots.size()) std::abort();
   return 0;
 }

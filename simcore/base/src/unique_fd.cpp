@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <base/descriptor.h>
+#include <base/unique_fd.h>
 
 #include <unistd.h>
 #include <cerrno>
@@ -7,7 +7,7 @@
 
 namespace pitchboard {
 
-void Descriptor::reset(int value) {
+void UniqueFd::reset(int value) {
   const int old = std::exchange(m_value, value);
   if (old < 0) return;
   const int reason = errno;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ways_view.h"
+#include "trajectories_view.h"
 
 #include <QPainter>
 #include <algorithm>
@@ -48,24 +48,24 @@ void paintLegend(QPainter& p, const QRect& room) {
 
 }  // namespace
 
-WaysView::WaysView(QWidget* parent) : QWidget(parent) {
-  setObjectName(QStringLiteral("experimentWays"));
+TrajectoriesView::TrajectoriesView(QWidget* parent) : QWidget(parent) {
+  setObjectName(QStringLiteral("experimentTrajectories"));
   setToolTip(QStringLiteral("Choose one run or several in Runs to bring them out."));
 }
 
-void WaysView::show(const PlayedPtr& played, std::size_t condition) {
+void TrajectoriesView::show(const PlayedPtr& played, std::size_t condition) {
   m_played = played;
   m_condition = condition;
   m_highlighted.clear();
   update();
 }
 
-void WaysView::highlight(std::vector<std::size_t> numbers) {
+void TrajectoriesView::highlight(std::vector<std::size_t> numbers) {
   m_highlighted = std::move(numbers);
   update();
 }
 
-void WaysView::paintEvent(QPaintEvent* /*event*/) {
+void TrajectoriesView::paintEvent(QPaintEvent* /*event*/) {
   QPainter p(this);
   p.fillRect(rect(), theme().fieldBorder);
   if (!m_played || m_condition >= m_played->table.conditions.size()) return;

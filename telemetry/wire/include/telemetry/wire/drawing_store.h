@@ -25,7 +25,7 @@ struct RobotDrawings {
   bool operator==(const RobotDrawings& other) const;
 };
 
-class DrawingBook {
+class DrawingStore {
  public:
   /// A drawing that was heard at this time, of a robot of `team` (RobotKey::team). Errors as
   /// parseDrawing(), and what is more than the limits allow a robot; they are counted, and nothing

@@ -18,12 +18,12 @@
 
 namespace pitchboard::link {
 
-struct LiveBooks {
-  explicit LiveBooks(const LiveOptions& options);
+struct LiveState {
+  explicit LiveState(const LiveOptions& options);
 
   telemetry::TeamMonitor monitor;
   telemetry::RefereeTracker referee;
-  telemetry::DrawingBook drawings;
+  telemetry::DrawingStore drawings;
   /// Who drew the datagram that was taken last; empty: nobody that can be shown.
   std::optional<RobotKey> lastDrawer;
 
@@ -63,9 +63,9 @@ struct LiveBooks {
   std::map<std::pair<int, int>, Kept> m_replies;  // by team and player
 };
 
-struct LiveBooks::Read {
+struct LiveState::Read {
   LiveOptions options;
-  LiveBooks books;
+  LiveState state;
 };
 
 }  // namespace pitchboard::link

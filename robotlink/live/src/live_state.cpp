@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/live/live_books.h>
+#include <robotlink/live/live_state.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -96,21 +96,21 @@ LiveOptions optionsFrom(const Json& json) {
 
 }  // namespace
 
-LiveBooks::LiveBooks(const LiveOptions& options)
+LiveState::LiveState(const LiveOptions& options)
     : monitor(options.profile, monitorOptions(options)), referee(refereeOptions(options)) {}
 
-telemetry::RefereeTracker::Options LiveBooks::refereeOptions(const LiveOptions& options) {
+telemetry::RefereeTracker::Options LiveState::refereeOptions(const LiveOptions& options) {
   telemetry::RefereeTracker::Options made;
   made.version = options.refereeVersion;
   return made;
 }
 
-void LiveBooks::setTeams(const telemetry::MonitorOptions& options) {
+void LiveState::setTeams(const telemetry::MonitorOptions& options) {
   monitor.setOptions(options);
   drawings.rename(monitor.renamings());
 }
 
-std::optional<telemetry::TeamMonitor::Verdict> LiveBooks::takeRobot(
+std::optional<telemetry::TeamMonitor::Verdict> LiveState::takeRobot(
     const telemetry::DatagramView& datagram, double time) {
   const auto take = [this](const telemetry::DatagramView& message) {
     const auto verdict = monitor.take(message);
@@ -133,7 +133,7 @@ std::optional<telemetry::TeamMonitor::Verdict> LiveBooks::takeRobot(
   return take(message);
 }
 
-void LiveBooks::clear(const LiveOptions& options) {
+void LiveState::clear(const LiveOptions& options) {
   monitor.clear();
   drawings.clear();
   referee = telemetry::RefereeTracker(refereeOptions(options));
@@ -143,7 +143,7 @@ void LiveBooks::clear(const LiveOptions& options) {
   m_replies.clear();
 }
 
-void LiveBooks::takeReferee(const telemetry::RefereePacket& packet,
+void LiveState::takeReferee(const telemetry::RefereePacket& packet,
                             const telemetry::DatagramView& datagram) {
   const auto kept = [&datagram] {
     return Kept{datagram.time, datagram.sender, datagram.localPort, std::string(datagram.payload)};
@@ -172,7 +172,7 @@ void LiveBooks::takeReferee(const telemetry::RefereePacket& packet,
   }
 }
 
-MatchFrame LiveBooks::frame(const LiveOptions& options, const telemetry::TeamStatus& team,
+MatchFrame LiveState::frame(const LiveOptions& options, const telemetry::TeamStatus& team,
                             double time) const {
   MatchFrame frame = liveFrame(options, team, referee, time);
   frame.drawings = drawings.at(time);
@@ -180,16 +180,16 @@ MatchFrame LiveBooks::frame(const LiveOptions& options, const telemetry::TeamSta
   return frame;
 }
 
-Teams LiveBooks::teams(const LiveOptions& options) const {
+Teams LiveState::teams(const LiveOptions& options) const {
   return teamsOf(options, referee.state() ? &*referee.state() : nullptr);
 }
 
-std::string LiveBooks::text(const LiveOptions& options, double time, WallTime zero) const {
+std::string LiveState::text(const LiveOptions& options, double time, WallTime zero) const {
   Json json{{"time", time}, {"options", optionsJson(options)}};
   // Its own text, not an object in here: the monitor's form is the monitor's.
   json["robots"] = monitor.robotsText(zero);
-  for (const auto& [heard, place, drawn] : drawings.pages(time)) {
-    json["drawings"].push_back(Json{{"at", heard}, {"team", place}, {"text", drawn}});
+  for (const auto& [received, place, drawn] : drawings.pages(time)) {
+    json["drawings"].push_back(Json{{"at", received}, {"team", place}, {"text", drawn}});
   }
   Json& packets = json["referee"] = Json::array();
   const auto put = [&](const Kept& kept) {
@@ -206,15 +206,15 @@ std::string LiveBooks::text(const LiveOptions& options, double time, WallTime ze
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Result<LiveBooks::Read> LiveBooks::read(std::string_view bytes, WallTime zero) {
+Result<LiveState::Read> LiveState::read(std::string_view bytes, WallTime zero) {
   const Json json = lenient::parsed<Json>(bytes);
   const Json* options = json.is_object() ? member(json, "options") : nullptr;
   if (options == nullptr || !options->is_object()) {
     return failure(ErrorCode::ParseError, "This is no state of a live match.");
   }
   LiveOptions known = optionsFrom(*options);
-  Read out{known, LiveBooks(known)};
-  if (auto done = out.books.monitor.restoreRobots(lenient::text(json, "robots"), zero); !done) {
+  Read out{known, LiveState(known)};
+  if (auto done = out.state.monitor.restoreRobots(lenient::text(json, "robots"), zero); !done) {
     return tl::unexpected(done.error());
   }
   constexpr std::size_t mostPages =
@@ -229,7 +229,7 @@ Result<LiveBooks::Read> LiveBooks::read(std::string_view bytes, WallTime zero) {
       drawing->robot = robot.number;
       team = robot.team;
     }
-    (void)out.books.drawings.take(std::move(*drawing), number(page, "at").value_or(0.0), team);
+    (void)out.state.drawings.take(std::move(*drawing), number(page, "at").value_or(0.0), team);
   });
   constexpr std::size_t mostPackets = telemetry::RefereeTracker::maxReplies + 3;
   each(json, "referee", mostPackets, [&](std::size_t, const Json& packet) {
@@ -242,7 +242,7 @@ Result<LiveBooks::Read> LiveBooks::read(std::string_view bytes, WallTime zero) {
     const Duration at = std::clamp(Duration(whole<std::int64_t>(packet, "at")), -century, century);
     const telemetry::Sender sender{{whole<std::uint32_t>(packet, "address")},
                                    whole<std::uint16_t>(packet, "port")};
-    out.books.takeReferee(
+    out.state.takeReferee(
         *decoded, {zero + at, sender, whole<std::uint16_t>(packet, "localPort"), false, *payload});
   });
   return out;

@@ -9,7 +9,7 @@
 
 namespace pitchboard::sim {
 
-struct BallWay {
+struct BallSweep {
   Point from;  ///< where it was when the tick began
   Point aim;   ///< where it would have gone with nothing in its way
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "thought_items.h"
+#include "debug_overlay_items.h"
 
 #include <QVarLengthArray>
 #include <algorithm>

@@ -12,11 +12,12 @@
 
 namespace pitchboard::link {
 
-class OwnPrograms {
+class TeamPrograms {
  public:
   using Clock = std::chrono::steady_clock;
   /// `speed`: times real time, at most. The match must outlive it.
-  OwnPrograms(MatchPlayer& player, double speed) : m_player(player), m_speed(speed), m_now(speed) {}
+  TeamPrograms(MatchPlayer& player, double speed)
+      : m_player(player), m_speed(speed), m_now(speed) {}
 
   /// Until the match awaits none of its programs (MatchPlayer::awaitPrograms()). Error NotFound
   /// when one of them does not run; none when `cancelled`.
