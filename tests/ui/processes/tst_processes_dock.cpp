@@ -28,7 +28,7 @@ namespace tst_processes_dock {
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
-using State = link::ProcessSummary::State;
+using State = link::ProcessState;
 
 class TestProcessesDock : public QObject {
   Q_OBJECT

@@ -70,7 +70,7 @@ class TestCardState : public QObject {
     link::MatchFrame frame = frameOf(1);
     link::ProcessSummary process;
     process.name = "decision";
-    process.state = link::ProcessSummary::State::Running;
+    process.state = link::ProcessState::Running;
     process.foreign = true;
     process.whyRealTime =
         "the clock of the match cannot be loaded into it (static or setuid program)";

@@ -200,13 +200,13 @@ class TestStudioWork : public QObject {
     };
     QVERIFY(click(QStringLiteral("Restart decision of B1")));
     QTRY_VERIFY(s.child(1, "decision").restarts == 1);
-    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessSummary::State::Running);
+    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Running);
     QVERIFY(s.child(1, "decision").pid != first.pid);
     QVERIFY(click(QStringLiteral("Stop decision of B1")));
-    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessSummary::State::Stopped);
-    QCOMPARE(s.child(1, "communication").state, link::ProcessSummary::State::Running);
+    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Stopped);
+    QCOMPARE(s.child(1, "communication").state, link::ProcessState::Running);
     QVERIFY(click(QStringLiteral("Start decision of B1")));
-    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessSummary::State::Running);
+    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Running);
     QVERIFY(click(QStringLiteral("Kill decision of B1")));
     QTRY_COMPARE(s.child(1, "decision").restarts, 3);
   }

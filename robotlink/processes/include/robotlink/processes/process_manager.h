@@ -25,6 +25,7 @@
 
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/processes/child_process.h>
+#include <robotlink/processes/process_state.h>
 #include <robotlink/processes/program_clock.h>
 #include <robotlink/processes/runtime_profile.h>
 
@@ -47,16 +48,6 @@ struct ManagedProcess {
   bool ownTime = false;    ///< a foreign program, whose clocks may follow setSpeed()
   /// Called before every start; may change what is started.
   std::function<Result<void>(ChildSpec&)> prepare{};
-};
-
-enum class ProcessState : std::uint8_t {
-  Waiting,     ///< for its first start
-  Running,     ///<
-  Silent,      ///< runs, and shows no sign of life
-  Restarting,  ///< ended; it is started again
-  Ended,       ///< and is not started again
-  Stopped,     ///< by hand
-  GivenUp      ///< ended too often
 };
 
 /// Whose time the clocks of a foreign program tell.
