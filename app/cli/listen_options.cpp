@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <thread>
 
+#include <app/usage.h>
 #include <base/try.h>
 
 namespace pitchboard::cli {
@@ -13,13 +14,7 @@ using namespace telemetry;
 
 std::string profileNames() {
   std::string names;
-  std::size_t line = 0;
-  for (const std::string& name : builtInProfiles()) {
-    const bool wraps = line + name.size() > 60;
-    if (!names.empty()) names += wraps ? ",\n" : ", ";
-    line = wraps ? name.size() : line + name.size() + 2;
-    names += name;
-  }
+  for (const std::string& name : builtInProfiles()) names += (names.empty() ? "" : ", ") + name;
   return names;
 }
 
@@ -36,28 +31,38 @@ Result<std::vector<TeamSetup>> loadTeams(const std::vector<std::string>& files) 
 void addListenOptions(CLI::App& command, ListenOptions& options) {
   command
       .add_option("--bind", options.bind,
-                  "Address to receive at; 0.0.0.0 is every interface, with broadcasts")
+                  "Address to receive at; 0.0.0.0 is every interface, including broadcasts")
+      ->type_name("ADDRESS")
       ->capture_default_str();
   command.add_option("--port-base", options.portBase, "Robot n sends to port base + n")
+      ->type_name("PORT")
       ->capture_default_str();
-  command.add_option("--robots", options.robots, "How many ports after the base")
+  command.add_option("--robots", options.robots, "Number of ports after the base")
+      ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
   command.add_option("--gamecontroller-port", options.refereePort, "Port of the referee's packets")
+      ->type_name("PORT")
       ->capture_default_str();
-  command.add_option(
-      "--profile", options.profile,
-      "What stands in a message: a file (docs/LIVE.md), or one of\n" + profileNames());
+  command
+      .add_option("--profile", options.profile,
+                  "Format of the robots' messages: a file (docs/LIVE.md), or " + profileNames())
+      ->type_name("FILE|NAME");
   command.add_option("--team", options.teams,
                      "Team setup as JSON: ports, senders, profile, colour; may be repeated");
   command
-      .add_option("--gamecontroller-version", options.refereeVersion,
-                  "Only this version of the referee's packets; without it the highest")
+      .add_option(
+          "--gamecontroller-version", options.refereeVersion,
+          "Accept only this version of the referee's packets; default: the highest received")
+      ->type_name("N")
       ->check(CLI::Range(7, 255));
   command.add_option("--from", options.senders,
-                     "Only robots at these addresses or networks; may be repeated");
+                     "Accept only robots at this address or network; may be repeated");
   command.add_option("--referee-from", options.refereeSenders,
-                     "Only a referee at these addresses or networks; may be repeated");
+                     "Accept only a referee at this address or network; may be repeated");
+  shared::addGroup(command, "Network",
+                   {"--bind", "--port-base", "--robots", "--gamecontroller-port",
+                    "--gamecontroller-version", "--from", "--referee-from"});
 }
 
 Result<link::LiveOptions> liveOptions(const ListenOptions& options) {

@@ -24,7 +24,7 @@ struct ListenOptions {
   int refereeVersion = 0;
 };
 
-/// "b-human, barelangfc, ...": the profiles that are part of the program, over several lines.
+/// "b-human, barelangfc, ...": the profiles that are part of the program.
 std::string profileNames();
 /// The first error of any of the files.
 Result<std::vector<telemetry::TeamSetup>> loadTeams(const std::vector<std::string>& files);

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include <app/command_line.h>
+#include <app/usage.h>
 #include <base/try.h>
 #include <robotlink/processes/team_program.h>
 #include <robotlink/scenario/referee_rule_sets.h>
@@ -103,31 +104,33 @@ void addPlayOptions(CLI::App& command, PlayOptions& o) {
   shared::addScenarioOptions(command, o.match);
   command
       .add_option("--speed", o.speed,
-                  "Times real time, or max; default: max for inline cognition, else 1")
+                  "Speed relative to real time, or max; default: max with inline cognition, else 1")
       ->type_name("X|max");
   command
       .add_option("--cognition", o.cognition,
-                  "inline: decision in this program; external: robot processes on System V "
-                  "blackboards; none: blackboards for your own processes")
+                  "Who decides: this program (inline), separate processes on System V blackboards "
+                  "(external), or only processes that you start (none)")
       ->type_name("inline|external|none")
       ->capture_default_str();
   std::string ruleSets;
   for (const link::RuleSetInfo& set : link::refereeRuleSets()) ruleSets += ", " + set.name;
   command
-      .add_option("--referee", o.rules,
-                  "Rules of the match instead of the scenario's: " + ruleSets.substr(2) +
-                      "; published is no referee")
+      .add_option(
+          "--referee", o.rules,
+          "Rules instead of the scenario's: " + ruleSets.substr(2) + " (published: no referee)")
       ->type_name("RULES");
   command
       .add_option("--obey-referee", o.obeyReferee,
-                  "Obey the GameController that is heard on this UDP port")
+                  "Obey the GameController that sends to this UDP port")
       ->type_name("PORT")
       ->check(CLI::Range(1, 65535));
   shared::addRobotsOptions(command, o.robots);
   command
       .add_option("--robot-program", o.robotProgram,
-                  "Program of the external processes; default: pitchboard-robot beside this one")
+                  "Program of separate processes; default: pitchboard-robot beside this program")
       ->type_name("FILE");
+  shared::addGroup(command, "Robot processes", {"--robot-program"});
+  shared::addGroup(command, "Referee", {"--obey-referee"});
 }
 
 Result<link::Cognition> cognitionOf(const PlayOptions& options) {
