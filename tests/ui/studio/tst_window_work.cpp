@@ -128,22 +128,25 @@ class TestWindowWork : public QObject {
     QVERIFY(!s.find<QDockWidget>("log")->toggleViewAction()->isChecked());
   }
 
-  void theListOfShortcutsIsWhole() {
+  void shortcutsAreSearched() {
     Studio s;
     s.menuAction(QStringLiteral("Keyboard shortcuts"))->trigger();
     auto* dialog = s.find<QDialog>("shortcuts");
     QVERIFY(dialog);
+    const auto* table = dialog->findChild<QTableView*>();
     QStringList shown;
-    for (const QLabel* label : dialog->findChildren<QLabel*>()) shown << label->text();
-    int count = 0;
+    for (int row = 0; row < table->model()->rowCount(); ++row) {
+      shown << table->model()->index(row, 0).data().toString();
+    }
     for (const MenuAction& each : menuActions(*s.window.menuBar())) {
       for (const QKeySequence& keys : each.action->shortcuts()) {
-        ++count;
-        const QString text = keys.toString(QKeySequence::NativeText);
-        QVERIFY2(shown.filter(text).size() > 0, qPrintable(each.text + ": " + text));
+        QVERIFY2(!shown.filter(keys.toString()).isEmpty(), qPrintable(each.text));
       }
     }
-    QVERIFY(count > 15);
+    auto* words = dialog->findChild<QLineEdit*>(QStringLiteral("shortcutWords"));
+    QTest::keyClicks(words, QStringLiteral("bookmark"));
+    QCOMPARE(table->model()->rowCount(), 1);
+    QCOMPARE(table->model()->index(0, 0).data().toString(), QStringLiteral("M, Ctrl+B"));
   }
 
   void theFieldAloneAndBack() {
@@ -168,15 +171,13 @@ class TestWindowWork : public QObject {
     QTest::keyClick(canvas, Qt::Key_1);
     QCOMPARE(s.window.findChild<RobotSelection*>()->ids().size(), std::size_t(1));
     QTest::keyClick(canvas, Qt::Key_Escape);
-    QVERIFY(s.window.findChild<RobotSelection*>()->ids().empty());
-    QVERIFY(s.window.isFullScreen());
-    QTest::keyClick(canvas, Qt::Key_Escape);
     QVERIFY(!s.window.isFullScreen());
+    QTest::keyClick(canvas, Qt::Key_Escape);
+    QVERIFY(s.window.findChild<RobotSelection*>()->ids().empty());
     QTest::keyClick(&s.window, Qt::Key_F11);
     QVERIFY(s.window.isFullScreen());
     QTest::keyClick(&s.window, Qt::Key_Escape);
     QVERIFY(!s.window.isFullScreen());
-    QVERIFY(!s.window.actions().contains(s.find<QAction>("play")));
     QTRY_VERIFY(s.find<QDockWidget>("robots")->isVisible());
     QVERIFY(s.window.menuBar()->isVisible() && s.window.statusBar()->isVisible());
   }

@@ -50,6 +50,8 @@
 #include "dock_title.h"
 #include "field_only.h"
 #include "field_signs.h"
+#include "help_windows.h"
+#include "key_map.h"
 #include "menu_actions.h"
 #include "menus.h"
 #include "scenario_chooser.h"
@@ -123,10 +125,12 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
                 m_docks);
   m_undo->addStack(m_plotsDock->undoStack());
   makeMenus();
+  makeKeys();
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     makeOpeningSign(controller, canvas);
     makeLookingBackSign(m_timeline, canvas);
+    makePublishedKeysSign(m_field->actions().publishedKeys, canvas);
   }
   connectNotices();
   connect(m_replay, &ReplayController::opened, this, [this] {
@@ -254,7 +258,8 @@ void MainWindow::showPalette() {
 
 void MainWindow::makeMenus() {
   StudioMenus({parts(), m_undo, m_files, m_sessions, m_bar->scenarios(), m_bar->transportActions(),
-               m_status, m_docks, m_fieldOnly, m_alarms},
+               m_bar->speedSteps(), [this] { showShortcuts(this, *m_keys); }, m_status, m_docks,
+               m_fieldOnly, m_alarms},
               *this)
       .make();
 }

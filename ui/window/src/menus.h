@@ -4,6 +4,7 @@
 // The window's menu bar. Every entry does something. UI thread only.
 
 #include <QList>
+#include <functional>
 #include <vector>
 
 #include "studio_parts.h"
@@ -31,6 +32,8 @@ struct MenuContext {
   SessionFiles* sessions;
   ScenarioChooser* scenarios;  ///< knows the recent ones
   QList<QAction*> transport;   ///< restart, play/pause, step
+  QList<QAction*> speedSteps;  ///< slower, faster
+  std::function<void()> showShortcuts;
   StudioStatusBar* status;
   std::vector<QDockWidget*> docks;
   FieldOnly* fieldOnly;

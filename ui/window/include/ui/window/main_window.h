@@ -7,6 +7,7 @@
 
 #include <QAction>
 #include <QMainWindow>
+#include <memory>
 #include <vector>
 
 #include <ui/base/theme.h>
@@ -26,6 +27,7 @@ class Alarms;
 class ComparedSession;
 class FieldOnly;
 class FieldView;
+class KeyMap;
 class LinkedTime;
 class LiveController;
 class LiveOverlay;
@@ -96,10 +98,13 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
   void showEvent(QShowEvent* event) override;
   void changeEvent(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
 
  private:
   StudioParts parts() const;
   void makeMenus();
+  void makeKeys();
+  void cancelStepByStep();
   void makeDocks();
   void chooseUndo();
   void showTitles();
@@ -135,6 +140,7 @@ class MainWindow : public QMainWindow {
   PlotsDock* m_plotsDock = nullptr;
   FieldOnly* m_fieldOnly;
   Alarms* m_alarms;
+  std::unique_ptr<KeyMap> m_keys;
   QByteArray m_savedLayout;
   QSize m_firstSize;  // when it was not kept from the last time
   bool m_wasShown = false;
