@@ -10,7 +10,6 @@
 #include <QMenuBar>
 #include <QSettings>
 #include <QTimer>
-#include <QUndoGroup>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <limits>
@@ -20,6 +19,7 @@
 #include <ui/base/plot_target.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/time_axis.h>
+#include <ui/base/undo_history.h>
 #include <ui/base/wheel_guard.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/field/field_view.h>
@@ -74,7 +74,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
       m_live(new LiveController(this)),
       m_settings(settings),
       m_source(new SourceSwitch(controller, this)),
-      m_undo(new QUndoGroup(this)),
+      m_undo(new UndoHistory(this)),
       m_selection(new RobotSelection(this)),
       m_time(new LinkedTime(this)),
       m_plots(new PlotTarget(this)),
@@ -89,8 +89,9 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_timeline->watch(controller);
   m_timeline->watch(m_live);
   m_timeline->watch(m_replay);
-  m_undo->addStack(controller->edits()->undoStack());
-  m_undo->setActiveStack(controller->edits()->undoStack());
+  m_undo->add(controller->edits()->undoStack(), [this] {
+    return m_source->kind() == SourceKind::Simulate && !m_timeline->isLookingBack();
+  });
   setWindowTitle(QStringLiteral("Pitchboard"));
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
@@ -123,7 +124,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_plotsDock = findChild<PlotsDock*>();
   new TabCorner(qobject_cast<QDockWidget*>(m_plotsDock->parentWidget()), m_plotsDock->pageTabs(),
                 m_docks);
-  m_undo->addStack(m_plotsDock->undoStack());
+  m_undo->add(m_plotsDock->undoStack(), [] { return true; });
   makeMenus();
   makeKeys();
   connectField();
@@ -144,11 +145,10 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   const auto lock = [this] {
     m_controller->edits()->setLocked(m_source->kind() == SourceKind::Simulate &&
                                      m_timeline->isLookingBack());
-    chooseUndo();
+    m_undo->refresh();
   };
   connect(m_timeline, &Timeline::lookingBackChanged, this, lock);
   connect(m_timeline, &Timeline::sourceChanged, this, lock);
-  connect(qApp, &QApplication::focusChanged, this, &MainWindow::chooseUndo);
   connect(m_bar, &TransportBar::sourceRequested, this, &MainWindow::showSource);
   connect(m_bar->scenarios(), &ScenarioChooser::chosen, m_files, &ScenarioFiles::open);
   connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files, &ScenarioFiles::askAndOpen);
@@ -174,7 +174,7 @@ MainWindow::~MainWindow() {
 // what is seen; then what that shows. Left to themselves, children go by age, the oldest first, and
 // those are the sources that everything else uses. The match itself outlives the window.
 void MainWindow::shutDown() {
-  qApp->disconnect(this);  // focus moves on as widgets go
+  delete m_undo;  // it asks what goes next
   m_recording->end();
   qDeleteAll(findChildren<QDialog*>(Qt::FindDirectChildrenOnly));
   delete m_sessions;
@@ -332,18 +332,6 @@ void MainWindow::showSource(SourceKind kind) {
   if (source == nullptr) return;
   if (kind == SourceKind::Live) m_live->start();
   m_source->choose(source);
-}
-
-// Undo belongs to the plots while somebody works there, else to the match.
-void MainWindow::chooseUndo() {
-  const QWidget* focus = QApplication::focusWidget();
-  if (focus != nullptr &&
-      (m_plotsDock->isAncestorOf(focus) || m_plotsDock->pageTabs()->isAncestorOf(focus))) {
-    m_undo->setActiveStack(m_plotsDock->undoStack());
-    return;
-  }
-  const bool editable = m_source->kind() == SourceKind::Simulate && !m_timeline->isLookingBack();
-  m_undo->setActiveStack(editable ? m_controller->edits()->undoStack() : nullptr);
 }
 
 void MainWindow::makeDocks() {

@@ -9,9 +9,9 @@
 #include <QInputDialog>
 #include <QMenuBar>
 #include <QSettings>
-#include <QUndoGroup>
 
 #include <ui/base/notice_bar.h>
+#include <ui/base/undo_history.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/field/field_view.h>
 #include <ui/live/attach_dialog.h>
@@ -134,10 +134,8 @@ void StudioMenus::makeEdit() {
   MatchController* controller = m_parts.controller;
   RobotSelection* selection = m_parts.selection;
   SourceSwitch* source = m_parts.source;
-  QAction* undo = m_context.undo->createUndoAction(&m_window, QStringLiteral("Undo"));
-  QAction* redo = m_context.undo->createRedoAction(&m_window, QStringLiteral("Redo"));
-  menu->addAction(withIcon(undo, "edit-undo", "undo"));
-  menu->addAction(withIcon(redo, "edit-redo", "redo"));
+  menu->addAction(withIcon(m_context.undo->undoAction(), "edit-undo", "undo"));
+  menu->addAction(withIcon(m_context.undo->redoAction(), "edit-redo", "redo"));
   menu->addSeparator();
   withIcon(menu->addAction(QStringLiteral("Select &all robots"), selection,
                            [source, selection] {

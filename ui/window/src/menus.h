@@ -12,7 +12,6 @@
 class QAction;
 class QDockWidget;
 class QMenu;
-class QUndoGroup;
 
 namespace pitchboard::ui {
 
@@ -23,11 +22,12 @@ class ScenarioChooser;
 class ScenarioFiles;
 class SessionFiles;
 class StudioStatusBar;
+class UndoHistory;
 
 /// What the menus' entries act on; everything outlives them.
 struct MenuContext {
   StudioParts parts;
-  QUndoGroup* undo;
+  UndoHistory* undo;
   ScenarioFiles* files;
   SessionFiles* sessions;
   ScenarioChooser* scenarios;  ///< knows the recent ones

@@ -14,7 +14,6 @@
 #include <ui/sources/frame_source.h>
 
 class QSettings;
-class QUndoGroup;
 
 namespace pitchboard::link {
 struct MatchFrame;
@@ -47,6 +46,7 @@ struct StudioParts;
 class Timeline;
 class TimelineActions;
 class TransportBar;
+class UndoHistory;
 
 class MainWindow : public QMainWindow {
   Q_OBJECT
@@ -106,7 +106,6 @@ class MainWindow : public QMainWindow {
   void makeKeys();
   void cancelStepByStep();
   void makeDocks();
-  void chooseUndo();
   void showTitles();
   void connectField();
   void shutDown();
@@ -120,7 +119,7 @@ class MainWindow : public QMainWindow {
   LiveController* m_live;
   QSettings* m_settings;
   SourceSwitch* m_source;
-  QUndoGroup* m_undo;  // nothing to undo while another source is shown
+  UndoHistory* m_undo;
   RobotSelection* m_selection;
   LinkedTime* m_time;
   PlotTarget* m_plots;
