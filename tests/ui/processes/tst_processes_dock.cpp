@@ -324,7 +324,7 @@ class TestProcessesDock : public QObject {
     open(oneRobot(profile.fileName()));
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
     QVERIFY(m_told.isEmpty());
-    m_controller->setSpeed(8.0);
+    m_controller->answerSpeed(8.0, MatchController::RealTimePrograms::LeaveBehind);
     QTRY_COMPARE_WITH_TIMEOUT(m_told.size(), 1, 30'000);
     QCOMPARE(m_told.front(),
              QStringLiteral(
