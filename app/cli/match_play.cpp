@@ -33,7 +33,7 @@ constexpr std::array<CognitionName, 3> cognitions{{{"inline", link::Cognition::I
                                                    {"external", link::Cognition::Separate},
                                                    {"none", link::Cognition::None}}};
 
-/// Says which processes ended before the match did.
+/// Prints what processes write, and what happens to them.
 class ProcessNews : public link::TickObserver {
  public:
   void ticked(const link::SimulatedMatch& /*match*/, std::chrono::nanoseconds /*time*/) override {}
@@ -47,6 +47,10 @@ class ProcessNews : public link::TickObserver {
       std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
                    link::sentenceOf(event).c_str());
     }
+  }
+  void logged(const LogLine& line) override {
+    if (line.level < LogLevel::Info) return;
+    std::fprintf(stderr, "%s: %s\n", line.origin.c_str(), line.text.c_str());
   }
 };
 
@@ -68,6 +72,7 @@ class Playing {
       const auto now = Clock::now();
       if (next > now) std::this_thread::sleep_until(std::min(next, now + pollInterval));
     }
+    m_player.lookAfterProcesses(Clock::now());  // their last lines
     Outcome outcome;
     outcome.ticks = m_player.currentTick() - first;
     outcome.simulatedSeconds =
@@ -83,14 +88,8 @@ class Playing {
     const auto now = Clock::now();
     if (now - m_lastPoll >= pollInterval) {
       m_lastPoll = now;
-      pollProcesses();
+      m_player.lookAfterProcesses(now);
     }
-  }
-
-  void pollProcesses() {
-    m_match.pace().lookAfterProcesses(Clock::now());
-    (void)m_match.robots().processes().takeLines();
-    m_player.tellEvents();
   }
 
   link::MatchPlayer& m_player;
@@ -106,6 +105,8 @@ void addPlayOptions(CLI::App& command, PlayOptions& o) {
       .add_option("--speed", o.speed,
                   "Speed relative to real time, or max; default: max with inline cognition, else 1")
       ->type_name("X|max");
+  command.add_flag("--keep-speed", o.keepSpeed,
+                   "Do not slow down to team programs that cannot keep up");
   command
       .add_option("--cognition", o.cognition,
                   "Who decides: this program (inline), separate processes on System V blackboards "
@@ -129,7 +130,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& o) {
       .add_option("--robot-program", o.robotProgram,
                   "Program of separate processes; default: pitchboard-robot beside this program")
       ->type_name("FILE");
-  shared::addGroup(command, "Robot processes", {"--robot-program"});
+  shared::addGroup(command, "Robot processes", {"--robot-program", "--keep-speed"});
   shared::addGroup(command, "Referee", {"--obey-referee"});
 }
 
@@ -181,6 +182,7 @@ Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario, const P
   shared::warnOfIgnoredSettings(scenario);
   link::MatchOptions made;
   made.speed = speed;
+  made.waitForTeamPrograms = !options.keepSpeed;
   made.cognition = cognition;
   shared::apply(options.robots, made);
   made.robotProgram = options.robotProgram.empty() ? link::besideTeamProgram("pitchboard-robot")

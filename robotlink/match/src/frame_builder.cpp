@@ -109,7 +109,7 @@ void FrameBuilder::takeProcesses(const ProcessManager& processes) {
     byRobot[one.robot].push_back({one.id, one.name, one.state, one.pid, one.restarts, one.detail,
                                   one.lastLines, one.started, one.cpu, one.memoryBytes,
                                   one.heartbeatAge, one.foreign, one.speed, one.achieved,
-                                  whyRealTime(one.clock)});
+                                  whyRealTime(one.clock), one.missedCycles});
   }
   m_processes.clear();
   for (auto& [robot, list] : byRobot) {

@@ -41,6 +41,10 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
       const QString why = QString::fromStdString(one.whyRealTime);
       if (!why.isEmpty()) {
         card.tagTip = QStringLiteral("%1 %2 keeps real time: %3").arg(card.name, name, why);
+      } else {
+        card.tagTip =
+            QStringLiteral("%1 %2 cannot keep up with ×%3 and has missed %4 cycles")
+                .arg(card.name, name, numberText(one.speed, 1), countText(one.missedCycles));
       }
     }
   }

@@ -38,6 +38,7 @@ struct ProcessSummary {
   double speed = 0.0;                    ///< times real time, that it is to keep; 0: ours
   double achieved = 0.0;                 ///< what it manages of that; 0: not known yet
   std::string whyRealTime;               ///< why its clocks do not follow the match; empty: they do
+  std::uint64_t missedCycles = 0;        ///< of a team's program that could not keep up
   bool operator==(const ProcessSummary&) const = default;
 };
 

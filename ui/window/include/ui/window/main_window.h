@@ -114,6 +114,7 @@ class MainWindow : public QMainWindow {
   void saveLayout();
   void fitScreen();
   void tellFinished(const link::MatchFrame& frame);
+  void askForSpeed(const QStringList& programs, double wanted);
 
   MatchController* m_controller;
   LiveController* m_live;
