@@ -58,6 +58,9 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_flag("--overlay", a.overlay, "Show simulated and heard robots side by side");
   app.add_option("--bind", a.bind, "Live: address to receive at")->type_name("ADDRESS");
   app.add_option("--port-base", a.portBase, "Live: robot n sends to port base + n")->type_name("P");
+  app.add_option("--variables-port-base", a.variablesPortBase,
+                 "Live: robot n sends variables to this port base + n; 0: off")
+      ->type_name("P");
   app.add_option("--robots", a.robots, "Live: how many ports after the base")
       ->type_name("N")
       ->check(CLI::Range(1, 64));
@@ -214,6 +217,7 @@ Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOp
     saved.bind = *address;
   }
   saved.portBase = arguments.portBase.value_or(saved.portBase);
+  saved.variablesPortBase = arguments.variablesPortBase.value_or(saved.variablesPortBase);
   saved.robots = arguments.robots.value_or(saved.robots);
   saved.refereePort = arguments.refereePort.value_or(saved.refereePort);
   saved.ourTeam = arguments.ourTeam.value_or(saved.ourTeam);
