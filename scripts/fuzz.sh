@@ -69,6 +69,10 @@ printf '1 450 300 90 12 83 -4 1 1 1 1 1 8 1.57 148 OUT\nPBD1 1\nlayer b belief 2
   > "$seeds/drawings/message.txt"
 printf 'PB2 3 7 4500300 @REFRESH=2000 @WAITING=0 @BLACKBOARD=1 DECISION_ACTION_A=1 IMU_EULER_Z=-1.5707964 VOLTAGE=189 OUT' \
   > "$seeds/pb2/message.txt"
+{
+  printf '\003\062PB2 4 0 1000 @REFRESH=2000 @WAITING=0 @BLACKBOARD=1 LOCALIZATION_X=450 LOCALIZATION_Y=300 OUT\n'
+  printf '\003\375PB2 4 1 9000 VISION_BALL_DIST=80.5 OUR_GAIT=3 OUT\n\003\062PB2 4 0 8900 VOLTAGE=189 OUT\n'
+} > "$seeds/variables/conversation.txt"
 grep '^→ ' docs/LEARNING.md | sed 's/^→ //; s/"scenario": "one-robot", //; s/"ticks": [0-9]*/"ticks": 2/' \
   > "$seeds/lines/conversation.txt"
 number=0

@@ -109,10 +109,14 @@ class Decoder : public link::LiveObserver {
   /// `head`: what stands before it; without a time it comes a second after the one before.
   void take(Json head, std::string_view payload, bool ofReferee, std::optional<double> time = {},
             telemetry::Sender sender = {}) {
+    const bool isVariables = !ofReferee && payload.starts_with("PB2 ");
     constexpr double mostSeconds = 9e9;
     m_head = std::move(head);
     m_time = std::clamp(time.value_or(m_time + 1.0), -mostSeconds, mostSeconds);
-    const auto port = ofReferee ? m_pipeline.options().refereePort : 0;
+    const link::LiveOptions& options = m_pipeline.options();
+    const int port = ofReferee     ? options.refereePort
+                     : isVariables ? options.variablesPortBase + 1
+                                   : 0;
     const auto after = std::chrono::duration<double>(m_time);
     m_pipeline.take({WallTime(std::chrono::duration_cast<Duration>(after)), sender,
                      static_cast<std::uint16_t>(port), false, payload});
@@ -201,7 +205,8 @@ void addDecodeCommand(CLI::App& parent, int& exitCode) {
   auto text = std::make_shared<DecodeOptions>();
   CLI::App* telemetry = decode->add_subcommand(
       "telemetry",
-      "Datagrams of robots. Text: one per line; a line may begin with time, tab, sender, tab.\n"
+      "Datagrams of robots: messages, and variables (PB2).\n"
+      "Text: one per line; a line may begin with time, tab, sender, tab.\n"
       "Binary: one per file, or lines of JSON with the bytes under \"hex\".\n"
       "Example: pitchboard-cli decode telemetry --profile mitecom message.bin");
   telemetry->add_option("FILE", text->files, "Files; - is standard input")->required();

@@ -41,6 +41,15 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
+  command
+      .add_option("--variables-port-base", options.variablesPortBase,
+                  "Robot n sends its variables (pitchboard-agent) to this port base + n; 0: off")
+      ->type_name("PORT")
+      ->capture_default_str();
+  command
+      .add_option("--catalog", options.catalogs,
+                  "Map of variables that robots send, besides the published one; may be repeated")
+      ->type_name("FILE");
   command.add_option("--gamecontroller-port", options.refereePort, "Port of the referee's packets")
       ->type_name("PORT")
       ->capture_default_str();
@@ -60,9 +69,10 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
                      "Accept only robots at this address or network; may be repeated");
   command.add_option("--referee-from", options.refereeSenders,
                      "Accept only a referee at this address or network; may be repeated");
-  shared::addGroup(command, "Network",
-                   {"--bind", "--port-base", "--robots", "--gamecontroller-port",
-                    "--gamecontroller-version", "--from", "--referee-from"});
+  shared::addGroup(
+      command, "Network",
+      {"--bind", "--port-base", "--robots", "--variables-port-base", "--catalog",
+       "--gamecontroller-port", "--gamecontroller-version", "--from", "--referee-from"});
 }
 
 Result<link::LiveOptions> liveOptions(const ListenOptions& options) {
@@ -71,6 +81,8 @@ Result<link::LiveOptions> liveOptions(const ListenOptions& options) {
   live.portBase = options.portBase;
   live.robots = options.robots;
   live.refereePort = options.refereePort;
+  live.variablesPortBase = options.variablesPortBase;
+  live.catalogs = options.catalogs;
   live.refereeVersion = options.refereeVersion;
   live.team.teams = TRY(loadTeams(options.teams));
   if (!options.profile.empty()) live.profile = TRY(loadProfile(options.profile));
@@ -94,8 +106,13 @@ Result<link::LiveDetails> whenListening(const link::LiveWatch& watch) {
 void sayListening(const link::LiveOptions& options, const ReceiverStatus& network) {
   const std::string address = options.bind.text();
   if (options.team.teams.empty()) {
-    std::fprintf(stderr, "listening at %s on UDP ports %d to %d and %d\n", address.c_str(),
-                 options.portBase + 1, options.portBase + options.robots, options.refereePort);
+    const int variables = options.variablesPortBase;
+    std::fprintf(stderr, "listening at %s on UDP ports %d to %d and %d%s\n", address.c_str(),
+                 options.portBase + 1, options.portBase + options.robots, options.refereePort,
+                 variables == 0 ? ""
+                                : ("; variables on " + std::to_string(variables + 1) + " to " +
+                                   std::to_string(variables + options.robots))
+                                      .c_str());
     return;
   }
   std::string text;
@@ -125,6 +142,7 @@ std::string refusedText(const link::LiveDetails& details) {
     out += (out.empty() ? "; refused: " : ", ") + std::to_string(count) + what;
   };
   add(details.team.refusedByFilter, " of senders that --from does not name");
+  add(details.refusedVariables, " with variables of senders that --from does not name");
   add(details.refusedReferees, " of referees that --referee-from does not name");
   add(details.team.refusedRobots, " of more robots than are kept");
   add(details.rows.rows, " rows beyond the limits");

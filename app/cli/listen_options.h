@@ -18,6 +18,8 @@ struct ListenOptions {
   int portBase = 1240;
   int robots = 16;
   int refereePort = 3838;
+  int variablesPortBase = telemetry::pb2PortBase;
+  std::vector<std::string> catalogs;
   std::string profile;
   std::vector<std::string> teams;
   std::vector<std::string> senders, refereeSenders;

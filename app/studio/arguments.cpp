@@ -59,6 +59,9 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_flag("--overlay", a.overlay, "Show live robots over simulated ones");
   app.add_option("--bind", a.bind, "Live: address to receive at")->type_name("ADDRESS");
   app.add_option("--port-base", a.portBase, "Live: robot n sends to port base + n")->type_name("P");
+  app.add_option("--variables-port-base", a.variablesPortBase,
+                 "Live: robot n sends variables to this port base + n; 0: off")
+      ->type_name("P");
   app.add_option("--robots", a.robots, "Live: how many ports after the base")
       ->type_name("N")
       ->check(CLI::Range(1, 64));
@@ -106,8 +109,8 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->delimiter(',')
       ->needs(paint);
   shared::addGroup(app, "Live",
-                   {"--bind", "--port-base", "--robots", "--gamecontroller-port", "--our-team",
-                    "--profile", "--team", "--attach"});
+                   {"--bind", "--port-base", "--variables-port-base", "--robots",
+                    "--gamecontroller-port", "--our-team", "--profile", "--team", "--attach"});
   shared::addGroup(app, "Pictures and videos",
                    {"--screenshot-to", "--after", "--play-to", "--size", "--render-scenario",
                     "--paint", "--picture", "--from", "--until", "--rate", "--only"});
@@ -222,6 +225,7 @@ Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOp
     saved.bind = *address;
   }
   saved.portBase = arguments.portBase.value_or(saved.portBase);
+  saved.variablesPortBase = arguments.variablesPortBase.value_or(saved.variablesPortBase);
   saved.robots = arguments.robots.value_or(saved.robots);
   saved.refereePort = arguments.refereePort.value_or(saved.refereePort);
   saved.ourTeam = arguments.ourTeam.value_or(saved.ourTeam);

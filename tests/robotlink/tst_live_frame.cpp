@@ -255,7 +255,7 @@ class TestLiveFrame : public QObject {
     }
     telemetry::SeriesStore store;
     store.append(store.addGroup(group), {1.0, {}, row});
-    const std::vector<RobotFrame> read = RecordedFrames().attachedAt(store, 1.0);
+    const std::vector<RobotFrame> read = RecordedFrames().boardsAt(store, 1.0);
     QCOMPARE(read.size(), std::size_t{1});
     QVERIFY(read[0].belief == said.belief && read[0].pose == said.pose);
     QVERIFY(read[0].sigma == said.sigma && read[0].ball == said.ball && said.ball);
@@ -270,7 +270,7 @@ class TestLiveFrame : public QObject {
       const auto at = std::distance(variables.begin(), variables.find(name));
       changed[static_cast<std::size_t>(at)] = 1.0 - changed[static_cast<std::size_t>(at)];
       other.append(other.addGroup(group), {1.0, {}, changed});
-      QVERIFY(!RecordedFrames().attachedAt(other, 1.0).at(0).ball);
+      QVERIFY(!RecordedFrames().boardsAt(other, 1.0).at(0).ball);
     }
   }
 

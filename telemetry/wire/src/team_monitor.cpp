@@ -353,6 +353,10 @@ std::optional<int> TeamMonitor::placeOf(const DatagramView& datagram,
   return m_router->placeOf(datagram, team);
 }
 
+std::optional<int> TeamMonitor::placeOf(Address sender) const {
+  return m_options.senders.allows(sender) ? m_router->placeOf(sender) : std::nullopt;
+}
+
 void TeamMonitor::arrive(Robot& robot, WallTime time) {
   if (robot.messages > 0 && since(time, robot.last) >= m_options.timeout) {
     ++robot.recoveries;

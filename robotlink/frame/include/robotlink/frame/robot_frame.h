@@ -50,6 +50,12 @@ struct SeenBall {
   bool operator==(const SeenBall&) const = default;
 };
 
+/// What stands on a received blackboard.
+struct BoardContents {
+  std::shared_ptr<const std::vector<std::string>> names;  ///< null: none is received
+  std::vector<double> values;  ///< of each name; exact for every int32 and float32
+};
+
 /// What is known of a robot besides where it truly is (buildRobot()).
 struct RobotView {
   /// Where it believes to stand. Of a robot whose true pose is known: while its localization works.
@@ -64,6 +70,7 @@ struct RobotView {
   std::optional<Penalty> penalty;             ///< as its referee says
   std::vector<ReceivedValue> values;          ///< of its message: all, in their order
   std::optional<int> boardKey;                ///< of its blackboard: System V key, 0: heap
+  BoardContents board;                        ///< of one that is attached, or sent by its robot
   std::string behaviour;
   std::string ownName;    ///< what its team calls it (team setups)
   std::string runtime;    ///< who runs, as it was chosen for it; empty: nothing was
