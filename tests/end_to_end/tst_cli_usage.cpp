@@ -3,7 +3,7 @@
 #include <QProcess>
 #include <QRegularExpression>
 
-#include "program_run.h"
+#include "../support/program_run.h"
 
 namespace tst_cli_usage {
 
