@@ -285,6 +285,7 @@ void addExperimentCommand(CLI::App& parent, int& exitCode) {
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   command->add_option("--seed", o.seed, "Of the first run; default: the experiment's")
+      ->check(CLI::NonNegativeNumber)
       ->type_name("N");
   command->add_option("--runs", o.runs, "Of each condition; default: the experiment's")
       ->type_name("N")

@@ -103,7 +103,8 @@ void addPlayOptions(CLI::App& command, PlayOptions& o) {
   shared::addScenarioOptions(command, o.match);
   command
       .add_option("--speed", o.speed,
-                  "Speed relative to real time, or max; default: max with inline cognition, else 1")
+                  "Speed relative to real time, or max; default: max with inline cognition, 1 with "
+                  "separate processes or --obey-referee")
       ->type_name("X|max");
   command.add_flag("--keep-speed", o.keepSpeed,
                    "Do not slow down to team programs that cannot keep up");
@@ -125,13 +126,20 @@ void addPlayOptions(CLI::App& command, PlayOptions& o) {
                   "Obey the GameController that sends to this UDP port")
       ->type_name("PORT")
       ->check(CLI::Range(1, 65535));
+  command
+      .add_option("--answer-referee", o.answerReferee,
+                  "Robots answer that GameController (RGrt), on this UDP port of its computer; 0: "
+                  "that of its version, 3838 or 3939")
+      ->type_name("PORT")
+      ->check(CLI::Range(0, 65535))
+      ->needs("--obey-referee");
   shared::addRobotsOptions(command, o.robots);
   command
       .add_option("--robot-program", o.robotProgram,
                   "Program of separate processes; default: pitchboard-robot beside this program")
       ->type_name("FILE");
   shared::addGroup(command, "Robot processes", {"--robot-program", "--keep-speed"});
-  shared::addGroup(command, "Referee", {"--obey-referee"});
+  shared::addGroup(command, "Referee", {"--obey-referee", "--answer-referee"});
 }
 
 Result<link::Cognition> cognitionOf(const PlayOptions& options) {
@@ -144,7 +152,10 @@ Result<link::Cognition> cognitionOf(const PlayOptions& options) {
 
 Result<double> speedOf(const PlayOptions& options, link::Cognition cognition) {
   const std::string& text = options.speed;
-  if (text.empty()) return cognition == link::Cognition::Inline ? 0.0 : 1.0;
+  if (text.empty()) {
+    const bool ownPace = cognition == link::Cognition::Inline && !options.obeyReferee;
+    return ownPace ? 0.0 : 1.0;
+  }
   if (text == "max") return 0.0;
   const std::optional<double> speed = shared::numberFrom(text);
   if (!speed || !(*speed >= 0.001 && *speed <= 1e6)) {
@@ -188,6 +199,7 @@ Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario, const P
   made.robotProgram = options.robotProgram.empty() ? link::besideTeamProgram("pitchboard-robot")
                                                    : options.robotProgram;
   made.obeyReferee = options.obeyReferee;
+  made.answerReferee = options.answerReferee;
   auto match = link::SimulatedMatch::create(scenario, made);
   if (!match) return match;
   if (const std::string notice = shared::numberNotice(*match); !notice.empty()) {

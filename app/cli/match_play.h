@@ -30,6 +30,7 @@ struct PlayOptions {
   std::string rules;         ///< of the referee; empty: the scenario's
   std::string robotProgram;  ///< empty: pitchboard-robot beside this program
   std::optional<int> obeyReferee;
+  std::optional<int> answerReferee;
 };
 
 /// Everything above but --duration, which every command words in its own way.

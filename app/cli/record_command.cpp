@@ -174,7 +174,7 @@ void addRecordCommand(CLI::App& parent, int& exitCode) {
       command->add_flag("--live", o.live, "Record what robots and the referee send");
   for (const char* ofAMatch :
        {"--scenario", "--seed", "--noise", "--physics", "--robot-model", "--speed", "--cognition",
-        "--referee", "--obey-referee", "--match", "--key-base", "--runtime"}) {
+        "--referee", "--obey-referee", "--answer-referee", "--match", "--key-base", "--runtime"}) {
     live->excludes(command->get_option(ofAMatch));
   }
   addListenOptions(*command, o.network);

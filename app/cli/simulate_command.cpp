@@ -245,8 +245,9 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
   for (const char* other : {"--scenario", "--seed", "--noise", "--physics"}) {
     from->excludes(command->get_option(other));
   }
-  for (const char* other : {"--from", "--trace", "--save-moment", "--json", "--speed",
-                            "--cognition", "--obey-referee", "--match", "--runtime"}) {
+  for (const char* other :
+       {"--from", "--trace", "--save-moment", "--json", "--speed", "--cognition", "--obey-referee",
+        "--answer-referee", "--match", "--runtime"}) {
     stdio->excludes(command->get_option(other));
   }
   addGroup(*command, "Continue a recording", {"--from", "--at", "--clock"});

@@ -42,6 +42,7 @@ void addScenarioOptions(CLI::App& command, ScenarioOptions& options) {
       ->type_name("NAME|FILE")
       ->capture_default_str();
   command.add_option("--seed", options.seed, "Seed of the noise; default: the scenario's")
+      ->check(CLI::NonNegativeNumber)
       ->type_name("N");
   command
       .add_option("--noise", options.noise,

@@ -14,6 +14,7 @@
 
 #include "../support/program_run.h"
 #include "../support/segment_keys.h"
+#include "../support/test_socket.h"
 
 namespace tst_cli_simulate {
 
@@ -133,6 +134,47 @@ class TestCliSimulate : public QObject {
     run = record({"--cognition", "external", "--speed", "max", "--key-base",
                   QString::number(testKeyBase() + 60)});
     QVERIFY2(run.exitCode == 0 && run.out.contains(": 2.000 s,"), run.err + run.out);
+  }
+
+  // With its clock, score, set play and penalties: PLAYING at 07:31 goes on in PLAYING at 07:31.
+  void savedMomentOfAMatchGoesOn() {
+    QTemporaryDir dir;
+    const QString path = dir.filePath("moment.json");
+    const QString session = dir.filePath("match.mcap");
+    QVERIFY(simulate({"--duration", "149", "--save-moment", path}).exitCode == 0);
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QJsonObject saved = QJsonDocument::fromJson(file.readAll()).object();
+    const QJsonObject game = saved["game"].toObject();
+    QCOMPARE(game["state"].toString(), QString("playing"));
+    const double clock = game["clock"].toDouble();
+    QVERIFY(clock > 400 && clock < 590);
+    QVERIFY(!saved.contains("score") && !saved.contains("clock"));
+    const QString second = dir.filePath("second.json");
+    QCOMPARE(simulate({"--scenario", path, "--duration", "1", "--save-moment", second}).exitCode,
+             0);
+    QFile then(second);
+    QVERIFY(then.open(QIODevice::ReadOnly));
+    const QJsonObject later = QJsonDocument::fromJson(then.readAll()).object()["game"].toObject();
+    QCOMPARE(later["state"].toString(), QString("playing"));
+    QVERIFY(std::abs(clock - 1 - later["clock"].toDouble()) < 1e-3);
+    QCOMPARE(later["score"], game["score"]);
+  }
+
+  // A GameController counts real seconds.
+  void obeyingKeepsRealTime() {
+    const TestSocket free;
+    const QStringList obey{"--obey-referee", QString::number(free.port()), "--json"};
+    const auto speed = [](const Run& run) {
+      return QJsonDocument::fromJson(run.out).object()["speed"].toDouble();
+    };
+    const Run paced = simulate(obey + QStringList{"--duration", "2"});
+    QVERIFY2(paced.exitCode == 0, paced.err.constData());
+    QVERIFY2(speed(paced) < 1.5, paced.out.constData());
+    QVERIFY(speed(simulate(obey + QStringList{"--duration", "20", "--speed", "max"})) > 1.5);
+    const Run alone = simulate({"--answer-referee", "0", "--duration", "1"});
+    QVERIFY(alone.exitCode != 0 && alone.err.contains("--obey-referee"));
+    QVERIFY(simulate({"--seed", "-1", "--duration", "1"}).exitCode != 0);
   }
 
   void savedMomentGoesOn() {

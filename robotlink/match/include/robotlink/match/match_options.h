@@ -47,6 +47,9 @@ struct MatchOptions {
   bool sendReferee = false;
   /// Instead of its own referee, the match obeys a GameController that is heard on this port.
   std::optional<int> obeyReferee;
+  /// Robots answer that GameController (RGrt), so that its screen shows them online: to this port
+  /// of its computer, or 0 for the port of the packets' version. Nothing: they stay silent.
+  std::optional<int> answerReferee{};
 };
 
 }  // namespace pitchboard::link
