@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <base/try.h>
+#include <robotlink/live/live_teams.h>
 
 namespace pitchboard::cli {
 
@@ -51,6 +52,11 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
   command.add_option("--team", options.teams,
                      "Team setup as JSON: ports, senders, profile, colour; may be repeated");
   command
+      .add_option("--our-team", options.ourTeam,
+                  "Our team: the referee's number or the colour, such as blue or red.\n"
+                  "Gives its robots their colour, penalties and the first place")
+      ->type_name("N|COLOUR");
+  command
       .add_option("--gamecontroller-version", options.refereeVersion,
                   "Only this version of the referee's packets; without it the highest")
       ->check(CLI::Range(7, 255));
@@ -68,6 +74,7 @@ Result<link::LiveOptions> liveOptions(const ListenOptions& options) {
   live.refereePort = options.refereePort;
   live.refereeVersion = options.refereeVersion;
   live.team.teams = TRY(loadTeams(options.teams));
+  if (!options.ourTeam.empty()) TRY(link::chooseOurTeam(live, options.ourTeam));
   if (!options.profile.empty()) live.profile = TRY(loadProfile(options.profile));
   for (const std::string& sender : options.senders) TRY(live.team.senders.add(sender));
   for (const std::string& sender : options.refereeSenders) TRY(live.refereeSenders.add(sender));

@@ -156,6 +156,7 @@ MatchFrame LivePipeline::frame(WallTime now, AttachedRobots* boards) {
   frame.serial = ++m_serial;
   if (boards != nullptr) {
     boards->addTo(frame);
+    frame.sortRobots();
     frame.teamBalls = agreedBalls(frame.robots);
     boards->takeRows([this](const GroupInfo& group, std::span<const BoardRow> rows) {
       if (!m_fan->isEmpty()) m_boardRows.take(group, rows);
@@ -183,6 +184,9 @@ LiveDetails LivePipeline::details(WallTime now) const {
   LiveDetails details;
   details.team = m_state.monitor.status(now);
   details.teams = m_teams;
+  std::ranges::stable_sort(details.team.robots, {}, [this](const telemetry::RobotStatus& robot) {
+    return orderOf(robot.key, m_teams);
+  });
   details.referee = m_state.referee.counts();
   details.unknownReferee = m_unknownReferee;
   details.unknownRefereeReason = m_unknownReason;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <base/actions.h>
+#include <telemetry/series/group_order.h>
 
 namespace pitchboard::telemetry {
 namespace {
@@ -54,8 +55,9 @@ std::string groupNameOf(const LiveRowsOptions& options, RobotKey robot) {
   return robotName(robot, options.teams);
 }
 
-GroupInfo linkGroup(const std::string& robot) {
+GroupInfo linkGroup(const std::string& robot, const RobotOrder& order) {
   GroupInfo info{robot + " link", {}, {{"link", robot}}};
+  setOrder(info, order);
   for (const HealthColumn& column : healthColumns) {
     info.columns.push_back({column.name,
                             ColumnType::Float64,
@@ -138,7 +140,8 @@ void LiveRows::setOptions(LiveRowsOptions options, const std::vector<Renaming>& 
 /// Its groups get this name, and the attributes that it has now.
 void LiveRows::renew(Robot& robot, std::string name) {
   const std::string before = std::exchange(robot.name, std::move(name));
-  robot.link = m_sink->renameGroup(linkGroup(before).name, linkGroup(robot.name));
+  const GroupInfo link = linkGroup(robot.name, orderOf(robot.key, m_options.teams));
+  robot.link = m_sink->renameGroup(linkGroup(before, {}).name, link);
   if (!robot.columns.empty()) robot.group = m_sink->renameGroup(before, groupOf(robot));
   // A group that was there already does not go back.
   robot.lastTime = std::max(robot.lastTime, m_newest);
@@ -160,7 +163,7 @@ LiveRows::Robot* LiveRows::robotOf(const RobotKey& key, const Sender& sender) {
   robot.key = key;
   robot.sender = sender;
   robot.name = groupNameOf(m_options, key);
-  robot.link = m_sink->addGroup(linkGroup(robot.name));
+  robot.link = m_sink->addGroup(linkGroup(robot.name, orderOf(key, m_options.teams)));
   m_robots.push_back(std::move(robot));
   return &m_robots.back();
 }
@@ -203,6 +206,7 @@ GroupInfo LiveRows::groupOf(const Robot& robot) const {
   if (const auto colour = link::colourAt(robot.key.team, m_options.teams)) {
     group.attributes["team"] = info(*colour).name;
   }
+  setOrder(group, orderOf(robot.key, m_options.teams));
   if (m_options.attributes) group.attributes.merge(m_options.attributes(robot.key));
   return group;
 }

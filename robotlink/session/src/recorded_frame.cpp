@@ -195,6 +195,9 @@ void RecordedFrames::addRobot(std::size_t group, double time, LampMemory& lamps,
       attribute(info, "imu180") == "1"};
   const RobotKey key =
       frame.freeKey(l.attached ? RobotKey{0, l.robot.value, attachedSender} : keyOf(identity));
+  if (const auto team = attribute(info, "team_name"); !team.empty() && !l.attached) {
+    frame.teams[static_cast<std::size_t>(key.team)].name = team;
+  }
   RobotFrame& robot = frame.robots.emplace_back();
   robot.identity = identity;
   robot.key = key;
