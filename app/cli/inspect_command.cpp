@@ -7,6 +7,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include <telemetry/series/group_order.h>
+
 #include "commands.h"
 #include "interrupt.h"
 #include "live_json.h"
@@ -53,7 +55,8 @@ Json toJson(const SessionReader& session, const InspectOptions& options) {
     out["until"] = range->end;
   }
   out["groups"] = Json::array();
-  for (const SessionGroup& group : session.groups()) {
+  for (const std::size_t g : listedOrder(session.groups(), &SessionGroup::info)) {
+    const SessionGroup& group = session.groups()[g];
     Json columns = Json::array();
     for (const ColumnInfo& column : group.info.columns) columns.push_back(column.name);
     out["groups"].push_back({{"name", group.info.name},
@@ -97,7 +100,8 @@ void printText(const SessionReader& session, const InspectOptions& options) {
   if (const auto range = session.range()) {
     std::printf("%.3f s to %.3f s\n", range->begin, range->end);
   }
-  for (const SessionGroup& group : session.groups()) {
+  for (const std::size_t g : listedOrder(session.groups(), &SessionGroup::info)) {
+    const SessionGroup& group = session.groups()[g];
     std::printf("  %-8s %10llu rows of %zu columns\n", group.info.name.c_str(),
                 static_cast<unsigned long long>(group.rows), group.info.columns.size());
   }

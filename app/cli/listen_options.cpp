@@ -7,6 +7,7 @@
 
 #include <app/usage.h>
 #include <base/try.h>
+#include <robotlink/live/live_teams.h>
 
 namespace pitchboard::cli {
 
@@ -60,6 +61,11 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
   command.add_option("--team", options.teams,
                      "Team setup as JSON: ports, senders, profile, colour; may be repeated");
   command
+      .add_option("--our-team", options.ourTeam,
+                  "Our team: the referee's number or the colour, such as blue or red. Gives its "
+                  "robots their colour, penalties and the first place")
+      ->type_name("N|COLOUR");
+  command
       .add_option(
           "--gamecontroller-version", options.refereeVersion,
           "Accept only this version of the referee's packets; default: the highest received")
@@ -85,6 +91,7 @@ Result<link::LiveOptions> liveOptions(const ListenOptions& options) {
   live.catalogs = options.catalogs;
   live.refereeVersion = options.refereeVersion;
   live.team.teams = TRY(loadTeams(options.teams));
+  if (!options.ourTeam.empty()) TRY(link::chooseOurTeam(live, options.ourTeam));
   if (!options.profile.empty()) live.profile = TRY(loadProfile(options.profile));
   for (const std::string& sender : options.senders) TRY(live.team.senders.add(sender));
   for (const std::string& sender : options.refereeSenders) TRY(live.refereeSenders.add(sender));

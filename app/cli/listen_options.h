@@ -24,6 +24,7 @@ struct ListenOptions {
   std::vector<std::string> teams;
   std::vector<std::string> senders, refereeSenders;
   int refereeVersion = 0;
+  std::string ourTeam;
 };
 
 /// "b-human, barelangfc, ...": the profiles that are part of the program.

@@ -61,6 +61,7 @@ const char* reasonText(const std::string& finishedBy) {
 }
 
 std::string titleOf(const TeamOutcome& team, bool withSide) {
+  if (!team.name.empty()) return team.name;
   std::string out(info(team.colour).name);
   out.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(out.front())));
   return withSide ? out + " (" + std::string(link::sideName(team.side)) + ')' : out;
@@ -71,18 +72,25 @@ std::string titleOf(const TeamOutcome& team, bool withSide) {
 std::array<TeamOutcome, 2> teamOutcomes(const link::SimulatedMatch& match) {
   using link::Side;
   const sim::WorldState& world = match.simulation().state();
+  link::Teams teams;
+  link::fillTeams(world.settings.teams, teams);
+  const auto nameOf = [&](TeamColor colour) {
+    return teams[static_cast<std::size_t>(colour) + 1].name;
+  };
   if (world.game) {
     std::array<TeamOutcome, 2> out;
     for (std::size_t i = 0; i < out.size(); ++i) {
       const sim::GameTeam& team = world.game->teams[i];
       out[i] = {team.colour, i == world.game->leftTeam() ? Side::Left : Side::Right, team.number,
-                team.score};
+                team.score, nameOf(team.colour)};
     }
     return out;
   }
-  const TeamOutcome left{link::teamOn(Side::Left, world.robots), Side::Left, {}, world.score.left};
-  const TeamOutcome right{
-      link::teamOn(Side::Right, world.robots), Side::Right, {}, world.score.right};
+  TeamOutcome left{link::teamOn(Side::Left, world.robots), Side::Left, {}, world.score.left, {}};
+  TeamOutcome right{
+      link::teamOn(Side::Right, world.robots), Side::Right, {}, world.score.right, {}};
+  left.name = nameOf(left.colour);
+  right.name = nameOf(right.colour);
   if (right.colour < left.colour) return {right, left};
   return {left, right};
 }
@@ -150,6 +158,7 @@ void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
   for (const TeamOutcome& team : teamOutcomes(match)) {
     Json one{{"side", link::sideName(team.side)}, {"colour", info(team.colour).name}};
     if (team.number) one["number"] = *team.number;
+    if (!team.name.empty()) one["name"] = team.name;
     one["score"] = team.score;
     teams.push_back(std::move(one));
   }

@@ -10,6 +10,7 @@
 
 #include <app/command_line.h>
 #include <app/usage.h>
+#include <robotlink/live/live_teams.h>
 #include <robotlink/match/match_runner.h>
 
 namespace pitchboard::studio {
@@ -67,9 +68,9 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(1, 64));
   app.add_option("--gamecontroller-port", a.refereePort, "Live: port of the referee's packets")
       ->type_name("P");
-  app.add_option("--our-team", a.ourTeam, "Live: the referee's number of our team")
-      ->type_name("N")
-      ->check(CLI::Range(0, 65535));
+  app.add_option("--our-team", a.ourTeam,
+                 "Live: our team, by the referee's number or its colour, such as blue or red")
+      ->type_name("N|COLOUR");
   app.add_option("--profile", a.profile,
                  "Live: what stands in a message; a file, or a name that docs/LIVE.md lists")
       ->type_name("FILE|NAME");
@@ -228,7 +229,11 @@ Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOp
   saved.variablesPortBase = arguments.variablesPortBase.value_or(saved.variablesPortBase);
   saved.robots = arguments.robots.value_or(saved.robots);
   saved.refereePort = arguments.refereePort.value_or(saved.refereePort);
-  saved.ourTeam = arguments.ourTeam.value_or(saved.ourTeam);
+  if (!arguments.ourTeam.empty()) {
+    if (const auto ours = link::chooseOurTeam(saved, arguments.ourTeam); !ours) {
+      return tl::unexpected<Error>(ours.error());
+    }
+  }
   if (!arguments.profile.empty()) {
     auto profile = telemetry::loadProfile(arguments.profile);
     if (!profile) return tl::unexpected<Error>(profile.error());

@@ -333,7 +333,7 @@ class TestLiveFrame : public QObject {
   void theRefereeGivesColourScoreAndPenalties() {
     Received received({robotSaying("2 " + atTheCentre)});
     received.options.ourTeam = 6;
-    received.options.colour = TeamColor::Yellow;
+    received.options.ourColour = TeamColor::Yellow;
     RefereeState state = stateOfGame();
     state.teams[1].allSlots[1].penalty = 1;
     state.teams[1].allSlots[1].secondsLeft = 30;

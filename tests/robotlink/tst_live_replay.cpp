@@ -102,7 +102,6 @@ class TestLiveReplay : public QObject {
  private slots:
   void initTestCase() {
     LiveOptions options = freeOptions(robots);
-    options.colour = TeamColor::Yellow;  // until the referee gives one
     m_path = m_folder.filePath("live.mcap").toStdString();
     LiveWatch watch(options);
     QTRY_COMPARE(watch.details().network.ports.size(), std::size_t{robots + 1});
@@ -140,7 +139,6 @@ class TestLiveReplay : public QObject {
       }
       if (step == 5) {
         options.ourTeam = m_screen->last().referee->teams[1].number;
-        options.colour = TeamColor::Yellow;
         watch.setOptions(options);
       }
       QTRY_VERIFY(received());

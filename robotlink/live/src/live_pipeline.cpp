@@ -7,6 +7,7 @@
 
 #include <robotlink/frame/join_boards.h>
 #include <robotlink/live/live_teams.h>
+#include <telemetry/series/group_order.h>
 
 namespace pitchboard::link {
 namespace {
@@ -299,6 +300,9 @@ void LivePipeline::addBoards(MatchFrame& frame, AttachedRobots* attached, WallTi
     const RobotKey& key = keys[static_cast<std::size_t>(place - known.begin())];
     const RobotFrame& robot = *frame.robot(key);
     BoardRowKeeper::Name name{robot.name, {{"team", std::string(info(robot.identity.team).name)}}};
+    GroupInfo listed;
+    telemetry::setOrder(listed, orderOf(key, m_teams));
+    name.attributes.merge(listed.attributes);
     if (sent != attributes.end()) name.attributes["place"] = std::to_string(key.team);
     if (!robot.ownName.empty()) name.attributes["name"] = robot.ownName;
     m_boardRows.take(board, *one.group, name, one.rows);
@@ -339,6 +343,9 @@ LiveDetails LivePipeline::details(WallTime now) const {
   LiveDetails details;
   details.team = m_state.monitor.status(now);
   details.teams = m_teams;
+  std::ranges::stable_sort(details.team.robots, {}, [this](const telemetry::RobotStatus& robot) {
+    return orderOf(robot.key, m_teams);
+  });
   details.referee = m_state.referee.counts();
   details.unknownReferee = m_unknownReferee;
   details.unknownRefereeReason = m_unknownReason;

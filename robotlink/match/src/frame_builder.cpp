@@ -41,7 +41,7 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   const sim::WorldState& state = simulation.state();
   out.snapshot = m_snapshot;
   out.robots.resize(state.robots.size());
-  out.teams = teamsByColour();
+  fillTeams(state.settings.teams, out.teams);
   takeProcesses(match.robots().processes());
   if (!still && m_last != Time{}) m_playing += std::chrono::duration<double>(now - m_last).count();
   m_last = now;

@@ -228,7 +228,10 @@ void showReferee(const sim::WorldState& world, MatchFrame& frame) {
   const GameState& game = *world.game;
   const telemetry::RefereeState packet = refereePacket(world, 0, true);
   frame.refereeAutomatic = world.settings.referee->automatic;
-  RefereeView& view = frame.referee.emplace(viewOf(packet));
+  for (const sim::GameTeam& team : game.teams) {
+    frame.teams[static_cast<std::size_t>(team.colour) + 1].number = team.number;
+  }
+  RefereeView& view = frame.referee.emplace(viewOf(packet, frame.teams));
   view.stopped = game.stopped;  // which version 12 does not send, and who referees has to see
   view.sender = frame.refereeAutomatic ? "the simulated referee" : "a person";
   for (std::size_t side = 0; side < 2; ++side) {

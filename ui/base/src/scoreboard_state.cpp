@@ -2,6 +2,7 @@
 #include <ui/base/scoreboard_state.h>
 
 #include <QObject>
+#include <algorithm>
 
 #include <robotlink/frame/match_event.h>
 #include <ui/base/referee_words.h>
@@ -11,8 +12,10 @@
 namespace pitchboard::ui {
 namespace {
 
-QString teamName(TeamColor team) {
-  const std::string_view name = info(team).name;
+QString teamName(TeamColor team, const link::Teams& teams) {
+  const auto known = std::ranges::find(teams, team, &link::Team::colour);
+  const std::string_view name =
+      known == teams.end() || known->name.empty() ? info(team).name : known->name;
   return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).toUpper();
 }
 
@@ -105,6 +108,14 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
 
 }  // namespace
 
+QString teamsText(const link::MatchFrame& frame) {
+  if (std::ranges::all_of(frame.teams, [](const auto& team) { return team.name.empty(); })) {
+    return {};
+  }
+  const ScoreboardState board = scoreboardOf(frame);
+  return QStringLiteral("%1 – %2, ").arg(board.leftName, board.rightName);
+}
+
 ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
   // Only who plays a match knows its score without a referee: not what is heard, nor its past.
   const bool played = frame.truthKnown || frame.ballKnown;
@@ -114,8 +125,8 @@ ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
   for (const link::RobotFrame& robot : frame.robots) robots.push_back(robot.identity);
   const TeamColor leftTeam = link::teamOn(link::Side::Left, robots);
   const TeamColor rightTeam = link::teamOn(link::Side::Right, robots);
-  state.leftName = teamName(leftTeam);
-  state.rightName = teamName(rightTeam);
+  state.leftName = teamName(leftTeam, frame.teams);
+  state.rightName = teamName(rightTeam, frame.teams);
   state.leftColour = theme().team(leftTeam);
   state.rightColour = theme().team(rightTeam);
   state.left = frame.snapshot.score.left;

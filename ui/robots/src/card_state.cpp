@@ -229,7 +229,11 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
   std::vector<CardState> cards;
   cards.reserve(frame.robots.size());
   for (const link::RobotFrame& robot : frame.robots) {
-    cards.push_back(cardOf(robot, frame.settings->field, detail));
+    CardState& card = cards.emplace_back(cardOf(robot, frame.settings->field, detail));
+    const auto place = static_cast<std::size_t>(robot.key.team);
+    if (place < frame.teams.size()) {
+      card.teamName = QString::fromStdString(frame.teams[place].name);
+    }
   }
   return cards;
 }

@@ -57,6 +57,10 @@ void Timeline::follow() {
   emit sourceChanged();
 }
 
+FramePtr Timeline::frame() const {
+  return m_source->frame();
+}
+
 EventList* Timeline::events() const {
   return m_collectors.at(m_source->current())->list();
 }

@@ -91,13 +91,18 @@ void TimelineActions::fillFilter(QMenu* menu) {
   menu->clear();
   const EventFilter& now = m_timeline->eventFilter();
   std::map<link::MatchEventKind, int> kinds;
-  std::set<std::string> robots = now.robots;
+  const FramePtr frame = m_timeline->frame();
+  std::set<std::string> names = now.robots;
+  std::set<std::pair<RobotOrder, std::string>> robots;  // as they are listed
   for (const link::MatchEventKind hidden : now.hidden) kinds[hidden];
   for (const link::MatchEvent& event : m_timeline->events()->events()) {
     if (!link::isMarked(event)) continue;
     ++kinds[event.kind];
-    if (!event.name.empty()) robots.insert(event.name);
+    if (event.name.empty()) continue;
+    names.erase(event.name);
+    robots.emplace(orderOf(event.robot, frame ? frame->teams : link::Teams()), event.name);
   }
+  for (const std::string& name : names) robots.emplace(RobotOrder(), name);
   QAction* all =
       menu->addAction(QStringLiteral("&All"), this, [this] { m_timeline->setEventFilter({}); });
   all->setEnabled(now.isOn());
@@ -121,7 +126,8 @@ void TimelineActions::fillFilter(QMenu* menu) {
   }
   if (robots.empty()) return;
   menu->addSeparator();
-  for (const std::string& robot : robots) {
+  for (const auto& [order, name] : robots) {
+    const std::string& robot = name;
     QAction* action = menu->addAction(QStringLiteral("Only %1").arg(QString::fromStdString(robot)));
     action->setCheckable(true);
     action->setChecked(now.robots.contains(robot));

@@ -2,6 +2,7 @@
 #include "dock_list.h"
 
 #include <ui/experiments/experiments_dock.h>
+#include <ui/live/attach_dialog.h>
 #include <ui/live/bad_messages_dock.h>
 #include <ui/live/referee_dock.h>
 #include <ui/log/log_dock.h>
@@ -34,8 +35,10 @@ QWidget* robots(const StudioParts& s, QWidget* parent) {
                         parent);
 }
 QWidget* variables(const StudioParts& s, QWidget* parent) {
-  return makeVariablesDock({s.controller, s.source, s.timeline, s.plots, s.settings, s.selection},
-                           parent);
+  return makeVariablesDock(
+      {s.controller, s.source, s.timeline, s.plots, s.settings, s.selection, s.boards,
+       [boards = s.boards, parent] { showAttachDialog(boards, parent->window()); }},
+      parent);
 }
 QWidget* noise(const StudioParts& s, QWidget* parent) {
   return makeNoiseDock(s.controller, s.selection, parent);

@@ -15,6 +15,7 @@
 #include <limits>
 #include <utility>
 
+#include <telemetry/series/group_order.h>
 #include <ui/base/notice_bar.h>
 #include <ui/base/plot_target.h>
 #include <ui/base/robot_words.h>
@@ -27,6 +28,7 @@
 #include <ui/processes/orphan_notice.h>
 #include <ui/session/export_dialog.h>
 #include <ui/session/session_files.h>
+#include <ui/sources/attached_boards.h>
 #include <ui/sources/compared_session.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/live_controller.h>
@@ -82,7 +84,8 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
       m_timeline(new Timeline(m_source, this)),
       m_replay(new ReplayController(this)),
       m_recording(new SessionRecording(controller, m_live, m_source, m_timeline, settings, this)),
-      m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
+      m_timelineActions(new TimelineActions(m_timeline, m_time, this)),
+      m_boards(new AttachedBoards(controller, m_live, m_source, settings, this)) {
   guardWheel(*qApp);
   m_source->add(m_live);
   m_source->setTimesOfDay(settings->value(QStringLiteral("view/timesOfDay"), true).toBool());
@@ -189,6 +192,7 @@ void MainWindow::shutDown() {
   delete takeCentralWidget();
 
   delete m_recording;
+  delete m_boards;
   delete m_timelineActions;
   delete m_timeline;
   delete m_source;
@@ -197,9 +201,9 @@ void MainWindow::shutDown() {
 }
 
 StudioParts MainWindow::parts() const {
-  return {m_controller, m_source, m_selection, m_field,           m_time,
-          m_settings,   m_plots,  m_timeline,  m_timelineActions, m_replay,
-          m_recording,  m_live,   m_overlay,   m_compared,        m_tests};
+  return {m_controller, m_source,   m_selection,       m_field,  m_time,      m_settings,
+          m_plots,      m_timeline, m_timelineActions, m_replay, m_recording, m_live,
+          m_overlay,    m_compared, m_tests,           m_boards};
 }
 
 QStringList MainWindow::recentSessions() const {
@@ -305,6 +309,7 @@ void MainWindow::showExport() {
       }
     }
   }
+  std::ranges::stable_sort(source.groups, telemetry::isListedBefore);
   source.clock = m_source->clock();
   auto* dialog =
       new ExportDialog(std::move(source), m_timeline->selection().value_or(*all), m_field, this);

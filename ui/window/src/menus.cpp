@@ -261,10 +261,9 @@ void StudioMenus::makeLive() {
                   [window = &m_window, parts = m_parts] {
                     showLiveSettings(parts.live, parts.settings, window);
                   });
-  menu->addAction(QStringLiteral("&Attach blackboard…"), &m_window,
-                  [window = &m_window, parts = m_parts] {
-                    showAttachDialog(parts.live, parts.settings, window);
-                  });
+  menu->addAction(
+      QStringLiteral("&Attach blackboard…"), &m_window,
+      [window = &m_window, boards = m_parts.boards] { showAttachDialog(boards, window); });
 }
 
 void StudioMenus::makeSimulation() {

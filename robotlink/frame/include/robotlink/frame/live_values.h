@@ -48,7 +48,7 @@ struct RefereeTeamView {
   int score = 0;
   int playersLeft = 0;  ///< on the field: not penalised, substitutes that came in counted
   std::vector<RefereePlayerView> players{};
-  std::string name{};  ///< as a team setup says it; empty: nobody does
+  std::string name{};  ///< of the team setup or the scenario; empty: it has none
 };
 
 /// What really happens, without the league's delays: monitor mode.

@@ -19,8 +19,8 @@ namespace pitchboard::link {
 telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNumber,
                                       bool truth = false);
 
-/// The scoreboard, and the penalties of the robots that are in the frame, from the packet with the
-/// truth; none without a game.
+/// The scoreboard, the numbers of the frame's teams and the penalties of its robots, from the
+/// packet with the truth; none without a game.
 void showReferee(const sim::WorldState& world, MatchFrame& frame);
 
 /// Takes over what a referee's program says: state, half, times, score, set play, penalties. The

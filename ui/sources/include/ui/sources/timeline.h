@@ -31,6 +31,8 @@ class Timeline : public QObject {
 
   /// Remembers events of this source also while another one is shown.
   void watch(FrameSource* source);
+  /// The newest one of the source that is shown; null when it has none.
+  FramePtr frame() const;
   /// Of the source that is shown; another list after sourceChanged().
   EventList* events() const;
 

@@ -23,6 +23,7 @@ struct Scenario;
 namespace pitchboard::ui {
 
 class Alarms;
+class AttachedBoards;
 class ComparedSession;
 class FieldOnly;
 class FieldView;
@@ -64,6 +65,7 @@ class MainWindow : public QMainWindow {
   SessionRecording* recording() const { return m_recording; }
   ReplayController* replay() const { return m_replay; }
   LiveController* live() const { return m_live; }
+  AttachedBoards* boards() const { return m_boards; }
   /// A recorded session, in Replay; what is wrong with it is a notice.
   void openSession(const QString& path);
   /// Asks for a scenario or a session.
@@ -129,6 +131,7 @@ class MainWindow : public QMainWindow {
   SessionRecording* m_recording;
   SessionFiles* m_sessions;
   TimelineActions* m_timelineActions;
+  AttachedBoards* m_boards;
   FieldView* m_field;
   LiveOverlay* m_overlay;
   ComparedSession* m_compared;
