@@ -15,7 +15,6 @@
 #include <robotlink/frame/build_robot.h>
 #include <robotlink/frame/join_boards.h>
 #include <robotlink/live/board_columns.h>
-#include <telemetry/series/group_order.h>
 
 #include "board_map.h"
 #include "board_words.h"

@@ -365,6 +365,42 @@ class TestWindowWork : public QObject {
     QTRY_COMPARE(inputs(), QStringList(QStringLiteral("B3/VISION_BALL_DIST")));
   }
 
+  void anAlarmSaysWhat() {
+    Studio s;
+    s.play();
+    s.menuAction(QStringLiteral("A goal"))->trigger();
+    auto* frame = s.find<QWidget>("alarmFrame");
+    link::MatchEvent goal{link::MatchEventKind::Goal, 1.0, {}, {}, link::Side::Right, 0, "red"};
+    emit s.controller.eventsReceived({goal});
+    QVERIFY(frame->isVisible());
+    QCOMPARE(frame->accessibleName(), QString::fromStdString(sentenceOf(goal)));
+    emit s.controller.eventsReceived({goal, goal});
+    QVERIFY(frame->accessibleName().endsWith(QStringLiteral("(and 1 more)")));
+    // The words stay longer than the edge.
+    QTRY_VERIFY(!s.window.findChild<Alarms*>()->isRaised());
+    QVERIFY(frame->isVisible());
+  }
+
+  void whatCannotFollowIsNotSaidInRealTimeAndAfterRestart() {
+    Studio s;
+    s.play();
+    const auto notice = [&s] { return s.window.notices()->text(); };
+    const auto complain = [&s] {
+      emit s.controller.errorOccurred(QStringLiteral("Real time only."), Trouble::Lasting);
+    };
+    s.controller.setSpeed(2.0);
+    complain();
+    QCOMPARE(notice(), QStringLiteral("Real time only."));
+    s.controller.setPaused(false);
+    QCOMPARE(notice(), QStringLiteral("Real time only."));
+    s.controller.setSpeed(1.0);
+    QVERIFY2(notice().isEmpty(), qPrintable(notice()));
+    complain();
+    QCOMPARE(notice(), QStringLiteral("Real time only."));
+    s.controller.restart();
+    QVERIFY2(notice().isEmpty(), qPrintable(notice()));
+  }
+
   void chosenEventsRaiseAnAlarm() {
     Studio s;
     s.play();

@@ -204,6 +204,39 @@ class TestTimeline : public QObject {
     QCOMPARE(list->event(0).detail, std::string("slipped turn"));
   }
 
+  // Also where the focus does not go.
+  void aNoteClosesWithAClickElsewhere() {
+    Bench b;
+    QWidget outside(&b.window);
+    outside.setGeometry(0, 100, 1000, 20);
+    outside.show();
+    b.timeline.seek(50);
+    b.actions.bookmark()->trigger();
+    auto* note = b.strip->findChild<QLineEdit*>(QStringLiteral("bookmarkNote"));
+    QVERIFY(note && note->isVisible());
+    QTest::keyClicks(note, QStringLiteral("odd sock"));
+    QTest::mouseClick(note, Qt::LeftButton);
+    QVERIFY(note->isVisible());
+    QTest::mouseClick(&outside, Qt::LeftButton);
+    QVERIFY(!note->isVisible());
+    QCOMPARE(b.timeline.events()->event(0).detail, std::string("odd sock"));
+  }
+
+  void aNoteIsReadInACrowd() {
+    Bench b;
+    for (int i = 0; i <= 60; ++i) b.source.happen(20.0 + i, link::MatchEventKind::Kick);
+    b.source.happen(50.1, link::MatchEventKind::Goal);
+    b.timeline.seek(50);
+    b.timeline.addBookmark(QStringLiteral("slipped"));
+    const auto shown = [&b] {
+      for (const EventMark& mark : b.strip->marks()) {
+        if (mark.label == QStringLiteral("slipped")) return true;
+      }
+      return false;
+    };
+    QVERIFY(shown());
+  }
+
   void theWindowOfThePlotsIsDragged() {
     Bench b;
     b.plots.setData(telemetry::TimeRange{0, 100});

@@ -73,7 +73,8 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   state.rightColour = refereeColour(view.teams[1].colour);
   state.left = view.teams[0].score;
   state.right = view.teams[1].score;
-  state.clock = refereeClockText(view.secondsLeft);
+  // It counts down to the end of the half; how long that is past is no time of play.
+  state.clock = clockText(std::max(view.secondsLeft, 0));
   state.state = QString::fromStdString(view.state);
   const std::string& more = !view.setPlay.empty() ? view.setPlay : view.phase;
   if (view.timedOut) {
@@ -97,9 +98,11 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   for (const link::RobotFrame& robot : frame.robots) {
     const auto& penalty = robot.penalty;
     if (!penalty) continue;
-    penalties << robotName(robot) + (penalty->secondsLeft > 0
-                                         ? QStringLiteral(" %1").arg(penalty->secondsLeft)
-                                         : QString());
+    const QString line =
+        robotName(robot) +
+        (penalty->secondsLeft > 0 ? QStringLiteral(" %1").arg(penalty->secondsLeft) : QString());
+    // A second sender of its number is no second player.
+    if (!penalties.contains(line)) penalties << line;
   }
   state.penalties = penalties.join(QStringLiteral(" · "));
   state.tip = refereeTip(view, frame.origin == link::FrameOrigin::Live);
@@ -132,8 +135,9 @@ ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
   state.left = frame.snapshot.score.left;
   state.right = frame.snapshot.score.right;
   state.clock = clockText(frame.snapshot.clock);
+  const bool past = frame.origin == link::FrameOrigin::Recorded;
   state.state = frame.finished                ? QStringLiteral("FINISHED")
-                : frame.paused                ? QStringLiteral("PAUSED")
+                : frame.paused && !past       ? QStringLiteral("PAUSED")
                 : frame.snapshot.clockRunning ? QStringLiteral("PLAYING")
                                               : QStringLiteral("CLOCK STOPPED");
   return state;

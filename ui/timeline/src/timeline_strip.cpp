@@ -188,15 +188,18 @@ void TimelineStrip::zoom(double factor, double anchor) {
   setShown({anchor - (anchor - shown.begin) * factor, anchor + (shown.end - anchor) * factor});
 }
 
+MarkSizes TimelineStrip::markSizes() const {
+  return {double(scaled(this, 10)), double(scaled(this, 9)), double(scaled(this, 72))};
+}
+
 const std::vector<EventMark>& TimelineStrip::marks() {
   const EventList* list = m_timeline->events();
   if (list != m_marksOf || list->revision() != m_marksRevision || !(m_marksAxis == m_axis)) {
     m_marksOf = list;
     m_marksRevision = list->revision();
     m_marksAxis = m_axis;
-    m_marks =
-        layOutMarks(list->events(), m_axis, {double(scaled(this, 10)), double(scaled(this, 9))},
-                    QFontMetrics(themeFont(TypeRole::Small)), m_timeline->eventFilter());
+    m_marks = layOutMarks(list->events(), m_axis, markSizes(),
+                          QFontMetrics(themeFont(TypeRole::Small)), m_timeline->eventFilter());
   }
   return m_marks;
 }
@@ -205,8 +208,7 @@ std::vector<EventMark> TimelineStrip::comparedMarks() const {
   if (m_compared == nullptr) return {};
   TimeAxis moved = m_axis;
   moved.shown = {m_axis.shown.begin - m_comparedOffset, m_axis.shown.end - m_comparedOffset};
-  return layOutMarks(m_compared->events(), moved,
-                     {double(scaled(this, 10)), double(scaled(this, 9))},
+  return layOutMarks(m_compared->events(), moved, markSizes(),
                      QFontMetrics(themeFont(TypeRole::Small)), m_timeline->eventFilter());
 }
 

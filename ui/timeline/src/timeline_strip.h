@@ -76,6 +76,7 @@ class TimelineStrip : public QWidget {
  private:
   enum class Grab { Nothing, Moment, Window, WindowBegin, WindowEnd, Range, View, Compared };
   void addZoom(const char* id, const char* text, const std::function<void()>& change);
+  MarkSizes markSizes() const;
   void fitAxis();
   void updateCalmly();
   void clampShown(telemetry::TimeRange& range) const;

@@ -73,17 +73,17 @@ QWidget* timeline(const StudioParts& s, QWidget* parent) {
 
 std::span<const DockInfo> studioDocks() {
   static constexpr DockInfo docks[] = {
-      {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, robots},
-      {"variables", "Variables", Qt::RightDockWidgetArea, true, 416, variables},
-      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 416, noise},
-      {"refereeing", "Refereeing", Qt::RightDockWidgetArea, false, 416, refereeing},
-      {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, plots},
-      {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, processes},
-      {"referee", "Referee", Qt::RightDockWidgetArea, false, 416, referee},
-      {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, badMessages},
-      {"log", "Log", Qt::BottomDockWidgetArea, true, 180, log},
-      {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, 280, experiments},
-      {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, 56, timeline, true},
+      {"robots", "Robots", Qt::LeftDockWidgetArea, true, robots},
+      {"variables", "Variables", Qt::RightDockWidgetArea, true, variables},
+      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, noise},
+      {"refereeing", "Refereeing", Qt::RightDockWidgetArea, false, refereeing},
+      {"plots", "Plots", Qt::BottomDockWidgetArea, true, plots},
+      {"processes", "Processes", Qt::BottomDockWidgetArea, true, processes},
+      {"referee", "Referee", Qt::RightDockWidgetArea, false, referee},
+      {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, badMessages},
+      {"log", "Log", Qt::BottomDockWidgetArea, true, log},
+      {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, experiments},
+      {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, timeline, true},
   };
   return docks;
 }

@@ -7,6 +7,7 @@
 #include <QPainter>
 #include <functional>
 
+#include <ui/base/scoreboard_state.h>
 #include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
 #include <ui/sources/match_controller.h>
@@ -36,9 +37,9 @@ class FieldSign : public QLabel {
 
   void present() {
     const QString text = textNow();
+    setText(text);
     setVisible(!text.isEmpty());
     if (text.isEmpty()) return;
-    setText(text);
     setGeometry(place(sizeHint()));
     raise();
   }
@@ -85,6 +86,27 @@ QWidget* makeOpeningSign(MatchController* controller, QWidget* canvas) {
     QObject::connect(controller, changed, sign, &FieldSign::present);
   }
   QObject::connect(controller, &MatchController::frameReceived, sign, &QWidget::hide);
+  return sign;
+}
+
+QWidget* makePenaltyStrip(FrameSource* source, QWidget* canvas) {
+  auto* sign = new FieldSign(canvas, QStringLiteral("penaltyStrip"), &ThemeColors::innerLine);
+  sign->textNow = [source] {
+    const FramePtr frame = source->frame();
+    return frame ? scoreboardOf(*frame).penalties : QString();
+  };
+  sign->place = [sign, canvas](QSize text) {
+    const int edge = scaled(sign, 8);
+    const int wide = qMin(text.width() + scaled(sign, 16), canvas->width() - 2 * edge);
+    return QRect(canvas->width() - wide - edge, edge, wide, scaled(sign, 22));
+  };
+  const auto present = [sign, source] {
+    // Most frames say the same.
+    if (sign->textNow() != sign->text() || sign->isVisible() == sign->text().isEmpty())
+      sign->present();
+  };
+  QObject::connect(source, &FrameSource::frameReceived, sign, present);
+  QObject::connect(source, &FrameSource::restarted, sign, present);
   return sign;
 }
 

@@ -9,6 +9,7 @@ class QWidget;
 
 namespace pitchboard::ui {
 
+class FrameSource;
 class MatchController;
 class Timeline;
 
@@ -17,6 +18,8 @@ class Timeline;
 QWidget* makeOpeningSign(MatchController* controller, QWidget* canvas);
 /// Says at the top that the past is shown: "Looking back: 03:12.50 (Now leads back)".
 QWidget* makeLookingBackSign(Timeline* timeline, QWidget* canvas);
+/// Who is penalised, and for how long, at the upper right: "B2 24 · R3 5".
+QWidget* makePenaltyStrip(FrameSource* source, QWidget* canvas);
 /// Says at the lower left that the mode is on; a click switches it off.
 QWidget* makePublishedKeysSign(QAction* publishedKeys, QWidget* canvas);
 

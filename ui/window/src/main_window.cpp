@@ -131,11 +131,15 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_undo->add(m_plotsDock->undoStack(), [] { return true; });
   makeMenus();
   makeKeys();
+  m_bar->addReplayActions({m_keys->action("openSession"), m_keys->action("compareSession"),
+                           m_keys->action("exportSession"), m_timelineActions->previous(),
+                           m_timelineActions->next()});
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     makeOpeningSign(controller, canvas);
     makeLookingBackSign(m_timeline, canvas);
     makePublishedKeysSign(m_field->actions().publishedKeys, canvas);
+    makePenaltyStrip(m_source, canvas);
   }
   connectNotices();
   connect(m_replay, &ReplayController::opened, this, [this] {
@@ -353,6 +357,13 @@ void MainWindow::makeDocks() {
     }
     connect(dock, &QDockWidget::dockLocationChanged, this, &MainWindow::showTitles,
             Qt::QueuedConnection);
+    // A panel that is closed does not keep the keys.
+    connect(dock, &QDockWidget::visibilityChanged, m_field, [this, dock](bool visible) {
+      const QWidget* focus = focusWidget();
+      if (!visible && dock->isHidden() && focus != nullptr && dock->isAncestorOf(focus)) {
+        m_field->setFocus();
+      }
+    });
   }
 }
 
@@ -396,7 +407,10 @@ void MainWindow::connectNotices() {
                        live = QStringLiteral("live"), recording = QStringLiteral("recording"),
                        refused = QStringLiteral("refused"), locked = QStringLiteral("locked"),
                        finished = QStringLiteral("finished"), compared = QStringLiteral("compared"),
-                       test = QStringLiteral("test");
+                       test = QStringLiteral("test"), continued = QStringLiteral("continued");
+  const auto settleAll = [this](const QStringList& topics) {
+    for (const QString& topic : topics) m_notices->settle(topic);
+  };
   const auto tell = [this](const QString& topic) {
     return [this, topic](const QString& sentence) { m_notices->show({topic}, sentence); };
   };
@@ -418,20 +432,26 @@ void MainWindow::connectNotices() {
           });
   connect(m_controller, &MatchController::askedForSpeed, m_notices,
           [this](const QStringList& programs, double wanted) { askForSpeed(programs, wanted); });
-  connect(m_controller, &MatchController::obeyed, m_notices,
-          [this] { m_notices->settle(refused); });
-  connect(m_controller, &MatchController::rewound, m_notices,
-          [this] { m_notices->settle(refused); });
+  connect(m_controller, &MatchController::obeyed, m_notices, [settleAll] {
+    settleAll({refused, match});
+  });
+  connect(m_controller, &MatchController::rewound, m_notices, [settleAll] {
+    settleAll({refused, match, finished});
+  });
   connect(m_controller, &MatchController::opened, m_notices, [this] {
     if (m_controller->isOpen()) m_notices->settle(scenario);
   });
-  connect(m_controller, &MatchController::scenarioChanged, m_notices, [this] {
-    for (const QString& topic : {match, refused, finished, speedTopic}) m_notices->settle(topic);
+  connect(m_controller, &MatchController::scenarioChanged, m_notices, [this, settleAll] {
+    settleAll({match, refused, finished, continued, speedTopic});
     m_toldFinished = false;
+  });
+  // What cannot stand still or go faster goes on with a match in real time.
+  connect(m_controller, &MatchController::transportChanged, m_notices, [this] {
+    if (!m_controller->isPaused() && m_controller->speed() == 1.0) m_notices->settle(match);
   });
   connect(m_controller->edits(), &MatchEdits::lockedChanged, m_notices,
           [this] { m_notices->settle(locked); });
-  connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices, tell(match));
+  connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices, tell(continued));
   connect(m_live, &LiveController::errorOccurred, m_notices, tell(live));
   connect(m_live, &LiveController::optionsChanged, m_notices, [this] { m_notices->settle(live); });
   connect(m_compared, &ComparedSession::failed, m_notices, tell(compared));

@@ -50,6 +50,17 @@ QAction* withIcon(QAction* action, const char* icon, const char* id = nullptr) {
   return action;
 }
 
+/// The panel that was asked for has the keys: its first control that takes them.
+void focusFirst(QWidget& panel) {
+  for (QWidget* next = panel.nextInFocusChain(); next != &panel; next = next->nextInFocusChain()) {
+    if (!panel.isAncestorOf(next)) break;
+    if ((next->focusPolicy() & Qt::TabFocus) && next->isEnabled() && next->isVisibleTo(&panel)) {
+      next->setFocus(Qt::OtherFocusReason);
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 StudioMenus::StudioMenus(MenuContext context, MainWindow& window)
@@ -185,9 +196,10 @@ void StudioMenus::makeThemes(QMenu* menu) {
 
 void StudioMenus::makeView() {
   QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&View"));
+  QMenu* panels = menu->addMenu(QStringLiteral("&Panels"));
   for (QDockWidget* dock : m_context.docks) {
     QAction* action = dock->toggleViewAction();
-    menu->addAction(action);
+    panels->addAction(action);
     // Among tabs, what is asked for comes to the front, also what is open behind another; only
     // what is seen is closed. A dock by itself would close what nobody saw.
     action->disconnect(dock);
@@ -199,12 +211,14 @@ void StudioMenus::makeView() {
             dock->show();
             dock->raise();
             action->setChecked(true);
+            focusFirst(*dock->widget());
           } else {
             dock->close();
           }
         });
   }
-  menu->addSeparator();
+  panels->addSeparator();
+  panels->addAction(QStringLiteral("&Reset layout"), &m_window, &MainWindow::resetLayout);
   QMenu* layers = menu->addMenu(QStringLiteral("Field &layers"));
   for (QAction* action : m_parts.field->actions().layers) layers->addAction(action);
   layers->addSeparator();
@@ -212,14 +226,16 @@ void StudioMenus::makeView() {
   const FieldActions& field = m_parts.field->actions();
   QMenu* tools = menu->addMenu(QStringLiteral("Field &tools"));
   for (QAction* action : field.tools) tools->addAction(action);
+  menu->addSeparator();
   menu->addActions({field.flip, field.fit, field.publishedKeys});
-  QAction* overlay = menu->addAction(QStringLiteral("Overlay what is &heard live"));
+  menu->addSeparator();
+  QAction* overlay = menu->addAction(QStringLiteral("Overlay &live robots"));
   overlay->setObjectName(QStringLiteral("liveOverlay"));
   overlay->setCheckable(true);
   overlay->setToolTip(QStringLiteral("Simulated and heard robots side by side, matched by number"));
   QObject::connect(overlay, &QAction::toggled, m_parts.overlay, &LiveOverlay::setOn);
   QObject::connect(m_parts.overlay, &LiveOverlay::switched, overlay, &QAction::setChecked);
-  QAction* day = menu->addAction(QStringLiteral("Times of &day in Live and Replay"));
+  QAction* day = menu->addAction(QStringLiteral("Time of &day in Live and Replay"));
   day->setObjectName(QStringLiteral("timesOfDay"));
   day->setCheckable(true);
   day->setChecked(m_parts.source->timesOfDay());
@@ -231,7 +247,6 @@ void StudioMenus::makeView() {
   });
   menu->addSeparator();
   makeThemes(menu->addMenu(QStringLiteral("&Theme")));
-  menu->addAction(QStringLiteral("&Reset layout"), &m_window, &MainWindow::resetLayout);
   m_context.alarms->fill(menu->addMenu(QStringLiteral("&Alarms")));
   menu->addAction(m_context.fieldOnly->action());
   QAction* full = menu->addAction(QStringLiteral("&Full screen"));
@@ -352,7 +367,7 @@ void StudioMenus::makeTimeline() {
                                     &ComparedSession::alignByTime);
   QAction* stop =
       menu->addAction(QStringLiteral("Stop c&omparing"), compared, &ComparedSession::stop);
-  compare->setObjectName(QStringLiteral("compareSession"));
+  withIcon(compare, "view-split-left-right", "compareSession");
   stop->setObjectName(QStringLiteral("stopComparing"));
   const auto showCompared = [byTime, stop, compared] {
     stop->setEnabled(compared->isOn());
@@ -364,10 +379,7 @@ void StudioMenus::makeTimeline() {
   SessionRecording* recording = m_parts.recording;
   QAction* exportAction = menu->addAction(QStringLiteral("&Export…"), &m_window,
                                           [this_ = &m_window] { this_->showExport(); });
-  exportAction->setObjectName(QStringLiteral("exportSession"));
-  QObject::connect(menu, &QMenu::aboutToShow, exportAction, [exportAction, timeline] {
-    exportAction->setEnabled(timeline->available().has_value());
-  });
+  withIcon(exportAction, "document-export", "exportSession");
   menu->addAction(QStringLiteral("Memor&y for the past…"), &m_window, [this_ = &m_window] {
     bool chosen = false;
     const int megabytes = QInputDialog::getInt(

@@ -83,7 +83,6 @@ TransportBar::TransportBar(const TransportContext& context, QSettings* settings,
   connect(timer, &QTimer::timeout, this, [this] {
     if (const FramePtr frame = m_context.source->frame()) {
       m_scoreboard->setState(scoreboardOf(*frame));
-      placeScoreboard();
     }
     if (isFinished() != m_finished) showTransport();
     if (m_context.recording->isRecording()) showRecord();
@@ -143,7 +142,6 @@ void TransportBar::addTransport() {
   m_step->setObjectName(QStringLiteral("step"));
 
   m_speed->setObjectName(QStringLiteral("speed"));
-  m_speed->setMinimumWidth(scaled(this, 68));
   connect(m_speed, &QComboBox::activated, this,
           [this] { setSpeed(m_speed->currentData().toDouble()); });
   for (const auto& [id, text, by] :
@@ -212,6 +210,17 @@ void TransportBar::addRecord() {
   showRecord();
 }
 
+// Behind Record, where the Live controls stand in Live.
+void TransportBar::addReplayActions(const QList<QAction*>& actions) {
+  for (QAction* action : actions) {
+    auto* button = new QToolButton(this);
+    button->setDefaultAction(action);
+    button->setToolButtonStyle(Qt::ToolButtonIconOnly);
+    addControl(SourceKind::Replay, addWidget(button));
+  }
+  showMode();
+}
+
 void TransportBar::showRecord() {
   const bool on = m_context.recording->isRecording();
   const int side = iconSize().height();
@@ -227,9 +236,9 @@ void TransportBar::showRecord() {
   painter.drawEllipse(centre, radius, radius);
   painter.end();
   m_record->setIcon(QIcon(dot));
-  m_record->setText(
-      on ? QStringLiteral("Recording %1").arg(clockText(m_context.recording->status().seconds))
-         : QStringLiteral("Record"));
+  // One width, whatever it says: nothing moves when a recording begins or ends.
+  const QString record = QStringLiteral("Record");
+  m_record->setText(on ? clockText(m_context.recording->status().seconds) : record);
   m_record->setToolTip(
       on ? QStringLiteral("Stop recording into %1\n%2")
                .arg(m_context.recording->path(),
@@ -253,11 +262,15 @@ bool TransportBar::isFinished() const {
 
 void TransportBar::resizeEvent(QResizeEvent* event) {
   QToolBar::resizeEvent(event);
-  // A title is shown whole where there is room for it.
-  constexpr int least = 168, roomy = 1200;  // px of the mock
-  m_scenarios->setMinimumWidth(width() >= scaled(this, roomy)
-                                   ? std::max(m_scenarios->sizeHint().width(), scaled(this, least))
-                                   : scaled(this, least));
+  // Widths follow the window and nothing else: titles, scores and recordings move nothing.
+  constexpr int narrow = 1100, roomy = 1400;  // px of the mock
+  const bool isNarrow = width() < scaled(this, narrow);
+  m_scenarios->setFixedWidth(scaled(this, isNarrow                        ? 104
+                                          : width() < scaled(this, roomy) ? 196
+                                                                          : 266));
+  m_record->setToolButtonStyle(isNarrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
+  m_record->setFixedWidth(scaled(this, isNarrow ? 44 : 96));
+  m_speed->setFixedWidth(scaled(this, isNarrow ? 58 : 68));
   placeScoreboard();
 }
 

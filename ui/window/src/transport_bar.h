@@ -48,6 +48,8 @@ class TransportBar : public QToolBar {
   ScenarioChooser* scenarios() const { return m_scenarios; }
   /// Restart, play/pause, step: for the menu too.
   QList<QAction*> transportActions() const { return {m_restart, m_play, m_step}; }
+  /// Buttons of these in Replay.
+  void addReplayActions(const QList<QAction*>& actions);
   /// Slower, faster.
   QList<QAction*> speedSteps() const { return m_speedSteps; }
 

@@ -101,6 +101,8 @@ class MainWindow : public QMainWindow {
   void showEvent(QShowEvent* event) override;
   void changeEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  bool event(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   StudioParts parts() const;
@@ -115,6 +117,8 @@ class MainWindow : public QMainWindow {
   void nameForScreenReaders();
   void saveLayout();
   void fitScreen();
+  /// Gives panels the room that is theirs in a window of this size.
+  void shareRoomOut();
   void tellFinished(const link::MatchFrame& frame);
   void askForSpeed(const QStringList& programs, double wanted);
 
@@ -149,6 +153,7 @@ class MainWindow : public QMainWindow {
   bool m_wasShown = false;
   bool m_wasActive = false;
   bool m_toldFinished = false;
+  bool m_followsSize = true;          // nobody has given the panels other sizes
   std::vector<QDockWidget*> m_docks;  // order of studioDocks()
 };
 
