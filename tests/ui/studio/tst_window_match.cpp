@@ -12,12 +12,17 @@
 #include <algorithm>
 
 #include <robotlink/blackboard/match_number.h>
+#include <robotlink/report/report.h>
+#include <robotlink/scenario/referee_rule_sets.h>
+#include <ui/base/scoreboard_state.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
+#include <ui/robots/robot_card.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_memory.h>
 #include <ui/sources/timeline.h>
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
@@ -94,6 +99,43 @@ class TestWindowMatch : public QObject {
                                              QSettings::IniFormat);
     m_settings->clear();
     setTheme(*qApp, ThemeChoice::Dark);
+  }
+
+  void teamsHaveTheNamesOfTheScenario_data() {
+    QTest::addColumn<QString>("referee");
+    QTest::newRow("with a referee") << QStringLiteral("humanoid-soccer-2026");
+    QTest::newRow("without one") << QString();
+  }
+  void teamsHaveTheNamesOfTheScenario() {
+    QFETCH(QString, referee);
+    Studio s(m_settings.get());
+    link::Scenario scenario = link::loadScenario("match-3v3").value();
+    scenario.settings.teams = {{TeamColor::Blue, 12, "RoboFEI"}, {TeamColor::Red, 5, "Guests"}};
+    if (!referee.isEmpty()) {
+      scenario.settings.referee = link::refereeRuleSet(referee.toStdString()).value();
+    }
+    s.controller.open(scenario, true);
+    s.controller.runTo(120);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 120);
+    const auto* board = s.window.findChild<Scoreboard*>(QStringLiteral("scoreboard"));
+    QTRY_COMPARE(board->state().leftName, QStringLiteral("ROBOFEI"));
+    QCOMPARE(board->state().rightName, QStringLiteral("GUESTS"));
+    const auto* status = s.window.findChild<QLabel*>(QStringLiteral("statusWorld"));
+    QTRY_VERIFY2(status->text().startsWith(QStringLiteral("ROBOFEI – GUESTS, 6 robots")),
+                 qPrintable(status->text()));
+    const auto cards = s.window.findChild<RobotsDock*>()->cards();
+    QCOMPARE(cards.front()->state().teamName, QStringLiteral("RoboFEI"));
+    QCOMPARE(cards.back()->state().teamName, QStringLiteral("Guests"));
+    // So do its past and its report.
+    const auto rows = s.controller.memory()->series();
+    const FramePtr past = s.controller.frameAt(1.0);
+    QVERIFY(past);
+    QCOMPARE(scoreboardOf(*past).leftName, QStringLiteral("ROBOFEI"));
+    link::ReportContent report;
+    report.statistics = link::statisticsOf(*rows, *rows->range());
+    const QString page = QString::fromStdString(link::reportHtml(report));
+    QVERIFY(page.contains(QStringLiteral("<div class=\"team blue\">RoboFEI<b>")));
+    QVERIFY(page.contains(QStringLiteral("<div class=\"team red\">Guests<b>")));
   }
 
   // None: blackboards are shared, so that the match takes a number, and no process is started.

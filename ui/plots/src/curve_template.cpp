@@ -28,6 +28,25 @@ QStringList variablesOf(const CurveSpec& curve) {
   return expression ? expression->variables() : QStringList();
 }
 
+/// As it was typed, with the names that its variables have now.
+QString presentExpression(const QString& typed, const PlotFeed& feed) {
+  static const QRegularExpression word(QStringLiteral("^[A-Za-z_]\\w*$"));
+  const auto parsed = Expression::parse(typed);
+  QString shown = typed;
+  for (const QString& name : parsed ? parsed->variables() : QStringList()) {
+    const QString present = feed.presentName(name);
+    if (present == name) continue;
+    const QString group = groupOf(present), column = present.mid(group.size() + 1);
+    const QString now = word.match(group).hasMatch() ? group + QLatin1Char('.') + column
+                                                     : QStringLiteral("{%1}").arg(present);
+    const QString braced = QRegularExpression::escape(name);
+    const QString plain = QRegularExpression::escape(QString(name).replace('/', '.'));
+    shown.replace(QRegularExpression(QStringLiteral("\\{\\s*%1\\s*\\}").arg(braced)), now);
+    shown.replace(QRegularExpression(QStringLiteral("(?<![\\w.{])%1(?![\\w.])").arg(plain)), now);
+  }
+  return shown;
+}
+
 CurveSpec ofGroup(const CurveSpec& curve, const QString& group, const PlotFeed& feed) {
   CurveSpec made = curve;
   for (QString& input : made.inputs) {
@@ -71,6 +90,9 @@ QList<CurveSpec> curvesOf(const CurveSpec& curve, const PlotFeed& feed) {
   if (columns.isEmpty()) {
     CurveSpec named = curve;
     for (QString& input : named.inputs) input = feed.presentName(input);
+    if (curve.kind == CurveKind::Expression && curve.title.isEmpty()) {
+      named.title = presentExpression(curve.expression, feed);
+    }
     return {named};
   }
   QStringList groups = feed.groupsWith(columns);
