@@ -94,15 +94,15 @@ robot = {"number": 3, "slot": 0, "address": 167772161, "port": 5000, "last": 100
          "arrivals": [0, 1000], "values": [1, None], "words": ["1", ""], "errors": [0, 1],
          "processes": [{"p": 0.9, "known": True, "since": 0}], "sequence": {"bits": 8, "newest": 3}}
 options = {"ourTeam": 12, "field": "spl", "teams": [{"setup": "{\"number\": 12}", "profile": ""}]}
-books = {"time": 1, "options": options, "robots": json.dumps({"robots": [robot]}),
+state = {"time": 1, "options": options, "robots": json.dumps({"robots": [robot]}),
          "referee": [{"at": 0, "address": 1, "port": 3838, "localPort": 3838, "base64": "UkdtZQ=="}]}
-(seeds / "live_state" / "one").write_text(json.dumps(books))
+(seeds / "live_state" / "one").write_text(json.dumps(state))
 
 def record(stream, body):
     return bytes([stream]) + len(body).to_bytes(2, "little") + body
 message = b"1 450 300 90 12 83 -4 1 1 1 1 1 8 1.57 148 OUT"
 referee = pathlib.Path("tests/data/gamecontroller/v12hl640_PLAYING_1-0.bin").read_bytes()
-(seeds / "moments" / "live").write_bytes(record(2, json.dumps(books).encode()) + record(0, message)
+(seeds / "moments" / "live").write_bytes(record(2, json.dumps(state).encode()) + record(0, message)
                                          + record(1, referee) + record(0, message))
 PYTHON
 

@@ -193,13 +193,13 @@ Result<int> decodeGameController(const DecodeOptions& options) {
 }  // namespace
 
 void addDecodeCommand(CLI::App& parent, int& exitCode) {
-  CLI::App* decode = parent.add_subcommand(
-      "decode",
-      "Decode stored datagrams. Exit code 1 when one of them could not be used.\n"
-      "Examples: pitchboard-cli decode telemetry --json capture.txt\n"
-      "          pitchboard-cli decode gamecontroller --json packet.bin\n"
-      "          echo '1 450 300 0 9.5 80 10 1 1 1 1 1 8 0.1 189 OUT' |\n"
-      "            pitchboard-cli decode telemetry -");
+  CLI::App* decode =
+      parent.add_subcommand("decode",
+                            "Decode recorded datagrams. Exits with 1 if any of them is invalid.\n"
+                            "Examples: pitchboard-cli decode telemetry --json capture.txt\n"
+                            "          pitchboard-cli decode gamecontroller --json packet.bin\n"
+                            "          echo '1 450 300 0 9.5 80 10 1 1 1 1 1 8 0.1 189 OUT' |\n"
+                            "            pitchboard-cli decode telemetry -");
   decode->require_subcommand(1);
 
   auto text = std::make_shared<DecodeOptions>();
@@ -210,16 +210,15 @@ void addDecodeCommand(CLI::App& parent, int& exitCode) {
       "Binary: one per file, or lines of JSON with the bytes under \"hex\".\n"
       "Example: pitchboard-cli decode telemetry --profile mitecom message.bin");
   telemetry->add_option("FILE", text->files, "Files; - is standard input")->required();
-  telemetry->add_option(
-      "--profile", text->profile,
-      "What stands in a message: a file (docs/LIVE.md), or one of\n" + profileNames());
+  telemetry->add_option("--profile", text->profile,
+                        "Format of the messages: a file (docs/LIVE.md), or " + profileNames());
   telemetry->add_flag("--json", text->json, "One JSON object per datagram");
   whenChosen(*telemetry, text, exitCode, decodeTelemetry);
 
   auto referee = std::make_shared<DecodeOptions>();
   CLI::App* controller = decode->add_subcommand(
       "gamecontroller",
-      "Referee packets: one packet per file, or lines of JSON with the bytes under \"hex\"");
+      "Referee packets. One packet per file, or lines of JSON with the bytes under \"hex\".");
   controller->add_option("FILE", referee->files, "Files; - is standard input")->required();
   controller->add_flag("--json", referee->json, "One JSON object per packet");
   whenChosen(*controller, referee, exitCode, decodeGameController);

@@ -7,6 +7,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include <telemetry/series/group_order.h>
+
 #include "commands.h"
 #include "interrupt.h"
 #include "live_json.h"
@@ -53,7 +55,8 @@ Json toJson(const SessionReader& session, const InspectOptions& options) {
     out["until"] = range->end;
   }
   out["groups"] = Json::array();
-  for (const SessionGroup& group : session.groups()) {
+  for (const std::size_t g : listedOrder(session.groups(), &SessionGroup::info)) {
+    const SessionGroup& group = session.groups()[g];
     Json columns = Json::array();
     for (const ColumnInfo& column : group.info.columns) columns.push_back(column.name);
     out["groups"].push_back({{"name", group.info.name},
@@ -97,7 +100,8 @@ void printText(const SessionReader& session, const InspectOptions& options) {
   if (const auto range = session.range()) {
     std::printf("%.3f s to %.3f s\n", range->begin, range->end);
   }
-  for (const SessionGroup& group : session.groups()) {
+  for (const std::size_t g : listedOrder(session.groups(), &SessionGroup::info)) {
+    const SessionGroup& group = session.groups()[g];
     std::printf("  %-8s %10llu rows of %zu columns\n", group.info.name.c_str(),
                 static_cast<unsigned long long>(group.rows), group.info.columns.size());
   }
@@ -144,15 +148,15 @@ void addInspectCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<InspectOptions>();
   CLI::App* command =
       parent.add_subcommand("inspect",
-                            "Say what is in a session, and whether all of it can be "
-                            "read. Ends with 1 when it broke off, is damaged or "
-                            "something in it is not understood.\n"
+                            "Summarize a recording and check that all of it can be "
+                            "read. Exits with 1 if it is truncated or damaged, or if "
+                            "part of it is unknown.\n"
                             "Example: pitchboard-cli inspect match.mcap --events");
   command->add_option("file", options->file, "The session")->required()->type_name("FILE");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->add_flag("--events", options->events, "List the events");
   command->add_flag("--progress", options->progress,
-                    "Say on stderr how far it is, also without a terminal");
+                    "Print progress to stderr even if it is not a terminal");
   command->callback([options, &exitCode] { exitCode = inspectSession(*options); });
 }
 

@@ -212,14 +212,16 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
       "          pitchboard-cli listen --profile our-team.json --from 192.168.0.0/24\n"
       "          pitchboard-cli listen --team ours.json --team theirs.json");
   shared::addDuration(*command, "--duration", options->duration,
-                      "Stop after this time; without it until Ctrl+C");
+                      "Stop after this time instead of at Ctrl+C");
   addListenOptions(*command, options->network);
-  command->add_option("--monitor", options->monitor,
-                      "Ask the referee at this address for monitor mode (controllers of 2026).\n"
-                      "This is the only thing that listen can send, and only to that address");
-  command->add_flag("--json", options->json,
-                    "One JSON object per message, and how each robot is heard\n"
-                    "once a second and at the end (\"type\": \"health\")");
+  command->add_option(
+      "--monitor", options->monitor,
+      "Ask the GameController (2026) at this address for monitor mode: the only thing that "
+      "listen can send");
+  command->add_flag(
+      "--json", options->json,
+      "Print one JSON object per message, and the health of each link once a second and at "
+      "the end (\"type\": \"health\")");
   whenChosen(*command, options, exitCode, listenToRobots);
 }
 

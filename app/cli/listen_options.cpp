@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <thread>
 
+#include <app/usage.h>
 #include <base/try.h>
+#include <robotlink/live/live_teams.h>
 
 namespace pitchboard::cli {
 
@@ -13,13 +15,7 @@ using namespace telemetry;
 
 std::string profileNames() {
   std::string names;
-  std::size_t line = 0;
-  for (const std::string& name : builtInProfiles()) {
-    const bool wraps = line + name.size() > 60;
-    if (!names.empty()) names += wraps ? ",\n" : ", ";
-    line = wraps ? name.size() : line + name.size() + 2;
-    names += name;
-  }
+  for (const std::string& name : builtInProfiles()) names += (names.empty() ? "" : ", ") + name;
   return names;
 }
 
@@ -36,36 +32,53 @@ Result<std::vector<TeamSetup>> loadTeams(const std::vector<std::string>& files) 
 void addListenOptions(CLI::App& command, ListenOptions& options) {
   command
       .add_option("--bind", options.bind,
-                  "Address to receive at; 0.0.0.0 is every interface, with broadcasts")
+                  "Address to receive at; 0.0.0.0 is every interface, including broadcasts")
+      ->type_name("ADDRESS")
       ->capture_default_str();
   command.add_option("--port-base", options.portBase, "Robot n sends to port base + n")
+      ->type_name("PORT")
       ->capture_default_str();
-  command.add_option("--robots", options.robots, "How many ports after the base")
+  command.add_option("--robots", options.robots, "Number of ports after the base")
+      ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
   command
       .add_option("--variables-port-base", options.variablesPortBase,
                   "Robot n sends its variables (pitchboard-agent) to this port base + n; 0: off")
+      ->type_name("PORT")
       ->capture_default_str();
   command
       .add_option("--catalog", options.catalogs,
                   "Map of variables that robots send, besides the published one; may be repeated")
       ->type_name("FILE");
   command.add_option("--gamecontroller-port", options.refereePort, "Port of the referee's packets")
+      ->type_name("PORT")
       ->capture_default_str();
-  command.add_option(
-      "--profile", options.profile,
-      "What stands in a message: a file (docs/LIVE.md), or one of\n" + profileNames());
+  command
+      .add_option("--profile", options.profile,
+                  "Format of the robots' messages: a file (docs/LIVE.md), or " + profileNames())
+      ->type_name("FILE|NAME");
   command.add_option("--team", options.teams,
                      "Team setup as JSON: ports, senders, profile, colour; may be repeated");
   command
-      .add_option("--gamecontroller-version", options.refereeVersion,
-                  "Only this version of the referee's packets; without it the highest")
+      .add_option("--our-team", options.ourTeam,
+                  "Our team: the referee's number or the colour, such as blue or red. Gives its "
+                  "robots their colour, penalties and the first place")
+      ->type_name("N|COLOUR");
+  command
+      .add_option(
+          "--gamecontroller-version", options.refereeVersion,
+          "Accept only this version of the referee's packets; default: the highest received")
+      ->type_name("N")
       ->check(CLI::Range(7, 255));
   command.add_option("--from", options.senders,
-                     "Only robots at these addresses or networks; may be repeated");
+                     "Accept only robots at this address or network; may be repeated");
   command.add_option("--referee-from", options.refereeSenders,
-                     "Only a referee at these addresses or networks; may be repeated");
+                     "Accept only a referee at this address or network; may be repeated");
+  shared::addGroup(
+      command, "Network",
+      {"--bind", "--port-base", "--robots", "--variables-port-base", "--catalog",
+       "--gamecontroller-port", "--gamecontroller-version", "--from", "--referee-from"});
 }
 
 Result<link::LiveOptions> liveOptions(const ListenOptions& options) {
@@ -78,6 +91,7 @@ Result<link::LiveOptions> liveOptions(const ListenOptions& options) {
   live.catalogs = options.catalogs;
   live.refereeVersion = options.refereeVersion;
   live.team.teams = TRY(loadTeams(options.teams));
+  if (!options.ourTeam.empty()) TRY(link::chooseOurTeam(live, options.ourTeam));
   if (!options.profile.empty()) live.profile = TRY(loadProfile(options.profile));
   for (const std::string& sender : options.senders) TRY(live.team.senders.add(sender));
   for (const std::string& sender : options.refereeSenders) TRY(live.refereeSenders.add(sender));

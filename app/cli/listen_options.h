@@ -24,9 +24,10 @@ struct ListenOptions {
   std::vector<std::string> teams;
   std::vector<std::string> senders, refereeSenders;
   int refereeVersion = 0;
+  std::string ourTeam;
 };
 
-/// "b-human, barelangfc, ...": the profiles that are part of the program, over several lines.
+/// "b-human, barelangfc, ...": the profiles that are part of the program.
 std::string profileNames();
 /// The first error of any of the files.
 Result<std::vector<telemetry::TeamSetup>> loadTeams(const std::vector<std::string>& files);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace pitchboard::cli {
 namespace {
@@ -20,6 +21,37 @@ double speedOf(const Outcome& outcome) {
   return outcome.wallSeconds > 0 ? outcome.simulatedSeconds / outcome.wallSeconds : 0.0;
 }
 
+/// The team's programs that were started for the match.
+std::vector<link::ProcessStatus> teamPrograms(const link::SimulatedMatch& match) {
+  auto all = match.robots().processes().statuses();
+  std::erase_if(all, [](const link::ProcessStatus& one) { return !one.foreign; });
+  return all;
+}
+
+std::string robotName(const link::SimulatedMatch& match, RobotId id) {
+  const auto index = match.simulation().indexOf(id);
+  return index ? match.simulation().state().robots[*index].name() : std::to_string(id.value);
+}
+
+/// Share of the cycles that it would have done if it had kept up.
+double keptOf(const link::ProcessStatus& program) {
+  const auto all = static_cast<double>(program.cycles + program.missedCycles);
+  return all > 0.0 ? static_cast<double>(program.cycles) / all : 1.0;
+}
+
+nlohmann::ordered_json programsJson(const link::SimulatedMatch& match) {
+  auto programs = nlohmann::ordered_json::array();
+  for (const link::ProcessStatus& one : teamPrograms(match)) {
+    programs.push_back({{"name", robotName(match, one.robot) + ' ' + one.name},
+                        {"clock", one.clock == link::ProcessClock::Match ? "match" : "real"},
+                        {"speed", one.achieved > 0.0 ? one.achieved : one.speed},
+                        {"kept", keptOf(one)},
+                        {"cycles", one.cycles},
+                        {"missed_cycles", one.missedCycles}});
+  }
+  return programs;
+}
+
 const char* reasonText(const std::string& finishedBy) {
   if (finishedBy == "goal") return "a goal was scored";
   if (finishedBy == "ball_out") return "the ball left the field";
@@ -29,6 +61,7 @@ const char* reasonText(const std::string& finishedBy) {
 }
 
 std::string titleOf(const TeamOutcome& team, bool withSide) {
+  if (!team.name.empty()) return team.name;
   std::string out(info(team.colour).name);
   out.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(out.front())));
   return withSide ? out + " (" + std::string(link::sideName(team.side)) + ')' : out;
@@ -39,18 +72,25 @@ std::string titleOf(const TeamOutcome& team, bool withSide) {
 std::array<TeamOutcome, 2> teamOutcomes(const link::SimulatedMatch& match) {
   using link::Side;
   const sim::WorldState& world = match.simulation().state();
+  link::Teams teams;
+  link::fillTeams(world.settings.teams, teams);
+  const auto nameOf = [&](TeamColor colour) {
+    return teams[static_cast<std::size_t>(colour) + 1].name;
+  };
   if (world.game) {
     std::array<TeamOutcome, 2> out;
     for (std::size_t i = 0; i < out.size(); ++i) {
       const sim::GameTeam& team = world.game->teams[i];
       out[i] = {team.colour, i == world.game->leftTeam() ? Side::Left : Side::Right, team.number,
-                team.score};
+                team.score, nameOf(team.colour)};
     }
     return out;
   }
-  const TeamOutcome left{link::teamOn(Side::Left, world.robots), Side::Left, {}, world.score.left};
-  const TeamOutcome right{
-      link::teamOn(Side::Right, world.robots), Side::Right, {}, world.score.right};
+  TeamOutcome left{link::teamOn(Side::Left, world.robots), Side::Left, {}, world.score.left, {}};
+  TeamOutcome right{
+      link::teamOn(Side::Right, world.robots), Side::Right, {}, world.score.right, {}};
+  left.name = nameOf(left.colour);
+  right.name = nameOf(right.colour);
   if (right.colour < left.colour) return {right, left};
   return {left, right};
 }
@@ -85,6 +125,13 @@ void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
   std::printf("  Time       %.2f s simulated in %.2f s, %" PRIu64 " ticks, %.1f x real time\n",
               outcome.simulatedSeconds, outcome.wallSeconds, outcome.ticks, speedOf(outcome));
   std::printf("  State hash %s\n", hashText(match.simulation().hash()).c_str());
+  for (const link::ProcessStatus& one : teamPrograms(match)) {
+    if (one.missedCycles == 0) continue;
+    std::printf("  Missed     %" PRIu64 " of %" PRIu64
+                " cycles by %s %s, which reaches %.1f x real time\n",
+                one.missedCycles, one.cycles + one.missedCycles,
+                robotName(match, one.robot).c_str(), one.name.c_str(), one.achieved);
+  }
   if (now.robots.empty()) return;
   std::printf("  Robot   walked   kicks  falls  unknown actions\n");
   for (const sim::RobotSnapshot& robot : now.robots) {
@@ -111,22 +158,25 @@ void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
   for (const TeamOutcome& team : teamOutcomes(match)) {
     Json one{{"side", link::sideName(team.side)}, {"colour", info(team.colour).name}};
     if (team.number) one["number"] = *team.number;
+    if (!team.name.empty()) one["name"] = team.name;
     one["score"] = team.score;
     teams.push_back(std::move(one));
   }
-  const Json out{{"scenario", match.scenario().name},
-                 {"seed", settings.seed},
-                 {"physics", settings.physics},
-                 {"noise", outcome.noise},
-                 {"ticks", outcome.ticks},
-                 {"simulated_seconds", outcome.simulatedSeconds},
-                 {"wall_seconds", outcome.wallSeconds},
-                 {"speed", speedOf(outcome)},
-                 {"score", {{"left", now.score.left}, {"right", now.score.right}}},
-                 {"teams", std::move(teams)},
-                 {"robots", std::move(robots)},
-                 {"finished_by", outcome.finishedBy},
-                 {"state_hash", hashText(match.simulation().hash())}};
+  Json out{{"scenario", match.scenario().name},
+           {"seed", settings.seed},
+           {"physics", settings.physics},
+           {"noise", outcome.noise},
+           {"ticks", outcome.ticks},
+           {"simulated_seconds", outcome.simulatedSeconds},
+           {"wall_seconds", outcome.wallSeconds},
+           {"speed", speedOf(outcome)},
+           {"score", {{"left", now.score.left}, {"right", now.score.right}}},
+           {"teams", std::move(teams)},
+           {"robots", std::move(robots)},
+           {"finished_by", outcome.finishedBy},
+           {"state_hash", hashText(match.simulation().hash())},
+           {"repeatable", match.isRepeatable()}};
+  if (Json programs = programsJson(match); !programs.empty()) out["programs"] = std::move(programs);
   std::printf("%s\n", out.dump().c_str());
 }
 

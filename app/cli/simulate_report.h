@@ -25,6 +25,7 @@ struct TeamOutcome {
   link::Side side = link::Side::Left;  ///< of the goal that it defends at the end
   std::optional<int> number;           ///< the referee's; empty without one
   int score = 0;
+  std::string name{};  ///< the scenario's; empty: it has none
 };
 /// The referee's teams in their order; without a referee by colour, as in TeamColor.
 std::array<TeamOutcome, 2> teamOutcomes(const link::SimulatedMatch& match);

@@ -110,7 +110,7 @@ class TestAttachedRobots : public QObject {
     QCOMPARE(robot.identity.name(), std::string("R4"));
     QCOMPARE(robot.boardKey.value_or(-1), key);
     QVERIFY(robot.battery && std::abs(robot.battery->volts - 16.0) < 1e-9);
-    QVERIFY(robot.lamps[1].state == telemetry::ProcessState::Working);
+    QVERIFY(robot.lamps[1].state == telemetry::HeartbeatState::Working);
     QVERIFY(robot.poseKnown() && !robot.timedOut());
     // The corner of a field of 9 by 6 m: 1.5 m to the right of its centre, 0.5 m below.
     QCOMPARE(robot.pose.position.x, 1.5);

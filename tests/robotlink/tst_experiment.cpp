@@ -13,6 +13,8 @@
 #include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/experiment/run_player.h>
 #include <robotlink/experiment/situation.h>
+#include <robotlink/match/simulated_match.h>
+#include <robotlink/scenario/referee_rule_sets.h>
 
 #include "../support/frame_settings.h"
 #include "experiment_rig.h"
@@ -63,7 +65,9 @@ class TestExperiment : public QObject {
   void goalsAreCountedForTheTeam();
   void recordedRunEndsInTheSameState();
   void separateProcessesEndInTheSameState();
-  void aSituationKeepsWhatTheRefereeHadSaid();
+  void aSituationStartsInAnyState_data();
+  void aSituationStartsInAnyState();
+  void aSituationKeepsTheGame();
 };
 
 void TestExperiment::runsDependOnTheirNumberOnly() {
@@ -227,14 +231,52 @@ void TestExperiment::separateProcessesEndInTheSameState() {
   for (const std::size_t number : {5U, 6U}) QCOMPARE(hashes[number], player->play(number)->hash);
 }
 
-void TestExperiment::aSituationKeepsWhatTheRefereeHadSaid() {
+void TestExperiment::aSituationStartsInAnyState_data() {
+  QTest::addColumn<QString>("game");
+  QTest::addColumn<QString>("wanted");
+  QTest::newRow("a penalty kick")
+      << R"({"state": "playing", "clock": 300, "set_play": {"kind": "penalty_kick", "team": "blue"}})"
+      << "penalty kick";
+  QTest::newRow("a goal kick")
+      << R"({"state": "playing", "clock": 300, "set_play": {"kind": "goal_kick", "team": "red"}})"
+      << "goal kick";
+  QTest::newRow("one minute left") << R"({"state": "playing", "clock": 60, "half": 2})"
+                                   << "";
+}
+void TestExperiment::aSituationStartsInAnyState() {
+  QFETCH(QString, game);
+  QFETCH(QString, wanted);
+  // Two are sent off, by a patch of the scenario's JSON.
+  const Experiment experiment = experimentFrom(
+      R"({"version": 1, "name": "state", "scenario": "match", "runs": 1, "stop": {"duration": 5},
+          "set": {"game": )" +
+      game.toStdString() +
+      R"(, "robots[B2].penalty.kind": "sent_off", "robots[R3].penalty.kind": "sent_off"}})");
+  const Scenario& scenario = experiment.conditions.front().scenario;
+  QVERIFY(scenario.settings.referee && scenario.game);
+  auto match = SimulatedMatch::create(scenario, {});
+  QVERIFY2(match.has_value(), match ? "" : match.error().text().c_str());
+  for (int i = 0; i < 60 * 5; ++i) match->tick();
+  const sim::GameState& now = *match->simulation().state().game;
+  QCOMPARE(QString::fromUtf8(sim::wordsOf(now.setPlay()).data()), wanted);
+  if (wanted.isEmpty()) QCOMPARE(sim::secondsOf(now.clock, 60.0), 55);
+  const sim::Snapshot seen = match->simulation().snapshot();
+  for (const auto& [colour, shirt] :
+       {std::pair(TeamColor::Blue, 2), std::pair(TeamColor::Red, 3)}) {
+    QCOMPARE(now.player(colour, shirt)->penalty, sim::PenaltyKind::SentOff);
+    for (const sim::RobotSnapshot& robot : seen.robots) {
+      if (robot.identity.team != colour || robot.identity.number != shirt) continue;
+      QVERIFY(std::abs(robot.pose.position.y) > scenario.settings.field.halfWidth());
+    }
+  }
+}
+
+void TestExperiment::aSituationKeepsTheGame() {
   MatchFrame frame;
   ownSettings(frame).physics = "rigid-body";
   frame.snapshot.ball = {1.0, 0.5};
   frame.snapshot.ballVelocity = {-0.5, 0.25};
   frame.snapshot.clock = 33.0;
-  frame.referee.emplace();
-  frame.referee->state = "READY";
   for (const int id : {1, 2}) {
     RobotFrame robot;
     robot.identity.id = {id};
@@ -242,9 +284,12 @@ void TestExperiment::aSituationKeepsWhatTheRefereeHadSaid() {
     robot.pose = {{-1.0 * id, 0.25}, 0.5};
     frame.robots.push_back(robot);
   }
-  frame.robots[1].penalty = Penalty{"pushing", 20};
   Scenario base;
-  base.settings.referee = sim::RefereeRules{};
+  base.settings.referee = **refereeRuleSet("humanoid-2021");
+  sim::GameStart& game = base.game.emplace();
+  game.state = sim::PlayState::Ready;
+  game.countdown = 12.0;
+  game.robots[RobotId{2}] = {.penalty = sim::PenaltyKind::Pushing, .left = 20.0};
   base.writes = {{{}, "COM_REFEREE", 2, 0.0}};
   MomentOptions options;
   options.base = &base;
@@ -260,14 +305,13 @@ void TestExperiment::aSituationKeepsWhatTheRefereeHadSaid() {
   QVERIFY2(text.has_value(), text ? "" : text.error().text().c_str());
   const Experiment read = experimentFrom(*text);
   const Scenario& scenario = read.conditions.front().scenario;
-  QVERIFY(!scenario.settings.referee);
+  QVERIFY(scenario.settings.referee == base.settings.referee);
+  QVERIFY(scenario.game == base.game);
   QCOMPARE(scenario.robots.size(), std::size_t{2});
   QCOMPARE(scenario.robots[1].pose.position, (Point{-2.0, 0.25}));
   QCOMPARE(scenario.ball, (Point{1.0, 0.5}));
   QCOMPARE(scenario.ballVelocity, (Velocity{-0.5, 0.25}));
-  QCOMPARE(scenario.writes.size(), std::size_t{2});
-  QVERIFY((scenario.writes[0] == BlackboardWrite{{1}, "COM_REFEREE", 11, 0.0}));
-  QVERIFY((scenario.writes[1] == BlackboardWrite{{2}, "COM_REFEREE", 1, 0.0}));
+  QVERIFY(scenario.writes.empty());  // the match tells its robots
   QCOMPARE(read.stop.duration, 12.0);
   QVERIFY(read.stop.goal && !read.stop.goalAgainst);
   // What is offered can be used.

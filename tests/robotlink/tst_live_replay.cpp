@@ -102,7 +102,6 @@ class TestLiveReplay : public QObject {
  private slots:
   void initTestCase() {
     LiveOptions options = freeOptions(robots);
-    options.colour = TeamColor::Yellow;  // until the referee gives one
     m_path = m_folder.filePath("live.mcap").toStdString();
     LiveWatch watch(options);
     QTRY_COMPARE(watch.details().network.ports.size(), std::size_t{robots + 1});
@@ -140,7 +139,6 @@ class TestLiveReplay : public QObject {
       }
       if (step == 5) {
         options.ourTeam = m_screen->last().referee->teams[1].number;
-        options.colour = TeamColor::Yellow;
         watch.setOptions(options);
       }
       QTRY_VERIFY(received());
@@ -168,7 +166,7 @@ class TestLiveReplay : public QObject {
     QVERIFY(any([](const RobotFrame& r) { return r.link->errorCount > 0; }));
     QVERIFY(any([](const RobotFrame& r) { return r.battery && r.battery->low; }));
     QVERIFY(any(
-        [](const RobotFrame& r) { return r.lamps[1].state == telemetry::ProcessState::Silent; }));
+        [](const RobotFrame& r) { return r.lamps[1].state == telemetry::HeartbeatState::Silent; }));
     QVERIFY(last.robots[0].identity.team != m_frames.front().robots[0].identity.team);
     QVERIFY(m_frames.front().robots[0].link->messages >= 1);
   }

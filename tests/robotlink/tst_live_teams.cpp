@@ -87,6 +87,46 @@ class TestLiveTeams : public QObject {
     QVERIFY(found);
   }
 
+  void ourTeamIsChosenByNumberOrColour() {
+    LiveOptions options;
+    for (const char* wrong : {"", "green", "-1", "65536", "12a"}) {
+      QVERIFY2(!chooseOurTeam(options, wrong), wrong);
+    }
+    QVERIFY(chooseOurTeam(options, "12"));
+    QCOMPARE(options.ourTeam, 12);
+    QCOMPARE(robotName({0, 3, 0}, teamsOf(options, nullptr)), std::string("Robot 3"));
+    QVERIFY(chooseOurTeam(options, "red"));
+    QCOMPARE(options.ourTeam, 0);
+    QCOMPARE(robotName({0, 3, 0}, teamsOf(options, nullptr)), std::string("R3"));
+    // Once a referee is heard, the number is that of the team with this colour.
+    RefereeState state;
+    state.teams[0].number = 12;
+    state.teams[0].colour = 0;
+    state.teams[1].number = 7;
+    state.teams[1].colour = 1;
+    QCOMPARE(ourNumber(options, &state), 7);
+    QCOMPARE(teamsOf(options, &state)[0].number, 7);
+    const auto again = LiveState::read(LiveState(options).text(options, 0.0, start), start);
+    QVERIFY(again && again->options.ourColour == TeamColor::Red);
+  }
+
+  void ourTeamIsListedFirst() {
+    LiveOptions options = twoTeams();
+    const auto order = [&options] {
+      const Teams teams = teamsOf(options, nullptr);
+      std::vector<RobotKey> robots{{2, 3, 0}, {1, 10, 0}, {1, 2, 1}, {1, 2, 0}};
+      std::ranges::sort(robots, {}, [&](const RobotKey& robot) { return orderOf(robot, teams); });
+      return robots;
+    };
+    const std::vector<RobotKey> first{{1, 2, 0}, {1, 2, 1}, {1, 10, 0}, {2, 3, 0}};
+    const std::vector<RobotKey> second{{2, 3, 0}, {1, 2, 0}, {1, 2, 1}, {1, 10, 0}};
+    QVERIFY(order() == first);
+    QVERIFY(chooseOurTeam(options, "7"));
+    QVERIFY(order() == second);
+    QVERIFY(chooseOurTeam(options, "blue"));
+    QVERIFY(order() == first);
+  }
+
   /// Its variables have the name of the robot.
   void messagesOfARobotWithABlackboardStandBesideIt() {
     const LiveOptions options = twoTeams();

@@ -62,6 +62,37 @@ class TestMatchSampler : public QObject {
   Q_OBJECT
 
  private slots:
+  void aBallOutOfViewIsAHoleButTheRowKeepsTheWord() {
+    Rig rig;
+    rig.play(60 * 60);
+    const auto id = *rig.store->find("B2", "VISION_BALL_DIST");
+    const auto lostId = *rig.store->find("B2", "VISION_LOST");
+    const auto view = rig.store->view(id.group);
+    std::vector<telemetry::Sample> distance, lost;
+    view->samples(id.column, {0.0, 60.0}, distance);
+    view->samples(lostId.column, {0.0, 60.0}, lost);
+    double time = 0.0;
+    std::vector<std::uint32_t> words;
+    std::vector<double> values;
+    int holes = 0, numbers = 0;
+    for (std::size_t i = 0; i < distance.size(); ++i) {
+      QCOMPARE(std::isnan(distance[i].value), lost[i].value == 1.0);
+      (lost[i].value == 1.0 ? holes : numbers) += 1;
+      QVERIFY(view->rowAt(distance[i].time, time, words, values));
+      QVERIFY(std::isfinite(std::bit_cast<float>(words[id.column])));
+    }
+    QVERIFY2(holes > 0 && numbers > 0, qPrintable(QString("%1 %2").arg(holes).arg(numbers)));
+    // "-1 = not lately" is no coordinate.
+    const telemetry::ColumnInfo& ball = rig.column("B2", "LOCALIZATION_BALL_X");
+    QCOMPARE(ball.lostBy, std::string("LOCALIZATION_BALL_X"));
+    QCOMPARE(ball.lostWhen, -1.0);
+    // Sessions of earlier versions do not say it.
+    telemetry::GroupInfo old = view->info();
+    for (telemetry::ColumnInfo& column : old.columns) column.lostBy.clear(), column.lostWhen = 0.0;
+    VariableMeanings::published().describeLost(old);
+    QVERIFY(old == view->info());
+  }
+
   void oneSampleServesWhoeverWantsIt() {
     class Places : public telemetry::RowSink {
      public:

@@ -5,11 +5,14 @@
 
 #include <random>
 
+#include <robotlink/frame/referee_view.h>
 #include <robotlink/match/match_runner.h>
+#include <robotlink/match/referee_packet.h>
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/moment_reader.h>
 #include <robotlink/session/moment_scenario.h>
 #include <robotlink/session/recorded_frame.h>
+#include <simcore/rules/game_start.h>
 
 #include "../support/frame_settings.h"
 
@@ -139,7 +142,7 @@ class TestMoments : public QObject {
       const MatchFrame frame = frames.frameAt(m_match->store, static_cast<double>(tick) * oneTick);
       compareFrame(frame, m_match->witness->seen.at(tick));
       if (tick < 60) continue;
-      QVERIFY(frame.robots[0].lamps[1].state == telemetry::ProcessState::Working);
+      QVERIFY(frame.robots[0].lamps[1].state == telemetry::HeartbeatState::Working);
       QVERIFY(!frame.robots[0].behaviour.empty());
     }
   }
@@ -347,13 +350,94 @@ class TestMoments : public QObject {
     QVERIFY(made.scenario.ball == Point{});
     QCOMPARE(made.notes,
              (std::vector<std::string>{"No robot sees the ball; it lies on the centre mark."}));
-    frame.referee.emplace();
-    frame.referee->state = "SET";
-    frame.referee->secondsLeft = 500;
-    made = scenarioFromMoment(frame);
-    QCOMPARE(made.scenario.clock, 100.0);
-    QVERIFY(!made.scenario.clockRunning);
-    QCOMPARE(made.scenario.writes.at(0).value, 12.0);
+  }
+
+  void simulateFromHereKeepsTheGame_data() {
+    QTest::addColumn<int>("version");
+    QTest::addColumn<int>("size");
+    QTest::newRow("v9") << 9 << 244;
+    QTest::newRow("v12") << 12 << 688;
+    QTest::newRow("v20") << 20 << 158;
+  }
+  void simulateFromHereKeepsTheGame() {
+    QFETCH(int, version);
+    QFETCH(int, size);
+    // The game that the referee tells of.
+    Scenario scenario = loadScenario("match").value();
+    scenario.settings.referee->packetVersion = version;
+    scenario.settings.referee->packetSize = size;
+    scenario.settings.teams = {{TeamColor::Blue, 12, "RoboFEI"}, {TeamColor::Red, 5, ""}};
+    sim::GameStart& game = scenario.game.emplace();
+    game.state = sim::PlayState::Playing;
+    game.half = 2;
+    game.clock = 451.5;
+    game.left = TeamColor::Red;
+    game.teams[TeamColor::Blue].score = 3;
+    game.robots[RobotId{2}] = {.penalty = sim::PenaltyKind::Incapable, .left = 21.0};
+    const auto told = SimulatedMatch::create(scenario, {}).value();
+    // Seen live.
+    MatchFrame frame;
+    frame.origin = FrameOrigin::Live;
+    frame.truthKnown = frame.ballKnown = false;
+    frame.teams = {{}, {12, "RoboFEI", TeamColor::Blue, true}, {5, "", TeamColor::Red, false}};
+    frame.referee = viewOf(refereePacket(told.simulation().state(), 1, true));
+    for (const sim::RobotSnapshot& one : told.simulation().snapshot().robots) {
+      RobotFrame& robot = frame.robots.emplace_back();
+      static_cast<sim::RobotSnapshot&>(robot) = one;
+      robot.key = {one.identity.team == TeamColor::Blue ? 1 : 2, one.identity.number, 0};
+      robot.belief = robot.pose;
+    }
+    const MomentScenario made = scenarioFromMoment(frame);
+    const auto match = SimulatedMatch::create(made.scenario, {});
+    QVERIFY2(match, match ? "" : match.error().text().c_str());
+    QCOMPARE(QString::fromStdString(made.notes.empty() ? "" : made.notes.back()),
+             QString("The game goes on from the referee's packet: PLAYING with 452 s left."));
+    const sim::WorldState& world = match->simulation().state();
+    QCOMPARE(world.game->state, sim::PlayState::Playing);
+    QCOMPARE(world.game->half, 2);
+    QCOMPARE(sim::secondsOf(world.game->clock, 60.0), 452);
+    QCOMPARE(world.score, (sim::Score{0, 3}));
+    QCOMPARE(world.game->teams[0].number, 12);
+    QVERIFY(world.game->swapped);
+    const sim::GamePlayer& player = *world.game->player(TeamColor::Blue, 2);
+    QCOMPARE(player.penalty, sim::PenaltyKind::Incapable);
+    QCOMPARE(sim::secondsOf(player.ticksLeft, 60.0), 21);
+    QCOMPARE(world.settings.referee->packetVersion, version);
+    QVERIFY(world.settings.referee->automatic && !world.game->obeyed);
+    const auto text = scenarioToJson(made.scenario);
+    QVERIFY(scenarioFromJson(text, "moment.json"));
+  }
+
+  void theExactGameIsTakenToTheTick() {
+    Scenario base = loadScenario("match").value();
+    base.runtimes[TeamColor::Blue] = {};
+    base.robots[1].runtime = runtimeChoiceFromText("own").value();
+    auto match = SimulatedMatch::create(loadScenario("match").value(), {}).value();
+    for (int i = 0; i < 60 * 65 + 7; ++i) match.tick();
+    const sim::WorldState& state = match.simulation().state();
+    base.game = sim::gameStartOf(state);
+    MatchFrame frame;
+    frame.snapshot.tick = state.tick;
+    for (const sim::RobotSnapshot& one : match.simulation().snapshot().robots) {
+      static_cast<sim::RobotSnapshot&>(frame.robots.emplace_back()) = one;
+    }
+    ownSettings(frame).field = base.settings.field;
+    ownSettings(frame).physics = "rigid-body";
+    MomentOptions options;
+    options.base = &base;
+    Scenario made = scenarioFromMoment(frame, options).scenario;
+    QVERIFY(made.robots[1].runtime == base.robots[1].runtime);
+    made.robots[1].runtime = {};
+    const auto goesOn = SimulatedMatch::create(made, {});
+    QVERIFY2(goesOn, goesOn ? "" : goesOn.error().text().c_str());
+    const sim::GameState& now = *goesOn->simulation().state().game;
+    QCOMPARE(now.clock, state.game->clock);
+    QCOMPARE(now.state, state.game->state);
+    QCOMPARE(now.stateTicks, state.game->stateTicks);
+    QVERIFY(now.teams == state.game->teams);
+    // A robot that is left out takes nothing with it.
+    frame.robots.pop_back();
+    QVERIFY(SimulatedMatch::create(scenarioFromMoment(frame, options).scenario, {}));
   }
 
   void missingColumnsAreNoError() {

@@ -32,6 +32,16 @@ class NaiveSeries {
   }
 
   double value(std::uint32_t column, const NaiveRow& row) const {
+    const ColumnInfo& described = info.columns[column];
+    const auto flag = std::ranges::find(info.columns, described.lostBy, &ColumnInfo::name);
+    const bool lost =
+        !described.lostBy.empty() &&
+        word(static_cast<std::uint32_t>(flag - info.columns.begin()), row) == described.lostWhen;
+    return lost ? std::numeric_limits<double>::quiet_NaN() : word(column, row);
+  }
+
+  /// As it was appended.
+  double word(std::uint32_t column, const NaiveRow& row) const {
     std::size_t words = 0, values = 0;
     for (std::uint32_t c = 0; c < column; ++c) {
       (info.columns[c].type == ColumnType::Float64 ? values : words) += 1;

@@ -26,6 +26,13 @@ inline GroupInfo group(const std::string& name = "B1") {
   for (const char* column : {"F_CONSTANT", "F_RARE", "F_NOISE", "F_HOLES"}) {
     info.columns.push_back({column, ColumnType::Float32, "cm", "Floats", ColumnKind::Number, {}});
   }
+  // Not seen while another column, or the column itself, says so.
+  info.columns.push_back({"F_SEEN", ColumnType::Float32, "cm", "Floats", ColumnKind::Number, {}});
+  info.columns.back().lostBy = "RARE";
+  info.columns.back().lostWhen = 1;
+  info.columns.push_back({"F_SELF", ColumnType::Float32, "cm", "Floats", ColumnKind::Number, {}});
+  info.columns.back().lostBy = "F_SELF";
+  info.columns.back().lostWhen = -1;
   for (const char* column : {"D_NOISE", "D_HOLES", "D_NAN"}) {
     info.columns.push_back({column, ColumnType::Float64, "m", "Doubles", ColumnKind::Number, {}});
   }
@@ -54,7 +61,7 @@ class Source {
     const auto f = [](double v) { return std::bit_cast<std::uint32_t>(static_cast<float>(v)); };
     return {time,
             {7, static_cast<std::uint32_t>(m_rare), static_cast<std::uint32_t>(m_random()), f(-0.0),
-             f(m_rare * 0.5), f(noise), f(holes)},
+             f(m_rare * 0.5), f(noise), f(holes), f(noise), f(m_rare)},
             {noise, holes, notANumber}};
   }
 

@@ -216,6 +216,44 @@ class TestSeriesStore : public QObject {
     for (int i = 0; i < 300; ++i) store.append(id, viewOf(source.at(i * 0.1)));
     for (int i = 0; i <= 120; ++i) store.append(id, viewOf(source.at(40.0 + i / 60.0)));
     QVERIFY(std::abs(store.view(id)->rate() - 60.0) < 0.01);
+    // Edits of a match that is paused are rows of one time.
+    for (int i = 0; i < 130; ++i) store.append(id, viewOf(source.at(42.0)));
+    QVERIFY(std::abs(store.view(id)->rate() - 60.0) < 0.01);
+  }
+
+  void aLostValueIsAHoleInViewsOnly() {
+    SeriesStore store;
+    GroupInfo info = group();
+    const GroupId id = store.addGroup(info);
+    const auto seen = store.find("B1", "F_SEEN")->column;
+    Source source(1);
+    constexpr int rows = 4200;  // a chunk, blocks and rows that are not yet a block
+    std::vector<std::uint32_t> stale;
+    for (int i = 0; i < rows; ++i) {
+      NaiveRow row = source.at(i);
+      row.words[1] = i % 200 < 100 ? 0 : 1;  // RARE: 1 is lost
+      stale.push_back(row.words[seen]);
+      store.append(id, viewOf(row));
+    }
+    // Further columns come: what is kept behind all columns stays what it is.
+    info.columns.push_back({"D_MORE", ColumnType::Float64, "", "", ColumnKind::Number, {}});
+    QCOMPARE(store.addGroup(info), id);
+    const auto view = store.view(id);
+    double time = 0.0;
+    std::vector<std::uint32_t> words;
+    std::vector<double> values;
+    for (int i = 0; i < rows; ++i) {
+      const bool lost = i % 200 >= 100;
+      QCOMPARE(std::isnan(view->at(seen, i)->value), lost);
+      QVERIFY(view->rowAt(i, time, words, values));
+      QCOMPARE(words[seen], stale[static_cast<std::size_t>(i)]);
+    }
+    QVERIFY(std::isnan(view->latest(seen)->value) == ((rows - 1) % 200 >= 100));
+    QCOMPARE(view->statistics(seen, {0.0, 199.0}).samples, std::uint64_t{100});
+    QVERIFY(std::isnan(view->at(static_cast<std::uint32_t>(info.columns.size()) - 1, 5.0)->value));
+    // Said otherwise, the rows so far are another group's.
+    info.columns[seen].lostWhen = 0;
+    QVERIFY(store.addGroup(info) != id);
   }
 
   void groups() {
@@ -231,7 +269,7 @@ class TestSeriesStore : public QObject {
     QCOMPARE(store.addGroup(info), id);
     QCOMPARE(store.view(id)->rows(), std::size_t{1});
     QCOMPARE(store.view(id)->info().attributes.at("team"), std::string("blue"));
-    QCOMPARE(*store.find("B1", "D_NOISE"), (SeriesId{id, 7}));
+    QCOMPARE(*store.find("B1", "D_NOISE"), (SeriesId{id, 9}));
     QVERIFY(!store.find("B1", "NOT_THERE") && !store.find("B2", "NOISE"));
 
     info.columns.pop_back();
@@ -266,11 +304,11 @@ class TestSeriesStore : public QObject {
     QCOMPARE(store.findGroup("R1"), std::optional(id));
     QVERIFY(!store.findGroup("B1"));
     // A curve of its former name goes on, until another group has the name.
-    QCOMPARE(store.find("B1", "D_NOISE"), std::optional(SeriesId{id, 7}));
+    QCOMPARE(store.find("B1", "D_NOISE"), std::optional(SeriesId{id, 9}));
     info.name = "B1";
     const GroupId other = store.addGroup(info);
     QVERIFY(other != id);
-    QCOMPARE(store.find("B1", "D_NOISE"), std::optional(SeriesId{other, 7}));
+    QCOMPARE(store.find("B1", "D_NOISE"), std::optional(SeriesId{other, 9}));
     // Where there is a group of the name, that one goes on.
     QCOMPARE(store.renameGroup("R1", info), other);
     QCOMPARE(store.view(id)->rows(), std::size_t{2});

@@ -43,6 +43,11 @@ class Pages : public SeriesPages {
     return Stretch{m_held, m_rows->view(group)};
   }
   void want(TimeRange range) override { wanted = range; }
+  bool isReading(TimeRange range) override { return wanted == range; }
+  std::optional<SeriesStatistics> statistics(GroupId, std::uint32_t, TimeRange) override {
+    return std::nullopt;
+  }
+  void setListener(std::function<void()>) override {}
   std::uint64_t revision() override { return 1; }
   TimeRange range() override { return m_range; }
   std::size_t bytes() override { return 0; }
@@ -92,9 +97,12 @@ class TestSessionSummary : public QObject {
     std::normal_distribution<double> noise(100.0, 20.0);
     for (int i = 0; i < rowCount; ++i) {
       const double time = i / rate;
-      const auto distance = static_cast<float>(i % 1000 == 3 ? std::nan("") : noise(random));
-      const std::uint32_t words[] = {7, static_cast<std::uint32_t>(i / 9000 % 2),
-                                     std::bit_cast<std::uint32_t>(distance)};
+      auto distance = static_cast<float>(i % 1000 == 3 ? std::nan("") : noise(random));
+      // Now and then nothing is seen, and the word is an old one.
+      const bool lost = i % 700 == 5;
+      const std::uint32_t words[] = {7, lost ? 2U : static_cast<std::uint32_t>(i / 9000 % 2),
+                                     std::bit_cast<std::uint32_t>(lost ? 1e6F : distance)};
+      if (lost) distance = std::nanf("");
       const double values[] = {std::sin(time), 1.5};
       (*writer)->append(two, {time, words, values});
       m_distance.times.push_back(time);
@@ -192,7 +200,8 @@ class TestSessionSummary : public QObject {
     const double until = 20'000 / rate;
     ExportSelection part;
     part.range = {0.0, until};
-    part.variables = {"VISION_BALL_DIST"};
+    // Without the variable that says when the ball was lost the old values would count.
+    part.variables = {"VISION_BALL_DIST", "VISION_WORKING"};
     const std::string shorter = m_folder.filePath("shorter.mcap").toStdString();
     QVERIFY(exportFile(*whole, ExportFormat::Mcap, part, shorter));
     const auto clip = SessionReader::open(shorter);
@@ -200,8 +209,8 @@ class TestSessionSummary : public QObject {
     const GroupSummary summary = clip->summary(1);
     QCOMPARE(summary.rows(), std::uint64_t{20'001});
     QCOMPARE(summary.range()->end, until);
-    QCOMPARE(summary.parts[0].columns.size(), std::size_t{1});
-    QCOMPARE(summary.parts[0].columns[0].max, whole->summary(1).parts[0].columns[2].max);
+    QCOMPARE(summary.parts[0].columns.size(), std::size_t{2});
+    QCOMPARE(summary.parts[0].columns[1].max, whole->summary(1).parts[0].columns[2].max);
     // Again and again.
     const std::string again = m_folder.filePath("again.mcap").toStdString();
     QVERIFY(exportFile(*clip, ExportFormat::Mcap, {}, again));

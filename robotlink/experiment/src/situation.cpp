@@ -7,14 +7,11 @@
 
 #include <base/short_name.h>
 #include <base/try.h>
-#include <robotlink/cognition/referee_orders.h>
 
 namespace pitchboard::link {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr const char* refereeVariable = "COM_REFEREE";
 
 constexpr std::array<SituationTemplate, 9> templates{{
     {.words = "A goal is scored in at least 8 of 10 runs",
@@ -53,32 +50,11 @@ Json stopJson(const RunStop& stop) {
   return out;
 }
 
-/// What a robot hears of a simulated or recorded game.
-int wordFor(const RobotFrame& robot, const RefereeView& referee) {
-  const bool penalised = robot.penalty.has_value();
-  if (penalised || referee.stopped) return refereeStop;
-  if (referee.state == "PLAYING") return refereePlay;
-  if (referee.state == "READY") return refereeReady;
-  return referee.state == "SET" ? refereeSet : refereeStop;
-}
-
 }  // namespace
 
 MomentScenario situationScenario(const MatchFrame& frame, const MomentOptions& options) {
   MomentScenario out = scenarioFromMoment(frame, options);
-  Scenario& scenario = out.scenario;
-  scenario.stop = {};
-  if (!frame.referee) return out;
-  scenario.settings.referee.reset();
-  std::erase_if(scenario.writes,
-                [](const BlackboardWrite& write) { return write.variable == refereeVariable; });
-  std::vector<BlackboardWrite> words;
-  for (const ScenarioRobot& robot : scenario.robots) {
-    const RobotFrame* seen = frame.robot(robot.identity.id);
-    const int word = wordFor(seen ? *seen : RobotFrame{}, *frame.referee);
-    words.push_back({robot.identity.id, refereeVariable, static_cast<double>(word), 0.0});
-  }
-  scenario.writes.insert(scenario.writes.begin(), words.begin(), words.end());
+  out.scenario.stop = {};
   return out;
 }
 

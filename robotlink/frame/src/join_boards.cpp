@@ -96,7 +96,10 @@ std::vector<RobotKey> joinBoards(MatchFrame& frame, std::vector<RobotFrame> boar
       frame.robots.push_back(std::move(board));
     }
   }
-  if (!boards.empty()) frame.teamBalls = agreedBalls(frame.robots);
+  if (!boards.empty()) {
+    frame.sortRobots();
+    frame.teamBalls = agreedBalls(frame.robots);
+  }
   return keys;
 }
 

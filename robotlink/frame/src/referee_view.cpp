@@ -70,8 +70,9 @@ RefereeTeamView teamView(const RefereeState& state, const RefereeTeam& team) {
 
 }  // namespace
 
-RefereeView viewOf(const RefereeState& packet, int ourTeam) {
+RefereeView viewOf(const RefereeState& packet, const Teams& teams) {
   RefereeView view;
+  view.packet = packet;
   view.version = packet.version;
   view.state = telemetry::stateName(packet.state);
   describeSetPlay(packet, view.setPlay, view.phase);
@@ -84,8 +85,8 @@ RefereeView viewOf(const RefereeState& packet, int ourTeam) {
   view.kickOffTeam = packet.kickOffTeam;
   for (std::size_t i = 0; i < view.teams.size(); ++i) {
     view.teams[i] = teamView(packet, packet.teams[i]);
+    view.teams[i].name = teamName(packet.teams[i].number, teams);
   }
-  view.ourTeam = packet.team(ourTeam) != nullptr ? ourTeam : 0;
   return view;
 }
 

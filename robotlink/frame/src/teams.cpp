@@ -44,6 +44,25 @@ std::optional<TeamColor> colourAt(int place, const Teams& teams) {
   return index < teams.size() ? teams[index].colour : std::nullopt;
 }
 
+std::string_view teamName(int number, const Teams& teams) {
+  const auto found = std::ranges::find(teams, number, &Team::number);
+  return number == 0 || found == teams.end() ? std::string_view() : std::string_view(found->name);
+}
+
+RobotOrder orderOf(const RobotKey& robot, const Teams& teams) {
+  const auto place = static_cast<std::size_t>(robot.team);
+  return {place >= teams.size() || !teams[place].ours, robot};
+}
+
+void fillTeams(const std::vector<sim::TeamSettings>& settings, Teams& teams) {
+  teams = teamsByColour();
+  for (const sim::TeamSettings& from : settings) {
+    Team& team = teams[static_cast<std::size_t>(from.colour) + 1];
+    team.name = from.name;
+    team.number = from.number;
+  }
+}
+
 const Teams& teamsByColour() {
   static const Teams all = [] {
     Teams made(1);
@@ -71,8 +90,9 @@ std::string robotName(const RobotKey& robot, const Teams& teams) {
   const bool isThere = static_cast<std::size_t>(robot.team) < teams.size();
   for (int earlier = colour ? 0 : 1; isThere && earlier < robot.team; ++earlier) {
     if (colourAt(earlier, teams) != colour) continue;
-    const std::string& title = teams[static_cast<std::size_t>(robot.team)].name;
-    return (title.empty() ? "Team " + std::to_string(robot.team) : title) + " " + behind;
+    const Team& team = teams[static_cast<std::size_t>(robot.team)];
+    if (!team.name.empty()) return team.name + " " + behind;
+    return "Team " + std::to_string(team.number > 0 ? team.number : robot.team) + " " + behind;
   }
   return (colour ? std::string(info(*colour).letter) : std::string(unknownTeam)) + behind;
 }

@@ -46,20 +46,20 @@ void sleepUntil(Clock::time_point until) {
 
 class AttachedRobots::Reader {
  public:
-  Reader(const AttachedBoard& board, std::string name, BoardMap map,
+  Reader(const AttachedBoard& board, std::string name, AttachedTo place, BoardMap map,
          std::function<double()> seconds)
       : m_board(board),
         m_map(std::move(map)),
         m_columns(m_map.catalog),
         m_seconds(std::move(seconds)) {
-    m_group = {std::move(name),
-               m_columns.columns(),
-               {{"key", std::to_string(board.key)},
-                {"attached", "1"},
-                {"rate", shortest(board.rate)},
-                {"robot", std::to_string(board.number())},
-                {"number", std::to_string(board.number())},
-                {"team", std::string(info(board.team).name)}}};
+    m_group = {
+        std::move(name),
+        m_columns.columns(),
+        {{"key", std::to_string(board.key)}, {"attached", "1"}, {"rate", shortest(board.rate)}}};
+    if (place == AttachedTo::Live) {
+      m_group.attributes["robot"] = m_group.attributes["number"] = std::to_string(board.number());
+      m_group.attributes["team"] = info(board.team).name;
+    }
     for (const Variable& variable : m_map.catalog.variables()) {
       const int offset = variable.type == VariableType::Int ? 0 : m_map.layout.floatOffset;
       m_places.push_back(static_cast<std::size_t>(variable.index + offset));
@@ -203,8 +203,9 @@ telemetry::LinkHealth boardLink(double age, double rate, bool gone) {
   return link;
 }
 
-AttachedRobots::AttachedRobots(std::function<double()> seconds, VariableCatalog catalog)
-    : m_seconds(std::move(seconds)), m_catalog(std::move(catalog)) {}
+AttachedRobots::AttachedRobots(std::function<double()> seconds, AttachedTo place,
+                               VariableCatalog catalog)
+    : m_seconds(std::move(seconds)), m_place(place), m_catalog(std::move(catalog)) {}
 AttachedRobots::~AttachedRobots() = default;
 
 void AttachedRobots::set(const std::vector<AttachedBoard>& boards,
@@ -223,7 +224,7 @@ void AttachedRobots::set(const std::vector<AttachedBoard>& boards,
     std::erase_if(m_readers, [&](const auto& reader) { return reader->board() == boards[i]; });
     if (auto map = mapOf(boards[i], m_catalog)) {
       m_readers.push_back(
-          std::make_unique<Reader>(boards[i], names[i], std::move(*map), m_seconds));
+          std::make_unique<Reader>(boards[i], names[i], m_place, std::move(*map), m_seconds));
     }
   }
 }

@@ -51,9 +51,10 @@ std::vector<RobotReplyView> repliesOf(const telemetry::RefereeTracker& tracker,
 }
 
 /// As it is heard: from whom, how long ago, and what else is known.
-RefereeView receivedView(const telemetry::RefereeTracker& tracker, int ourTeam,
+RefereeView receivedView(const telemetry::RefereeTracker& tracker, const Teams& teams, int ourTeam,
                          telemetry::WallTime now) {
-  RefereeView view = viewOf(*tracker.state(), ourTeam);
+  RefereeView view = viewOf(*tracker.state(), teams);
+  if (tracker.state()->team(ourTeam) != nullptr) view.ourTeam = ourTeam;
   view.sender = tracker.sender()->text();
   view.age = telemetry::secondsOf(*tracker.age(now));
   view.timedOut = tracker.timedOut(now);
@@ -88,18 +89,13 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
   frame.snapshot.time = time;
   frame.speed = 1.0;
   const RefereeState* state = referee.state() ? &*referee.state() : nullptr;
+  frame.teams = teamsOf(options, state);
   if (state != nullptr) {
-    frame.referee = receivedView(referee, options.ourTeam, team.time);
+    frame.referee = receivedView(referee, frame.teams, ourNumber(options, state), team.time);
     frame.snapshot.score = {frame.referee->teams[0].score, frame.referee->teams[1].score};
     frame.snapshot.clock = frame.referee->secondsLeft;
     frame.snapshot.clockRunning = frame.referee->state == "PLAYING" && !frame.referee->timedOut;
-    for (RefereeTeamView& side : frame.referee->teams) {
-      for (const telemetry::TeamSetup& setup : options.team.teams) {
-        if (setup.number == side.number && side.number != 0) side.name = setup.name;
-      }
-    }
   }
-  frame.teams = teamsOf(options, state);
   frame.robots.reserve(team.robots.size());
   for (const RobotStatus& robot : team.robots) {
     RobotFrame& out = frame.robots.emplace_back();
@@ -126,6 +122,7 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
     out.action = out.decided.value_or(0);
   }
   frame.teamBalls = agreedBalls(frame.robots);
+  frame.sortRobots();
   return frame;
 }
 

@@ -7,6 +7,7 @@
 
 #include <robotlink/frame/join_boards.h>
 #include <robotlink/live/live_teams.h>
+#include <telemetry/series/group_order.h>
 
 namespace pitchboard::link {
 namespace {
@@ -281,7 +282,10 @@ void LivePipeline::addBoards(MatchFrame& frame, AttachedRobots* attached, WallTi
     robots[keys[i]] = robot.name;
     m_sentRobots[senders[i]] = keys[i];
     BoardRowKeeper::Name& name = names[known[i]];
-    name = {robot.name, {{"team", std::string(info(robot.identity.team).name)}}};
+    GroupInfo listed;
+    telemetry::setOrder(listed, orderOf(keys[i], frame.teams));
+    name = {robot.name, std::move(listed.attributes)};
+    name.attributes["team"] = info(robot.identity.team).name;
     if (!robot.ownName.empty()) name.attributes["name"] = robot.ownName;
     if (senders[i].first == telemetry::Address{}) continue;
     name.attributes["place"] = std::to_string(keys[i].team);
@@ -344,6 +348,9 @@ LiveDetails LivePipeline::details(WallTime now) const {
   LiveDetails details;
   details.team = m_state.monitor.status(now);
   details.teams = m_teams;
+  std::ranges::stable_sort(details.team.robots, {}, [this](const telemetry::RobotStatus& robot) {
+    return orderOf(robot.key, m_teams);
+  });
   details.referee = m_state.referee.counts();
   details.unknownReferee = m_unknownReferee;
   details.unknownRefereeReason = m_unknownReason;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <base/actions.h>
+#include <telemetry/series/group_order.h>
 
 namespace pitchboard::telemetry {
 namespace {
@@ -53,8 +54,9 @@ std::string nameOf(const LiveRowsOptions& options, const RobotKey& robot) {
   return board == options.boards.end() ? robotName(robot, options.teams) : board->second;
 }
 
-GroupInfo linkGroup(const std::string& robot) {
+GroupInfo linkGroup(const std::string& robot, const RobotOrder& order) {
   GroupInfo info{robot + " link", {}, {{"link", robot}}};
+  setOrder(info, order);
   for (const HealthColumn& column : healthColumns) {
     info.columns.push_back({column.name,
                             ColumnType::Float64,
@@ -140,9 +142,9 @@ void LiveRows::setOptions(LiveRowsOptions options, const std::vector<Renaming>& 
 /// Its groups get this name, and the attributes that it has now.
 void LiveRows::renew(Robot& robot, std::string name) {
   const std::string before = robot.groupName();
-  const std::string link = linkGroup(std::exchange(robot.name, std::move(name))).name;
+  const std::string link = linkGroup(std::exchange(robot.name, std::move(name)), {}).name;
   robot.hasBoard = m_options.boards.contains(robot.key);
-  robot.link = m_sink->renameGroup(link, linkGroup(robot.name));
+  robot.link = m_sink->renameGroup(link, linkGroup(robot.name, orderOf(robot.key, m_options.teams)));
   if (!robot.columns.empty()) robot.group = m_sink->renameGroup(before, groupOf(robot));
   // A group that was there already does not go back.
   robot.lastTime = std::max(robot.lastTime, m_newest);
@@ -165,7 +167,7 @@ LiveRows::Robot* LiveRows::robotOf(const RobotKey& key, const Sender& sender) {
   robot.sender = sender;
   robot.name = nameOf(m_options, key);
   robot.hasBoard = m_options.boards.contains(key);
-  robot.link = m_sink->addGroup(linkGroup(robot.name));
+  robot.link = m_sink->addGroup(linkGroup(robot.name, orderOf(key, m_options.teams)));
   m_robots.push_back(std::move(robot));
   return &m_robots.back();
 }
@@ -209,6 +211,7 @@ GroupInfo LiveRows::groupOf(const Robot& robot) const {
     group.attributes["team"] = info(*colour).name;
   }
   if (robot.hasBoard) group.attributes["link"] = robot.name;
+  setOrder(group, orderOf(robot.key, m_options.teams));
   if (m_options.attributes) group.attributes.merge(m_options.attributes(robot.key));
   return group;
 }

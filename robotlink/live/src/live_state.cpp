@@ -40,6 +40,7 @@ std::optional<telemetry::TeamSetup> teamFrom(const Json& json) {
 }
 
 Json optionsJson(const LiveOptions& options) {
+  const std::string ours(options.ourColour ? info(*options.ourColour).name : "");
   const telemetry::BatteryLimits& battery = options.team.battery;
   Json teams = Json::array();
   for (const telemetry::TeamSetup& team : options.team.teams) teams.push_back(teamJson(team));
@@ -48,7 +49,7 @@ Json optionsJson(const LiveOptions& options) {
               {"field", options.field.name},
               {"ourTeam", options.ourTeam},
               {"refereeVersion", options.refereeVersion},
-              {"colour", info(options.colour).name},
+              {"ourColour", ours},
               {"colourByNumber", options.colourByNumber},
               {"timeout", options.team.timeout.count()},
               {"duplicateWindow", options.team.duplicateWindow.count()},
@@ -73,7 +74,7 @@ LiveOptions optionsFrom(const Json& json) {
   if (auto field = sim::fieldByName(lenient::text(json, "field"))) options.field = *field;
   options.ourTeam = whole<int>(json, "ourTeam");
   options.refereeVersion = whole<int>(json, "refereeVersion");
-  options.colour = teamColour(lenient::text(json, "colour")).value_or(options.colour);
+  options.ourColour = teamColour(lenient::text(json, "ourColour"));
   options.colourByNumber = flag(json, "colourByNumber");
   options.team.timeout = Duration(whole(json, "timeout", options.team.timeout.count()));
   options.team.duplicateWindow =

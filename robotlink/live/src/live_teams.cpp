@@ -2,6 +2,7 @@
 #include <robotlink/live/live_teams.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include <robotlink/blackboard/variable_meanings.h>
 #include <telemetry/wire/gamecontroller.h>
@@ -38,19 +39,53 @@ telemetry::MonitorOptions monitorOptions(const LiveOptions& options) {
   return made;
 }
 
+Result<void> chooseOurTeam(LiveOptions& options, std::string_view text) {
+  constexpr int mostNumber = 65535;
+  options.ourColour = teamColour(text);
+  options.ourTeam = 0;
+  if (options.ourColour) return {};
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, options.ourTeam);
+  if (read.ec == std::errc() && read.ptr == end && options.ourTeam >= 0 &&
+      options.ourTeam <= mostNumber) {
+    return {};
+  }
+  return failure(ErrorCode::InvalidArgument,
+                 "Our team is a number from 0 to 65535 or a colour such as blue or red.",
+                 "--our-team " + std::string(text));
+}
+
+int ourNumber(const LiveOptions& options, const telemetry::RefereeState* referee) {
+  if (options.ourTeam != 0 || !options.ourColour || referee == nullptr) return options.ourTeam;
+  for (const telemetry::RefereeTeam& team : referee->teams) {
+    if (teamColour(telemetry::colourWords(team.colour)) == options.ourColour) return team.number;
+  }
+  return 0;
+}
+
 Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee) {
   const auto toldOf = [referee](int number) -> std::optional<TeamColor> {
     const auto* team = referee != nullptr && number > 0 ? referee->team(number) : nullptr;
     return team == nullptr ? std::nullopt : teamColour(telemetry::colourWords(team->colour));
   };
   const std::vector<TeamSetup>& setups = options.team.teams;
-  Teams teams(1);
-  if (setups.empty()) teams[0] = {options.ourTeam, {}, toldOf(options.ourTeam), true};
-  for (const TeamSetup& setup : setups) {
-    const bool ours = teams.size() == 1;
-    const int number = setup.number > 0 || !ours ? setup.number : options.ourTeam;
-    teams.push_back({number, setup.title(), setup.colour ? setup.colour : toldOf(number), ours});
+  const int chosen = ourNumber(options, referee);
+  // The team that was chosen, else the first one.
+  auto ours = setups.end();
+  if (chosen != 0) ours = std::ranges::find(setups, chosen, &TeamSetup::number);
+  if (ours == setups.end() && options.ourColour) {
+    ours = std::ranges::find(setups, options.ourColour, &TeamSetup::colour);
   }
+  if (ours == setups.end()) ours = setups.begin();
+  Teams teams(1);
+  if (setups.empty()) teams[0] = {chosen, {}, toldOf(chosen), true};
+  for (auto setup = setups.begin(); setup != setups.end(); ++setup) {
+    const bool isOurs = setup == ours;
+    const int number = setup->number > 0 || !isOurs ? setup->number : chosen;
+    teams.push_back({number, setup->name, setup->colour ? setup->colour : toldOf(number), isOurs});
+  }
+  Team& our = *std::ranges::find(teams, true, &Team::ours);
+  if (!our.colour) our.colour = options.ourColour;
   return teams;
 }
 
@@ -61,7 +96,7 @@ TeamColor drawnColour(const LiveOptions& options, const RobotKey& robot, const T
   if (const auto known = colourAt(robot.team, teams)) return *known;
   // Two teams are two colours.
   const auto ours = std::ranges::find(teams, true, &Team::ours);
-  const auto first = static_cast<std::size_t>(ours->colour.value_or(options.colour));
+  const auto first = static_cast<std::size_t>(ours->colour.value_or(TeamColor::Blue));
   const auto further = static_cast<std::size_t>(std::max(robot.team - 1, 0));
   return teamColors[(first + further) % teamColors.size()].color;
 }

@@ -59,13 +59,19 @@ class Walk {
         if (robot.known[i] > 0.0) s.uptime[i] = robot.worked[i] / robot.known[i];
       }
       if (robot.present > 0.0) s.link->received = s.seconds / robot.present;
+      s.order = orderOf(id, m_last.teams);
+      const auto place = static_cast<std::size_t>(id.team);
+      if (place < m_last.teams.size()) m_sums.team(s.team).name = m_last.teams[place].name;
       m_sums.add(s);
     }
     // Both teams of the referee, also the one of which no robot is heard.
     for (std::size_t i = 0; m_last.referee && i < m_last.referee->teams.size(); ++i) {
       const RefereeTeamView& side = m_last.referee->teams[i];
       const auto colour = std::ranges::find(teamColors, side.colour, &TeamColorInfo::name);
-      if (colour != teamColors.end()) m_sums.team(colour->color).score = side.score;
+      if (colour == teamColors.end()) continue;
+      TeamSummary& team = m_sums.team(colour->color);
+      team.score = side.score;
+      if (!side.name.empty()) team.name = side.name;
     }
     return m_sums.finish();
   }
@@ -95,10 +101,10 @@ class Walk {
     if (seen.fallen && !robot.wasFallen) ++out.falls;
     robot.wasFallen = seen.fallen;
     for (std::size_t i = 0; i < seen.lamps.size(); ++i) {
-      const telemetry::ProcessState state = seen.lamps[i].state;
-      if (state == telemetry::ProcessState::Unknown) continue;
+      const telemetry::HeartbeatState state = seen.lamps[i].state;
+      if (state == telemetry::HeartbeatState::Unknown) continue;
       robot.known[i] += step;
-      if (state == telemetry::ProcessState::Working) robot.worked[i] += step;
+      if (state == telemetry::HeartbeatState::Working) robot.worked[i] += step;
     }
     if (!seen.poseKnown()) return;
     const Point here = seen.pose.position;
@@ -159,7 +165,10 @@ SessionStatistics TeamSums::finish() {
     out.teams.push_back(std::move(team));
   }
   out.robots = std::move(m_robots);
-  std::ranges::stable_sort(out.robots, {}, &RobotSummary::team);
+  std::ranges::stable_sort(out.robots, {}, &RobotSummary::order);
+  std::ranges::stable_sort(out.teams, {}, [&](const TeamSummary& team) {
+    return std::ranges::find(out.robots, team.team, &RobotSummary::team) - out.robots.begin();
+  });
   return out;
 }
 

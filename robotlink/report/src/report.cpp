@@ -48,6 +48,10 @@ std::string teamClass(TeamColor team) {
   return std::string(info(team).name);
 }
 
+std::string titleOf(const TeamSummary& team) {
+  return team.name.empty() ? capital(info(team.team).name) : escaped(team.name);
+}
+
 std::string badge(const RobotSummary& robot) {
   return "<span class=\"badge " + teamClass(robot.team) + "\">" + escaped(robot.name) + "</span>";
 }
@@ -74,12 +78,13 @@ std::string teams(const SessionStatistics& s) {
   if (s.teams.empty()) return {};
   std::string out = "<div class=\"score\">\n";
   for (const TeamSummary& team : s.teams) {
-    out += "<div class=\"team " + teamClass(team.team) + "\">" + capital(info(team.team).name) +
-           " team<b>" + (team.score ? std::to_string(*team.score) : "–") +
-           "</b><span class=\"quiet\">" + clockText(team.ballSeconds) + " with the ball · " +
-           std::to_string(team.kicks) + (team.kicks == 1 ? " kick" : " kicks") + " · " +
-           std::to_string(team.falls) + (team.falls == 1 ? " fall" : " falls") + " · " +
-           fixed(team.distance, 0) + " m</span></div>\n";
+    out += "<div class=\"team " + teamClass(team.team) + "\">" + titleOf(team) +
+           (team.name.empty() ? " team<b>" : "<b>") +
+           (team.score ? std::to_string(*team.score) : "–") + "</b><span class=\"quiet\">" +
+           clockText(team.ballSeconds) + " with the ball · " + std::to_string(team.kicks) +
+           (team.kicks == 1 ? " kick" : " kicks") + " · " + std::to_string(team.falls) +
+           (team.falls == 1 ? " fall" : " falls") + " · " + fixed(team.distance, 0) +
+           " m</span></div>\n";
   }
   return out + "</div>\n";
 }
@@ -166,10 +171,9 @@ std::string charts(const SessionStatistics& s) {
   }
   for (const TeamSummary& team : s.teams) {
     if (team.ballCurve.empty()) continue;
-    ball += "<figure class=\"" + teamClass(team.team) + "\"><h3><span>" +
-            capital(info(team.team).name) + "</span><span class=\"quiet\">" +
-            clockText(team.ballSeconds) + "</span></h3>" + shareChart(team.ballCurve, s.range) +
-            "</figure>\n";
+    ball += "<figure class=\"" + teamClass(team.team) + "\"><h3><span>" + titleOf(team) +
+            "</span><span class=\"quiet\">" + clockText(team.ballSeconds) + "</span></h3>" +
+            shareChart(team.ballCurve, s.range) + "</figure>\n";
   }
   std::string out;
   if (!ball.empty()) {

@@ -9,6 +9,7 @@
 #include <robotlink/frame/build_robot.h>
 #include <robotlink/report/quantile.h>
 #include <robotlink/session/row_slot.h>
+#include <telemetry/series/group_order.h>
 
 #include "live_statistics.h"
 
@@ -138,6 +139,9 @@ void RowStatistics::add(telemetry::GroupId id, const telemetry::GroupInfo& group
       robot = &m_robots[group.name];
       robot->out.name = group.name;
       robot->out.team = teamOf(group);
+      const RobotKey key{static_cast<int>(teamOf(group)) + 1, attributeNumber(group, "number"), 0};
+      robot->out.order = telemetry::orderOf(group).value_or(RobotOrder{true, key});
+      m_sums.team(teamOf(group)).name = attribute(group, "team_name");
       robot->facesLeft = attribute(group, "imu180") == "1";
     } else if (findSlot(group, {"SCORE_LEFT"}).present()) {
       m_match = id;

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include <base/lined_json.h>
+#include <robotlink/frame/teams.h>
+#include <telemetry/series/group_order.h>
 
 #include "match_columns.h"
 
@@ -103,6 +105,8 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
   m_words.resize(m_board->size());
   m_truth.resize(truth.size());
   m_sampled.clear();
+  Teams teams;
+  fillTeams(settings.teams, teams);
   for (const sim::RobotSnapshot& robot : m_snapshot.robots) {
     const sim::RobotIdentity& identity = robot.identity;
     const RobotSlot& slot = *match.robots().find(identity.id);
@@ -115,6 +119,9 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
                        {"key", std::to_string(sampled.key)},
                        {"imu180", identity.imuStartsAt180 ? "1" : "0"},
                        {"behaviour", sampled.behaviour}};
+    telemetry::setOrder(info, orderOf(keyOf(identity), teams));
+    const std::string& team = teams[static_cast<std::size_t>(identity.team) + 1].name;
+    if (!team.empty()) info.attributes["team_name"] = team;
     m_groups.push_back(std::move(info));
     m_sampled.push_back(std::move(sampled));
   }

@@ -12,6 +12,7 @@
 #include <robotlink/cognition/referee_orders.h>
 #include <robotlink/frame/build_robot.h>
 #include <robotlink/live/board_columns.h>
+#include <robotlink/match/referee_packet.h>
 #include <robotlink/scenario/moment_writes.h>
 #include <simcore/world/limits.h>
 #include <simcore/world/places.h>
@@ -19,9 +20,8 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double gap = 0.01;           // m between robots that were pushed apart
-constexpr int mostPushes = 400;        // rounds; a crowd that needs more stays as it is
-constexpr double halfSeconds = 600.0;  // Humanoid League, rules of every year since 2013
+constexpr double gap = 0.01;     // m between robots that were pushed apart
+constexpr int mostPushes = 400;  // rounds; a crowd that needs more stays as it is
 
 class Maker {
  public:
@@ -95,6 +95,7 @@ class Maker {
         if (known.identity.id != robot.identity.id) continue;
         out.model = known.model;
         out.parameters = known.parameters;
+        out.runtime = known.runtime;
       }
     }
     const std::string name = robot.identity.name();
@@ -302,39 +303,79 @@ class Maker {
   void takeGame() {
     Scenario& scenario = m_out.scenario;
     const sim::GameSnapshot& snapshot = m_frame.snapshot;
-    scenario.score = {std::max(0, snapshot.score.left), std::max(0, snapshot.score.right)};
-    double clock = snapshot.clock;
-    bool running = snapshot.clockRunning;
-    int word = refereePlay;
-    if (m_frame.referee) {
-      const RefereeView& referee = *m_frame.referee;
-      // The referee counts down, this clock up.
-      clock = halfSeconds - referee.secondsLeft;
-      running = referee.state == "PLAYING" && !referee.stopped;
-      word = running                    ? refereePlay
-             : referee.state == "READY" ? refereeReady
-             : referee.state == "SET"   ? refereeSet
-                                        : refereeStop;
-      note("The referee said " + referee.state + " with " + std::to_string(referee.secondsLeft) +
-           " s left; the clock here counts from the beginning of a half of 10 minutes.");
-    } else if (!m_frame.truthKnown) {
-      clock = 0.0;
-      running = true;
-    }
-    scenario.clock = std::isfinite(clock) ? std::clamp(clock, 0.0, 1e6) : 0.0;
-    scenario.clockRunning = running;
     scenario.writes = writesFrom(scenario.writes, snapshot.time, [&](RobotId id) {
       return std::any_of(scenario.robots.begin(), scenario.robots.end(),
                          [id](const auto& robot) { return robot.identity.id == id; });
     });
+    scenario.game.reset();
+    scenario.score = {};
+    scenario.clock = 0.0;
+    scenario.clockRunning = true;
+    if (takeExactGame() || takePacket()) {
+      // What the match tells its robots.
+      std::erase_if(scenario.writes, [](const auto& w) { return w.variable == refereeVariable; });
+      return;
+    }
+    scenario.settings.referee.reset();
+    scenario.score = {std::max(0, snapshot.score.left), std::max(0, snapshot.score.right)};
+    if (m_frame.truthKnown) {
+      const double clock = snapshot.clock;
+      scenario.clock = std::isfinite(clock) ? std::clamp(clock, 0.0, 1e6) : 0.0;
+      scenario.clockRunning = snapshot.clockRunning;
+    }
     const bool told = std::any_of(scenario.writes.begin(), scenario.writes.end(),
                                   [](const auto& w) { return w.variable == refereeVariable; });
     // Without a word of the referee robots stand still for ever.
-    if (!told || m_frame.referee) {
-      std::erase_if(scenario.writes, [](const auto& w) { return w.variable == refereeVariable; });
+    if (!told) {
       scenario.writes.insert(scenario.writes.begin(),
-                             {{}, refereeVariable, static_cast<double>(word), 0.0});
+                             {{}, refereeVariable, static_cast<double>(refereePlay), 0.0});
     }
+  }
+
+  /// The game of the moment to the tick, of the robots that are there.
+  bool takeExactGame() {
+    Scenario& scenario = m_out.scenario;
+    if (!m_options.base || !m_options.base->game || !scenario.settings.referee) return false;
+    sim::GameStart game = *m_options.base->game;
+    const auto isGone = [&](RobotId id) {
+      return std::none_of(scenario.robots.begin(), scenario.robots.end(),
+                          [id](const auto& robot) { return robot.identity.id == id; });
+    };
+    std::erase_if(game.robots, [&](const auto& one) { return isGone(one.first); });
+    if (game.touch && isGone(game.touch->robot)) game.touch.reset();
+    if (game.setPlay && isGone(game.setPlay->kicker)) game.setPlay->kicker = {};
+    scenario.game = std::move(game);
+    return true;
+  }
+
+  bool takePacket() {
+    if (!m_frame.referee || !m_frame.referee->packet) return false;
+    Scenario& scenario = m_out.scenario;
+    const RefereeView& referee = *m_frame.referee;
+    if (!m_options.base || !m_options.base->settings.referee) scenario.settings.referee.reset();
+    takeTeams();
+    if (const auto taken = link::takeGame(*referee.packet, scenario); !taken) {
+      note("The referee's game was left out: " + taken.error().text());
+      return false;
+    }
+    note("The game goes on from the referee's packet: " + referee.state + " with " +
+         std::to_string(referee.secondsLeft) + " s left.");
+    return true;
+  }
+
+  /// The referee's numbers of the teams whose robots are there.
+  void takeTeams() {
+    auto& teams = m_out.scenario.settings.teams;
+    if (!teams.empty()) return;
+    for (const RobotFrame& robot : m_frame.robots) {
+      const auto place = static_cast<std::size_t>(robot.key.team);
+      const TeamColor colour = robot.identity.team;
+      const bool known = std::any_of(teams.begin(), teams.end(),
+                                     [colour](const auto& team) { return team.colour == colour; });
+      if (known || place >= m_frame.teams.size() || m_frame.teams[place].number == 0) continue;
+      teams.push_back({colour, m_frame.teams[place].number, m_frame.teams[place].name});
+    }
+    if (teams.size() > 2) teams.clear();
   }
 
   static constexpr const char* refereeVariable = "COM_REFEREE";

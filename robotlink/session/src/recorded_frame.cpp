@@ -210,6 +210,9 @@ RobotFrame RecordedFrames::robotOf(std::size_t group, double time, LampMemory& l
   robot.key = l.isBoard()
                   ? RobotKey{attributeNumber(info, "place", placeByColour), identity.number, 0}
                   : frame.freeKey(keyOf(identity));
+  if (const auto team = attribute(info, "team_name"); !team.empty() && !l.isBoard()) {
+    frame.teams[static_cast<std::size_t>(robot.key.team)].name = team;
+  }
   robot.name = identity.name();
   robot.ownName = attribute(info, "name");
   if (!attribute(info, "key").empty()) robot.boardKey = attributeNumber(info, "key");

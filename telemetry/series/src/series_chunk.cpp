@@ -7,15 +7,17 @@ namespace pitchboard::telemetry::series {
 
 Staging::Staging(const Layout& layout)
     : times(std::make_unique_for_overwrite<double[]>(blockRows)),
-      words(std::make_unique_for_overwrite<std::uint32_t[]>(std::size_t{blockRows} * layout.words)),
+      words(std::make_unique_for_overwrite<std::uint32_t[]>(std::size_t{blockRows} *
+                                                            layout.keptWords)),
       values(std::make_unique_for_overwrite<double[]>(std::size_t{blockRows} * layout.values)),
       bytes(sizeof(Staging) +
-            blockRows * (8 + std::size_t{4} * layout.words + std::size_t{8} * layout.values)) {}
+            blockRows * (8 + std::size_t{4} * layout.keptWords + std::size_t{8} * layout.values)) {}
 
 bool Staging::put(const RowView& row, const Layout& layout) {
   const std::uint32_t at = rows.load(std::memory_order_relaxed);
   times[at] = row.time;
-  std::ranges::copy(row.words, words.get() + std::size_t{at} * layout.words);
+  auto* kept = std::ranges::copy(row.words, words.get() + std::size_t{at} * layout.keptWords).out;
+  for (const Losable& one : layout.losable) *kept++ = one.shown(row.words);
   std::ranges::copy(row.values, values.get() + std::size_t{at} * layout.values);
   rows.store(at + 1, std::memory_order_release);
   return at + 1 < blockRows;
@@ -45,7 +47,7 @@ std::shared_ptr<const Chunk> Chunk::ofStaging(const Staging& full, const Layout&
   auto chunk = std::make_shared<Chunk>();
   chunk->m_times.assign(full.times.get(), full.times.get() + blockRows);
   chunk->m_columns.resize(layout.slots.size());
-  transpose(full.words.get(), layout.words,
+  transpose(full.words.get(), layout.keptWords,
             [&](std::uint32_t index, const std::array<std::uint32_t, blockRows>& words) {
               const std::uint32_t c = layout.wordColumns[index];
               if (layout.slots[c].type == ColumnType::Int32) {
@@ -81,19 +83,21 @@ std::shared_ptr<const Chunk> Chunk::join(std::span<const Unit> blocks, const Lay
   return chunk;
 }
 
-std::shared_ptr<const Chunk> Chunk::widened(const Layout& wide) const {
+std::shared_ptr<const Chunk> Chunk::widened(const Layout& narrow, const Layout& wide) const {
   auto chunk = std::make_shared<Chunk>();
   chunk->m_times = m_times;
   chunk->m_columns.reserve(wide.slots.size());
-  for (std::size_t c = 0; c < wide.slots.size(); ++c) {
-    if (c >= m_columns.size()) {
-      chunk->m_columns.push_back(Column::ofConstant(std::numeric_limits<double>::quiet_NaN()));
-      continue;
-    }
-    withType(wide.slots[c].type, [&](auto zero) {
-      chunk->m_columns.push_back(m_columns[c].copy<decltype(zero)>(blocks()));
+  const auto take = [&](std::size_t slot) {
+    withType(narrow.slots[slot].type, [&](auto zero) {
+      chunk->m_columns.push_back(m_columns[slot].copy<decltype(zero)>(blocks()));
     });
+  };
+  const std::size_t known = narrow.info.columns.size();
+  for (std::size_t c = 0; c < known; ++c) take(c);
+  for (std::size_t c = known; c < wide.info.columns.size(); ++c) {
+    chunk->m_columns.push_back(Column::ofConstant(std::numeric_limits<double>::quiet_NaN()));
   }
+  for (std::size_t slot = known; slot < narrow.slots.size(); ++slot) take(slot);
   chunk->count(wide);
   return chunk;
 }

@@ -22,7 +22,7 @@ struct Staging {
 
   std::atomic<std::uint32_t> rows{0};
   std::unique_ptr<double[]> times;         // [64]
-  std::unique_ptr<std::uint32_t[]> words;  // [64][layout.words]
+  std::unique_ptr<std::uint32_t[]> words;  // [64][layout.keptWords]
   std::unique_ptr<double[]> values;        // [64][layout.values]
   std::size_t bytes = 0;
 };
@@ -35,8 +35,8 @@ class Chunk {
   static std::shared_ptr<const Chunk> ofStaging(const Staging& full, const Layout& layout);
   static std::shared_ptr<const Chunk> join(std::span<const Unit> blocks, const Layout& layout);
 
-  /// The same rows with the further columns of `wide`, which are holes.
-  std::shared_ptr<const Chunk> widened(const Layout& wide) const;
+  /// The same rows, until now of `narrow`, with the further columns of `wide`, which are holes.
+  std::shared_ptr<const Chunk> widened(const Layout& narrow, const Layout& wide) const;
 
   std::uint32_t blocks() const { return static_cast<std::uint32_t>(m_times.size()) / blockRows; }
   std::uint32_t rows() const { return static_cast<std::uint32_t>(m_times.size()); }
@@ -47,7 +47,7 @@ class Chunk {
  private:
   void count(const Layout& layout);
   std::vector<double> m_times;
-  std::vector<Column> m_columns;  // in the order of the group's columns
+  std::vector<Column> m_columns;  // of the layout's slots
   std::size_t m_bytes = 0;
 };
 

@@ -118,7 +118,9 @@ void Group::widen(std::shared_ptr<const Layout> layout) {
   const std::lock_guard lock(m_write);
   const auto now = view();
   const std::size_t staged = m_staging->rows.load(std::memory_order_relaxed);
-  const auto widened = [&](const Unit& unit) { return Unit(unit.chunk->widened(*layout)); };
+  const auto widened = [&](const Unit& unit) {
+    return Unit(unit.chunk->widened(*m_next.layout, *layout));
+  };
   auto full = std::make_shared<Units>();
   full->reserve(m_next.full->size());
   for (const Unit& unit : *m_next.full) full->push_back(widened(unit));

@@ -2,10 +2,15 @@
 #pragma once
 
 // Where the values of a group's columns stand in a row, and the sizes everything is cut into.
-// Private to the library. Immutable once made.
+// A column with holes that another column tells of (ColumnInfo::lostBy) is kept twice: as it came,
+// for whole rows, and behind all columns with the holes in it, for everything that reads one
+// column. Private to the library. Immutable once made.
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -24,9 +29,43 @@ struct Slot {
   std::uint32_t index = 0;  ///< among the words, or among the Float64 values
 };
 
+/// A column of which a row can say that nothing was seen. Words are numbered as in a row.
+struct Losable {
+  std::uint32_t column = 0, word = 0;  ///< the column and its word
+  std::uint32_t flag = 0;              ///< the word that tells
+  std::uint32_t lost = 0;              ///< bits of that word where nothing was seen
+
+  /// The column's word, or NaN.
+  std::uint32_t shown(std::span<const std::uint32_t> row) const {
+    return row[flag] == lost ? std::bit_cast<std::uint32_t>(hole) : row[word];
+  }
+  static constexpr float hole = std::numeric_limits<float>::quiet_NaN();
+};
+
+inline std::vector<Losable> losableColumns(const GroupInfo& group) {
+  // 32-bit columns stand first: a column's number is that of its word.
+  const auto count = static_cast<std::uint32_t>(
+      std::ranges::find(group.columns, ColumnType::Float64, &ColumnInfo::type) -
+      group.columns.begin());
+  std::vector<Losable> all;
+  for (std::uint32_t c = 0; c < count; ++c) {
+    const ColumnInfo& column = group.columns[c];
+    if (column.lostBy.empty() || column.type != ColumnType::Float32) continue;
+    const auto flag = static_cast<std::uint32_t>(
+        std::ranges::find(group.columns, column.lostBy, &ColumnInfo::name) - group.columns.begin());
+    if (flag >= count) continue;
+    const bool isInt = group.columns[flag].type == ColumnType::Int32;
+    all.push_back({c, c, flag,
+                   isInt ? static_cast<std::uint32_t>(static_cast<std::int32_t>(
+                               std::clamp(column.lostWhen, -2147483648.0, 2147483647.0)))
+                         : std::bit_cast<std::uint32_t>(static_cast<float>(column.lostWhen))});
+  }
+  return all;
+}
+
 struct Layout {
-  explicit Layout(GroupInfo group) : info(std::move(group)) {
-    slots.reserve(info.columns.size());
+  explicit Layout(GroupInfo group) : info(std::move(group)), losable(losableColumns(info)) {
+    slots.reserve(info.columns.size() + losable.size());
     for (std::uint32_t c = 0; c < info.columns.size(); ++c) {
       const ColumnType type = info.columns[c].type;
       auto& columns = type == ColumnType::Float64 ? valueColumns : wordColumns;
@@ -35,11 +74,29 @@ struct Layout {
     }
     words = static_cast<std::uint32_t>(wordColumns.size());
     values = static_cast<std::uint32_t>(valueColumns.size());
+    for (std::size_t i = 0; i < losable.size(); ++i) {
+      const auto slot = static_cast<std::uint32_t>(slots.size());
+      slots.push_back({ColumnType::Float32, static_cast<std::uint32_t>(wordColumns.size())});
+      wordColumns.push_back(slot);
+    }
+    keptWords = static_cast<std::uint32_t>(wordColumns.size());
+  }
+  bool hasColumn(std::uint32_t column) const { return column < info.columns.size(); }
+  /// The slot that a query of this column reads.
+  std::uint32_t shown(std::uint32_t column) const {
+    for (std::uint32_t i = 0; i < losable.size(); ++i) {
+      if (losable[i].column == column) {
+        return static_cast<std::uint32_t>(info.columns.size()) + i;
+      }
+    }
+    return column;
   }
   GroupInfo info;
-  std::vector<Slot> slots;                               // of the columns
-  std::vector<std::uint32_t> wordColumns, valueColumns;  // column of each word, of each value
+  std::vector<Losable> losable;
+  std::vector<Slot> slots;  // of the columns, then of the losable ones with their holes
+  std::vector<std::uint32_t> wordColumns, valueColumns;  // slot of each word, of each value
   std::uint32_t words = 0, values = 0;                   // of one row
+  std::uint32_t keptWords = 0;                           // of one row, with those that have holes
 };
 
 /// Calls `work` with a value of the type that a column holds.

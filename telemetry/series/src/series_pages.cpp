@@ -66,6 +66,8 @@ class PagedView final : public GroupView {
     return looked.begin > looked.end || read(range).has_value();
   }
 
+  bool isReading(TimeRange range) const override { return m_pages->isReading(within(range)); }
+
   void buckets(std::uint32_t column, TimeRange range, std::span<SeriesBucket> out) const override {
     if (const auto held = read(range)) return held->rows->buckets(column, range, out);
     std::fill(out.begin(), out.end(),
@@ -117,6 +119,7 @@ class PagedView final : public GroupView {
 
   SeriesStatistics statistics(std::uint32_t column, TimeRange range) const override {
     if (const auto held = find(range)) return held->rows->statistics(column, range);
+    if (const auto every = m_pages->statistics(m_group, column, within(range))) return *every;
     std::vector<Sample> some;
     (void)samples(column, range, some, SIZE_MAX);
     SeriesStatistics out = statisticsOf(some, range);
@@ -128,6 +131,7 @@ class PagedView final : public GroupView {
            out.max = std::fmax(out.max, valueOf(values.max, bucket));
          });
     out.samples = rows;
+    out.reading = true;
     return out;
   }
 

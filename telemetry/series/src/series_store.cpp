@@ -75,7 +75,9 @@ bool continues(const std::vector<ColumnInfo>& before, const std::vector<ColumnIn
   if (now.size() < before.size()) return false;
   for (std::size_t i = 0; i < now.size(); ++i) {
     const bool same = i < before.size()
-                          ? now[i].name == before[i].name && now[i].type == before[i].type
+                          ? now[i].name == before[i].name && now[i].type == before[i].type &&
+                                now[i].lostBy == before[i].lostBy &&
+                                now[i].lostWhen == before[i].lostWhen
                           : now[i].type == ColumnType::Float64;
     if (!same) return false;
   }

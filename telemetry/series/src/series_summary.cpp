@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "series_layout.h"
+
 namespace pitchboard::telemetry {
 namespace {
 
@@ -51,6 +53,9 @@ std::size_t GroupSummary::bytes() const {
 
 SummaryBuilder::SummaryBuilder(const GroupInfo& group) {
   for (const ColumnInfo& column : group.columns) m_types.push_back(column.type);
+  for (const series::Losable& one : series::losableColumns(group)) {
+    m_losable.push_back({one.column, one.flag, one.lost});
+  }
   m_now.assign(m_types.size(), {unset, unset, unset});
   m_part.columns.resize(m_types.size());
 }
@@ -58,6 +63,11 @@ SummaryBuilder::SummaryBuilder(const GroupInfo& group) {
 std::optional<SummaryPart> SummaryBuilder::add(double time, const RowView& row) {
   if (m_rows == 0) m_begin = time;
   m_end = time;
+  const auto isLost = [&](std::size_t column) {
+    return std::ranges::any_of(m_losable, [&](const Losable& one) {
+      return one.column == column && one.flag < row.words.size() && row.words[one.flag] == one.lost;
+    });
+  };
   std::size_t word = 0, value = 0;
   for (std::size_t c = 0; c < m_types.size(); ++c) {
     float number = unset;
@@ -65,7 +75,7 @@ std::optional<SummaryPart> SummaryBuilder::add(double time, const RowView& row) 
       if (value < row.values.size()) number = static_cast<float>(row.values[value]);
       ++value;
     } else {
-      if (word < row.words.size()) {
+      if (word < row.words.size() && !isLost(c)) {
         number = m_types[c] == ColumnType::Int32
                      ? static_cast<float>(std::bit_cast<std::int32_t>(row.words[word]))
                      : std::bit_cast<float>(row.words[word]);

@@ -51,7 +51,12 @@ double View::rate() const {
   const double last = timeOf(m_rows - 1);
   const std::size_t first = rowsBefore(last - 1.0);
   const double span = last - timeOf(first);
-  return span > 0.0 ? static_cast<double>(m_rows - 1 - first) / span : 0.0;
+  // Rows of one time count once: edits of a match that is paused are no rate.
+  std::size_t steps = 0;
+  for (std::size_t row = first + 1; row < m_rows; ++row) {
+    if (timeOf(row) > timeOf(row - 1)) ++steps;
+  }
+  return span > 0.0 ? static_cast<double>(steps) / span : 0.0;
 }
 
 std::size_t View::rowsBefore(double time) const {
@@ -65,15 +70,17 @@ double View::number(std::uint32_t column, std::size_t row) const {
 }
 
 std::optional<Sample> View::latest(std::uint32_t column) const {
-  if (m_rows == 0 || !hasColumn(column)) return std::nullopt;
-  return Sample{timeOf(m_rows - 1), number(column, m_rows - 1)};
+  const auto slot = slotOf(column);
+  if (m_rows == 0 || !slot) return std::nullopt;
+  return Sample{timeOf(m_rows - 1), number(*slot, m_rows - 1)};
 }
 
 std::optional<Sample> View::at(std::uint32_t column, double time) const {
-  if (!hasColumn(column)) return std::nullopt;
+  const auto slot = slotOf(column);
+  if (!slot) return std::nullopt;
   const std::size_t rows = Search<true>(*this, time)(time);
   if (rows == 0) return std::nullopt;
-  return Sample{timeOf(rows - 1), number(column, rows - 1)};
+  return Sample{timeOf(rows - 1), number(*slot, rows - 1)};
 }
 
 bool View::rowAt(double time, double& rowTime, std::vector<std::uint32_t>& words,
@@ -92,13 +99,13 @@ double View::row(std::size_t number, std::vector<std::uint32_t>& words,
   values.resize(layout.values);
   if (!at.unit->columns) {
     const Staging& staging = *m_state->staging;
-    std::copy_n(staging.words.get() + std::size_t{at.row} * layout.words, layout.words,
+    std::copy_n(staging.words.get() + std::size_t{at.row} * layout.keptWords, layout.words,
                 words.begin());
     std::copy_n(staging.values.get() + std::size_t{at.row} * layout.values, layout.values,
                 values.begin());
     return staging.times[at.row];
   }
-  for (std::uint32_t c = 0; c < layout.slots.size(); ++c) {
+  for (std::uint32_t c = 0; c < layout.info.columns.size(); ++c) {
     const Column& column = at.unit->columns[c];
     const Slot slot = layout.slots[c];
     if (slot.type == ColumnType::Float64) {
@@ -111,9 +118,10 @@ double View::row(std::size_t number, std::vector<std::uint32_t>& words,
 }
 
 std::optional<double> View::lastChange(std::uint32_t column) const {
-  if (m_rows == 0 || !hasColumn(column)) return std::nullopt;
-  return timeOf(withType(m_state->layout->slots[column].type,
-                         [&](auto zero) { return lastChangedRow<decltype(zero)>(column); }));
+  const auto slot = slotOf(column);
+  if (m_rows == 0 || !slot) return std::nullopt;
+  return timeOf(withType(m_state->layout->slots[*slot].type,
+                         [&](auto zero) { return lastChangedRow<decltype(zero)>(*slot); }));
 }
 
 }  // namespace pitchboard::telemetry::series

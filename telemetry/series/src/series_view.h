@@ -58,7 +58,11 @@ class View final : public GroupView {
   std::size_t firstRow(std::size_t unit) const;
   Place place(std::size_t row) const;
   double timeOf(std::size_t row) const;
-  bool hasColumn(std::uint32_t column) const { return column < m_state->layout->slots.size(); }
+  /// Below, a column is the slot that Layout::shown() gives for it.
+  std::optional<std::uint32_t> slotOf(std::uint32_t column) const {
+    const Layout& layout = *m_state->layout;
+    return layout.hasColumn(column) ? std::optional(layout.shown(column)) : std::nullopt;
+  }
 
   template <class T>
   T stagedValue(std::uint32_t column, std::uint32_t row) const;

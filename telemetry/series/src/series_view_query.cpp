@@ -13,17 +13,18 @@ void View::buckets(std::uint32_t column, TimeRange range, std::span<SeriesBucket
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const SeriesBucket empty{nan, nan, nan, nan, 0};
   std::ranges::fill(out, empty);
-  if (m_rows == 0 || !hasColumn(column) || out.empty() || !(range.begin < range.end) ||
+  const auto slot = slotOf(column);
+  if (m_rows == 0 || !slot || out.empty() || !(range.begin < range.end) ||
       !std::isfinite(range.begin) || !std::isfinite(range.end)) {
     return;
   }
-  withType(m_state->layout->slots[column].type, [&](auto zero) {
+  withType(m_state->layout->slots[*slot].type, [&](auto zero) {
     using T = decltype(zero);
     const auto border = [&, parts = static_cast<double>(out.size())](std::size_t i) {
       return std::lerp(range.begin, range.end, static_cast<double>(i) / parts);
     };
     const std::size_t start = Search<false>(*this, range.begin).unit;
-    Ahead far{*this, column, start}, near{*this, column, start};
+    Ahead far{*this, *slot, start}, near{*this, *slot, start};
     Search<false> search(*this, range.begin);
     std::size_t begin = search(range.begin);
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -34,10 +35,10 @@ void View::buckets(std::uint32_t column, TimeRange range, std::span<SeriesBucket
       SeriesBucket& bucket = out[i];
       bucket.samples = static_cast<std::uint32_t>(
           std::min<std::size_t>(end - begin, std::numeric_limits<std::uint32_t>::max()));
-      bucket.first = static_cast<double>(value<T>(column, begin));
-      bucket.last = static_cast<double>(value<T>(column, end - 1));
+      bucket.first = static_cast<double>(value<T>(*slot, begin));
+      bucket.last = static_cast<double>(value<T>(*slot, end - 1));
       MinMax<T> found;
-      minMax<T>(column, begin, end, found);
+      minMax<T>(*slot, begin, end, found);
       if (found.any()) {
         bucket.min = static_cast<double>(found.min);
         bucket.max = static_cast<double>(found.max);
@@ -50,15 +51,16 @@ void View::buckets(std::uint32_t column, TimeRange range, std::span<SeriesBucket
 bool View::samples(std::uint32_t column, TimeRange range, std::vector<Sample>& out,
                    std::size_t most) const {
   out.clear();
-  if (!hasColumn(column) || !(range.begin <= range.end)) return true;
+  const auto slot = slotOf(column);
+  if (!slot || !(range.begin <= range.end)) return true;
   const std::size_t begin = Search<false>(*this, range.begin)(range.begin);
   const std::size_t end = Search<true>(*this, range.end)(range.end);
   if (begin >= end) return true;
   const std::size_t taken = std::min(end - begin, most);
   out.reserve(taken);
-  withType(m_state->layout->slots[column].type, [&](auto zero) {
+  withType(m_state->layout->slots[*slot].type, [&](auto zero) {
     using T = decltype(zero);
-    runs<T>(column, begin, begin + taken,
+    runs<T>(*slot, begin, begin + taken,
             [&](const double* times, const T* values, T constant, std::uint32_t count) {
               for (std::uint32_t i = 0; i < count; ++i) {
                 out.push_back({times[i], static_cast<double>(values ? values[i] : constant)});
@@ -71,12 +73,13 @@ bool View::samples(std::uint32_t column, TimeRange range, std::vector<Sample>& o
 
 SeriesStatistics View::statistics(std::uint32_t column, TimeRange range) const {
   StatisticsSum sum;
-  if (!hasColumn(column) || !(range.begin <= range.end)) return sum.result();
+  const auto slot = slotOf(column);
+  if (!slot || !(range.begin <= range.end)) return sum.result();
   const std::size_t begin = Search<false>(*this, range.begin)(range.begin);
   const std::size_t end = Search<true>(*this, range.end)(range.end);
-  withType(m_state->layout->slots[column].type, [&](auto zero) {
+  withType(m_state->layout->slots[*slot].type, [&](auto zero) {
     using T = decltype(zero);
-    runs<T>(column, begin, end,
+    runs<T>(*slot, begin, end,
             [&](const double*, const T* values, T constant, std::uint32_t count) {
               if (values)
                 sum.add(values, count);

@@ -115,7 +115,7 @@ T View::stagedValue(std::uint32_t column, std::uint32_t row) const {
   if constexpr (sizeof(T) == 8) {
     return m_state->staging->values[std::size_t{row} * layout.values + index];
   } else {
-    return std::bit_cast<T>(m_state->staging->words[std::size_t{row} * layout.words + index]);
+    return std::bit_cast<T>(m_state->staging->words[std::size_t{row} * layout.keptWords + index]);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdio>
 
+#include <telemetry/series/group_order.h>
+
 namespace pitchboard::telemetry {
 namespace {
 
@@ -57,9 +59,10 @@ Result<std::vector<SelectedGroup>> resolveSelection(const SessionReader& session
   for (const std::string& robot : selection.robots) {
     bool found = false;
     std::string known;
-    for (const SessionGroup& group : session.groups()) {
-      found = found || group.info.name == robot;
-      known += (known.empty() ? "" : ", ") + group.info.name;
+    for (const std::size_t g : listedOrder(session.groups(), &SessionGroup::info)) {
+      const std::string& name = session.groups()[g].info.name;
+      found = found || name == robot;
+      known += (known.empty() ? "" : ", ") + name;
     }
     if (!found) {
       return failure(ErrorCode::NotFound, "The session has no robot \"" + robot + "\"; it has " +

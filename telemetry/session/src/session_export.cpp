@@ -10,6 +10,7 @@
 
 #include <base/csv_field.h>
 #include <base/new_file.h>
+#include <telemetry/series/group_order.h>
 
 #include "export_even.h"
 #include "export_text.h"
@@ -46,7 +47,11 @@ class LineWriter {
  public:
   LineWriter(const SessionReader& session, const ExportSelection& selection,
              const Selected& selected, TextBuffer& out)
-      : m_session(session), m_selection(selection), m_selected(selected), m_out(out) {}
+      : m_session(session),
+        m_selection(selection),
+        m_selected(selected),
+        m_listed(listedOrder(session.groups(), &SessionGroup::info)),
+        m_out(out) {}
   virtual ~LineWriter() = default;
   virtual bool begin() { return true; }
   virtual bool row(const SessionItem& item) = 0;
@@ -69,7 +74,7 @@ class LineWriter {
   /// The variables' names, one for each column; how many.
   std::size_t putNames() {
     std::size_t columns = 0;
-    for (std::size_t g = 0; g < m_selected.size(); ++g) {
+    for (const std::size_t g : m_listed) {
       if (!m_selected[g].selected) continue;
       for (const SelectedColumn& column : m_selected[g].columns) {
         m_out.putSafely("," + csvField(info(g).name + "." + info(g).columns[column.column].name));
@@ -90,6 +95,7 @@ class LineWriter {
   const SessionReader& m_session;
   const ExportSelection& m_selection;
   const Selected& m_selected;
+  const std::vector<std::size_t> m_listed;  // groups, in the order of columns
   TextBuffer& m_out;
   Cell m_time;
 };
@@ -133,7 +139,7 @@ class WideWriter : public LineWriter {
   bool line() {
     m_open = false;
     putTime(std::bit_cast<double>(m_bits), m_longestLine);
-    for (std::size_t g = 0; g < m_parts.size(); ++g) {
+    for (const std::size_t g : m_listed) {
       Part& part = m_parts[g];
       for (std::size_t i = 0; i < part.cells.size(); ++i) {
         m_out.put(',');

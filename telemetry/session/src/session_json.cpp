@@ -174,6 +174,10 @@ std::string groupToJson(const GroupInfo& group) {
       json["kind"] = kindNames[static_cast<std::size_t>(column.kind)];
     }
     if (isSingle(column)) json["resolution"] = column.resolution;
+    if (!column.lostBy.empty()) {
+      json["lost_by"] = column.lostBy;
+      json["lost_when"] = column.lostWhen;
+    }
     for (const auto& [code, word] : column.labels) json["labels"][std::to_string(code)] = word;
     columns.push_back(std::move(json));
   }
@@ -213,6 +217,8 @@ std::optional<GroupInfo> groupFromJson(std::string_view text_) {
       if (!isSingle(column)) return std::nullopt;
     }
     column.unit = text(entry, "unit");
+    column.lostBy = text(entry, "lost_by");
+    column.lostWhen = number(entry, "lost_when").value_or(0.0);
     // Files of version 0.1 call it "heading".
     column.category = text(entry, entry.contains("category") ? "category" : "heading");
     const auto isIt = [&column](const MeaningInfo& known) {

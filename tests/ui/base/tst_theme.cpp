@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/scoreboard_state.h>
+#include <QPainter>
+#include <QStyleOptionButton>
 #include <QtTest>
 #include <cmath>
 
@@ -228,6 +231,51 @@ class TestTheme : public QObject {
     QCOMPARE(durationText(std::nan("")), QStringLiteral("–"));
     QCOMPARE(actionText(42), QStringLiteral("action 42"));
     QCOMPARE(countText(18720).size(), qsizetype(6));
+  }
+
+  // An unticked box is told from its ground, in menus and lists too.
+  void checkBoxesAreSeen() {
+    for (const ThemeChoice choice : {ThemeChoice::Dark, ThemeChoice::Light}) {
+      setTheme(*qApp, choice);
+      const auto luminance = [](const QColor& color) {
+        const auto part = [](double c) {
+          return c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        };
+        return 0.2126 * part(color.redF()) + 0.7152 * part(color.greenF()) +
+               0.0722 * part(color.blueF());
+      };
+      for (const auto element :
+           {QStyle::PE_IndicatorCheckBox, QStyle::PE_IndicatorItemViewItemCheck}) {
+        QImage drawn(17, 17, QImage::Format_ARGB32);
+        drawn.fill(theme().window);
+        QPainter painter(&drawn);
+        QStyleOptionButton option;
+        option.rect = QRect(2, 2, 13, 13);
+        option.state = QStyle::State_Enabled | QStyle::State_Off;
+        qApp->style()->drawPrimitive(element, &option, &painter);
+        painter.end();
+        const double ground = luminance(theme().window);
+        double best = 1.0;
+        for (int x = 0; x < drawn.width(); ++x) {
+          const double edge = luminance(drawn.pixelColor(x, 8));
+          best = std::max(best, (std::max(edge, ground) + 0.05) / (std::min(edge, ground) + 0.05));
+        }
+        QVERIFY2(best >= 3.0, qPrintable(QString::number(best)));
+      }
+    }
+  }
+
+  void aPastMomentIsNotPausedAndTheClockEndsAtZero() {
+    link::MatchFrame frame;
+    frame.truthKnown = true;
+    frame.paused = true;
+    frame.snapshot.clockRunning = true;
+    QCOMPARE(scoreboardOf(frame).state, QStringLiteral("PAUSED"));
+    frame.origin = link::FrameOrigin::Recorded;
+    QCOMPARE(scoreboardOf(frame).state, QStringLiteral("PLAYING"));
+    frame.referee.emplace();
+    frame.referee->secondsLeft = -3;
+    QCOMPARE(scoreboardOf(frame).clock, QStringLiteral("00:00"));
   }
 };
 

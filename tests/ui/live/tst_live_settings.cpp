@@ -20,7 +20,10 @@
 
 #include <ui/live/attach_dialog.h>
 #include <ui/live/live_settings_dialog.h>
+#include <ui/sources/attached_boards.h>
 #include <ui/sources/live_controller.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/source_switch.h>
 
 #include "bad_messages_model.h"
 #include "live_rig.h"
@@ -183,7 +186,10 @@ class TestLiveSettings : public QObject {
     LiveController live;
     live.setOptions(live_rig::options());
     live.start();
-    AttachDialog dialog(&live, &settings, nullptr);
+    MatchController match{link::MatchOptions()};
+    SourceSwitch source(&match);
+    AttachedBoards boards(&match, &live, &source, &settings);
+    AttachDialog dialog(&boards, nullptr);
     dialog.setAttribute(Qt::WA_DeleteOnClose, false);
     dialog.show();
     auto* segments = dialog.findChild<QTableWidget*>(QStringLiteral("segments"));

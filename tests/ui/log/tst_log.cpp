@@ -144,6 +144,37 @@ class TestLog : public QObject {
     QCOMPARE(model.rowCount(), 0);
   }
 
+  void aFloodKeepsTheGoals() {
+    LogModel model;
+    model.append({{1.0, "referee", "goal BLUE", LogLevel::Info}}, {}, SourceKind::Simulate, true);
+    model.append({{1.5, "B2 vision", "one quiet line", LogLevel::Info}});
+    const std::vector<LogLine> burst(1000, {2.0, "B1 decision", "again", LogLevel::Info});
+    for (int i = 0; i < 15; ++i) model.append(burst);
+    QCOMPARE(model.rowCount(), int(LogModel::maxLines));
+    QCOMPARE(model.index(0, LogModel::Text).data().toString(), QStringLiteral("goal BLUE"));
+    QCOMPARE(model.index(1, LogModel::Text).data().toString(), QStringLiteral("one quiet line"));
+    QCOMPARE(model.dropped(), quint64(15'002 - LogModel::maxLines));
+  }
+
+  void aRestartIsADivider() {
+    LogModel model;
+    model.setMoment(SourceKind::Simulate, {});
+    model.divide(SourceKind::Simulate, QStringLiteral("Match started, 14:03"));
+    QCOMPARE(model.rowCount(), 0);  // nothing stands before it
+    model.append({{80.0, "B1", "old", LogLevel::Info}}, {}, SourceKind::Simulate);
+    model.divide(SourceKind::Simulate, QStringLiteral("Match started, 14:03"));
+    model.append({{1.0, "B1", "new", LogLevel::Info}}, {}, SourceKind::Simulate);
+    QCOMPARE(model.rowCount(), 3);
+    QCOMPARE(model.index(1, LogModel::Text).data().toString(),
+             QStringLiteral("Match started, 14:03"));
+    QVERIFY(model.index(1, LogModel::Time).data().toString().isEmpty());
+    // The old match's moments are not those of the new one.
+    QVERIFY(!model.index(0, 0).data(LogModel::shownRole).toBool());
+    QVERIFY(model.index(2, 0).data(LogModel::shownRole).toBool());
+    model.rewind(SourceKind::Simulate, 0.5);
+    QCOMPARE(model.rowCount(), 2);
+  }
+
   void theFilterWantsEveryWord() {
     LogModel model;
     WordsFilter filter;

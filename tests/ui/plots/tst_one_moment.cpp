@@ -37,7 +37,8 @@ class MomentSource : public PlotSource {
     emit frameReceived(m_frame);
   }
   void happen(double time, link::MatchEventKind kind, const char* robot) {
-    emit eventsReceived({{kind, time, blue(1), robot}});
+    const int number = QString::fromLatin1(robot).mid(1).toInt();
+    emit eventsReceived({{kind, time, *robot == 'R' ? red(number) : blue(number), robot}});
   }
 
  private:
@@ -234,6 +235,22 @@ class TestOneMoment : public QObject {
     b.actions.next()->trigger();
     QCOMPARE(b.timeline.shownTime(), 15.0);
     QVERIFY(!entry(QStringLiteral("All"))->isEnabled());
+  }
+
+  void robotsOfTheFilterAreInOrder() {
+    Bench b;
+    for (const char* robot : {"R2", "B10", "B2"}) {
+      b.source.happen(5.0, link::MatchEventKind::Kick, robot);
+    }
+    QMenu menu;
+    b.actions.fill(&menu);
+    auto* shown = menu.findChild<QMenu*>(QStringLiteral("eventsShown"));
+    emit shown->aboutToShow();
+    QStringList robots;
+    for (const QAction* action : shown->actions()) {
+      if (action->text().startsWith(QStringLiteral("Only "))) robots << action->text().mid(5);
+    }
+    QCOMPARE(robots, (QStringList{"B2", "B10", "R2"}));
   }
 };
 

@@ -76,6 +76,27 @@ class TestLiveReferee : public QObject {
     QCOMPARE(state.rightName, QStringLiteral("RED"));
   }
 
+  void teamsHaveTheirNamesInTheWindow() {
+    Studio s;
+    s.change([](link::LiveOptions& o) {
+      telemetry::TeamSetup& ours = o.team.teams.emplace_back();
+      ours.name = "RoboFEI";
+      ours.number = 1;
+      ours.firstPort = o.portBase + 1;
+      ours.lastPort = o.portBase + 16;
+    });
+    s.goLive();
+    const Robot robot(s.options, 3);
+    const TestSocket referee;
+    QVERIFY(robot.say());
+    QVERIFY(referee.send(static_cast<std::uint16_t>(s.options.refereePort),
+                         live_rig::packet(QStringLiteral("v12hl688_READY.bin"))));
+    QTRY_COMPARE(s.scoreboard()->state().leftName, QStringLiteral("ROBOFEI"));
+    QTRY_VERIFY(s.label("statusWorld").startsWith(QStringLiteral("ROBOFEI – BLUE, Referee")));
+    QTRY_COMPARE(s.cards().size(), qsizetype(1));
+    QCOMPARE(s.cards()[0]->state().teamName, QStringLiteral("RoboFEI"));
+  }
+
   void penaltiesOfOurTeamAreMarked() {
     const std::string bytes = live_rig::packet(QStringLiteral("v12hl640_2017.3_PENALISED.bin"));
     const auto state = std::get<telemetry::RefereeState>(telemetry::decodeReferee(bytes).value());

@@ -10,6 +10,7 @@
 #include <robotlink/live/live_state.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/state_archive.h>
+#include <simcore/rules/game_start.h>
 #include <telemetry/session/session_reader.h>
 #include <telemetry/wire/text_protocol.h>
 #include <ui/base/notice_bar.h>
@@ -195,6 +196,45 @@ class TestSessions : public QObject {
     const link::Scenario& scenario = s.controller.scenario();
     QCOMPARE(scenario.robots.size(), std::size_t(6));
     QVERIFY(std::abs(scenario.ball.x - ball.x) < 1e-9);
+  }
+
+  /// To the tick: now, looking back, and of a recording.
+  void aSimulationFromHereKeepsTheGame() {
+    Studio s(0);
+    const link::Scenario scenario = link::loadScenario("match").value();
+    s.controller.open(scenario, true);
+    constexpr std::uint64_t end = 2400;
+    s.controller.runTo(end);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(end), 60'000);
+    const QString session = s.recorded(60);
+    QVERIFY(!session.isEmpty());
+    const auto archive = s.controller.memory()->archive();
+    const auto gameAt = [&](std::uint64_t tick) {
+      return sim::gameStartOf(archive->restore(tick).value());
+    };
+    const sim::GameStart early = gameAt(300), late = gameAt(2430), last = gameAt(end + 60);
+    QVERIFY(early != late && late.state != sim::PlayState::Initial);
+    const auto begun = [&] {
+      s.action("simulateTrue")->trigger();
+      return s.controller.scenario().game.value_or(sim::GameStart{});
+    };
+    const auto again = [&] {
+      s.controller.open(scenario, true);
+      s.controller.runTo(end + 60);
+      return QTest::qWaitFor([&] { return s.played(end + 60); }, 60'000);
+    };
+    QVERIFY(begun() == last);
+    QVERIFY(again());
+    s.window.timeline()->seek(5.0);
+    QVERIFY(begun() == early);
+    s.window.openSession(session);
+    QTRY_VERIFY(s.window.timeline()->isRecording());
+    s.window.timeline()->seek(2430.0 / 60);
+    QTRY_VERIFY(s.window.replay()->frame() &&
+                s.window.replay()->frame()->snapshot.tick == std::uint64_t(2430));
+    QVERIFY(begun() == late);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->referee);
+    QCOMPARE(s.controller.scenario().settings.referee->name, std::string("humanoid-2021"));
   }
 
   /// A recording of Live begins with the message of one robot.

@@ -63,10 +63,10 @@ class TestWindowLayout : public QObject {
   }
 
   void whatHasNoRoomInTheToolBarIsAClickAway() {
-    Studio s({960, 600});
+    Studio s({720, 600});
     s.play();
     for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
-    s.window.resize(960, 600);
+    s.window.resize(720, 600);
     auto* bar = s.find<QToolBar>("transportBar");
     auto* more = bar->findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
     const auto* score = s.window.findChild<Scoreboard*>();

@@ -2,8 +2,12 @@
 // Values that are typed, names that are imported, blackboards that are attached, robots that fall
 // silent.
 #include <QSpinBox>
+#include <QTableWidget>
 
 #include <robotlink/blackboard/system_v.h>
+#include <ui/live/attach_dialog.h>
+#include <ui/sources/live_settings.h>
+#include <ui/sources/match_memory.h>
 
 #include "../support/segment_keys.h"
 #include "catalog_choice.h"
@@ -245,20 +249,23 @@ class TestVariablesEdit : public QObject {
     bench.source.choose(&bench.controller);
     bench.controller.open(link::loadScenario("match-3v3").value(), false);
     QTRY_VERIFY(bench.controller.frame());
-    auto* form = bench.dock->findChild<QWidget*>(QStringLiteral("attachForm"));
-    form->show();
-    form->findChild<QSpinBox*>(QStringLiteral("attachKey"))->setValue(key);
-    auto* attach = form->findChild<QPushButton*>(QStringLiteral("attachButton"));
+    AttachDialog dialog(&bench.boards, nullptr);
+    dialog.setAttribute(Qt::WA_DeleteOnClose, false);
+    dialog.show();
+    dialog.findChild<QSpinBox*>(QStringLiteral("attachKey"))->setValue(key);
+    auto* attach = dialog.findChild<QPushButton*>(QStringLiteral("attach"));
+    auto* said = dialog.findChild<QLabel*>(QStringLiteral("attachMessage"));
     QTest::mouseClick(attach, Qt::LeftButton);
-    QVERIFY2(bench.message().startsWith(QStringLiteral("Not attached")),
-             qPrintable(bench.message()));
+    QVERIFY(!said->text().isEmpty());
+    // The list is that of Live.
+    QCOMPARE(bench.live.options().boards.size(), std::size_t(1));
     const QString group = QStringLiteral("B%1").arg(key / 100);  // as published: 100 n is robot n
     {
       auto board = link::SystemVSegments::open(key, link::AttachMode::AttachOrCreate);
       QVERIFY(board);
       board->write(*link::VariableCatalog::published().intVar("DECISION_STATE"), 42);
       QTest::mouseClick(attach, Qt::LeftButton);
-      QVERIFY(!form->isVisible());
+      QVERIFY2(said->text().isEmpty(), qPrintable(said->text()));
       const QString state = group + QStringLiteral("/DECISION_STATE");
       QTRY_VERIFY(bench.model->find(state).isValid());
       bench.choose(state);
@@ -272,6 +279,16 @@ class TestVariablesEdit : public QObject {
     QTRY_VERIFY2(bench.text(group, VariablesModel::Name).contains(QStringLiteral("removed")),
                  qPrintable(bench.text(group, VariablesModel::Name)));
     QVERIFY(bench.message().contains(QStringLiteral("was removed")));
+    // None of the match's robots, whatever its number is.
+    const auto rows = bench.controller.memory()->series();
+    const auto& attributes = rows->view(*rows->findGroup(group.toStdString()))->info().attributes;
+    for (const char* ofRobots : {"robot", "number", "team"}) {
+      QVERIFY2(!attributes.contains(ofRobots), ofRobots);
+    }
+    QCOMPARE(loadLiveSettings(bench.settings).options.boards, bench.live.options().boards);
+    dialog.findChild<QTableWidget*>(QStringLiteral("attachedBoards"))->selectRow(0);
+    QTest::mouseClick(dialog.findChild<QPushButton*>(QStringLiteral("detach")), Qt::LeftButton);
+    QVERIFY(bench.boards.list().empty());
   }
 };
 

@@ -20,6 +20,8 @@
 #include <ui/base/in_place_message.h>
 #include <ui/base/plot_target.h>
 #include <ui/base/theme.h>
+#include <ui/sources/attached_boards.h>
+#include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/source_switch.h>
@@ -119,6 +121,7 @@ struct Bench {
     context.plots = &plots;
     context.settings = &settings;
     context.selection = &selection;
+    context.boards = &boards;
     dock.reset(makeVariablesDock(context, nullptr));
     dock->resize(460, 700);
     dock->show();
@@ -162,6 +165,8 @@ struct Bench {
   RobotSelection selection;
   HandPlots plots;
   QSettings settings;
+  LiveController live;
+  AttachedBoards boards{&controller, &live, &source, &settings};
   std::unique_ptr<QWidget> dock;
   VariablesView* view = nullptr;
   VariablesModel* model = nullptr;

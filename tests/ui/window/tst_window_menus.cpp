@@ -157,6 +157,41 @@ class TestWindowMenus : public QObject {
              qPrintable(s.window.notices()->text()));
   }
 
+  void viewIsGrouped() {
+    Studio s;
+    for (QAction* top : s.window.menuBar()->actions()) {
+      if (top->text() != QStringLiteral("&View")) continue;
+      QStringList groups;
+      int entries = 0;
+      for (QAction* each : top->menu()->actions()) {
+        if (each->isSeparator()) continue;
+        ++entries;
+        if (each->menu() != nullptr) groups << each->text().remove(QLatin1Char('&'));
+      }
+      QVERIFY2(entries <= 13, qPrintable(QString::number(entries)));
+      for (const char* group : {"Panels", "Field layers", "Field tools", "Theme", "Alarms"}) {
+        QVERIFY2(groups.contains(QString::fromUtf8(group)), group);
+      }
+      return;
+    }
+    QFAIL("no View menu");
+  }
+
+  void anOpenedPanelTakesTheFocusAndAClosedOneGivesItBack() {
+    Studio s;
+    QTRY_VERIFY(s.controller.frame());
+    s.window.activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&s.window));
+    s.window.field()->setFocus();
+    auto* dock = s.window.findChild<QDockWidget*>(QStringLiteral("log"));
+    dock->toggleViewAction()->trigger();
+    QTRY_VERIFY(QApplication::focusWidget() != nullptr &&
+                dock->isAncestorOf(QApplication::focusWidget()));
+    dock->toggleViewAction()->trigger();
+    QTRY_VERIFY(dock->isHidden());
+    QTRY_COMPARE(QApplication::focusWidget(), s.window.field()->focusProxy());
+  }
+
   void theRefereesDockSaysWhatItLeads() {
     Studio s;
     QTRY_VERIFY(s.controller.frame());
@@ -181,9 +216,10 @@ class TestWindowMenus : public QObject {
     s.window.showPalette();
     auto* words = s.window.findChild<QLineEdit*>(QStringLiteral("paletteWords"));
     auto* list = s.window.findChild<QListView*>(QStringLiteral("paletteList"));
-    QTest::keyClicks(words, QStringLiteral("view: referee"));
-    QCOMPARE(list->model()->index(0, 0).data().toString(), QStringLiteral("View: Refereeing"));
-    QCOMPARE(list->currentIndex().data().toString(), QStringLiteral("View: Referee"));
+    QTest::keyClicks(words, QStringLiteral("view: panels: referee"));
+    QCOMPARE(list->model()->index(0, 0).data().toString(),
+             QStringLiteral("View: Panels: Refereeing"));
+    QCOMPARE(list->currentIndex().data().toString(), QStringLiteral("View: Panels: Referee"));
     QTest::keyClick(words, Qt::Key_Return);
     const auto* dock = s.window.findChild<QDockWidget*>(QStringLiteral("referee"));
     QTRY_VERIFY(dock->isVisible());

@@ -5,6 +5,7 @@
 #include <QStyleFactory>
 #include <QStyleOption>
 #include <QTabBar>
+#include <algorithm>
 
 #include <ui/base/theme.h>
 
@@ -39,6 +40,34 @@ void drawFocus(QPainter* painter, const QRect& rect) {
   painter->setPen(QPen(theme().accentLine, 1.5));
   painter->setBrush(Qt::NoBrush);
   painter->drawRoundedRect(QRectF(rect).adjusted(1, 1, -1, -1), corner, corner);
+  painter->restore();
+}
+
+// A box that is seen on every ground of both themes, ticked or not.
+void drawCheck(QPainter* painter, const QStyleOption* option) {
+  const bool enabled = option->state & QStyle::State_Enabled;
+  const bool on = option->state & QStyle::State_On;
+  const bool partly = option->state & QStyle::State_NoChange;
+  const double side = std::min(option->rect.width(), option->rect.height());
+  QRectF box(0, 0, side - 1, side - 1);
+  box.moveCenter(QRectF(option->rect).center());
+  painter->save();
+  painter->setRenderHint(QPainter::Antialiasing);
+  painter->setPen(enabled ? theme().secondaryText : theme().disabledText);
+  painter->setBrush(!(on || partly) ? theme().view
+                    : enabled       ? theme().accentFill
+                                    : theme().innerLine);
+  painter->drawRoundedRect(box, 2, 2);
+  painter->setPen(QPen(enabled ? Qt::white : theme().text, side / 8, Qt::SolidLine, Qt::RoundCap));
+  const auto at = [&box](double x, double y) {
+    return QPointF(box.left() + x * box.width(), box.top() + y * box.height());
+  };
+  if (on) {
+    const QPointF tick[] = {at(0.24, 0.52), at(0.43, 0.71), at(0.77, 0.30)};
+    painter->drawPolyline(tick, 3);
+  } else if (partly) {
+    painter->drawLine(at(0.28, 0.5), at(0.72, 0.5));
+  }
   painter->restore();
 }
 
@@ -98,6 +127,10 @@ void FlatStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* opti
     const bool tab = qobject_cast<const QTabBar*>(widget) != nullptr;
     const int wide = tab ? textGap() : 0, high = tab ? textGap() / 2 + 1 : 0;
     drawFocus(painter, option->rect.adjusted(-wide, -high, wide, high));
+    return;
+  }
+  if (element == PE_IndicatorCheckBox || element == PE_IndicatorItemViewItemCheck) {
+    drawCheck(painter, option);
     return;
   }
   if (element != PE_PanelButtonCommand) {

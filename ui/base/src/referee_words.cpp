@@ -65,7 +65,11 @@ QString refereeTruthText(const link::RefereeView& view) {
 }
 
 QString refereeTeamText(const link::RefereeTeamView& team, int ourTeam) {
-  return QStringLiteral("Team %1 (%2)%3: %4 %5, %6 %7 left")
+  const QString name = team.name.empty()
+                           ? QStringLiteral("Team")
+                           : QString::fromStdString(team.name) + QStringLiteral(", team");
+  return QStringLiteral("%1 %2 (%3)%4: %5 %6, %7 %8 left")
+      .arg(name)
       .arg(team.number)
       .arg(text(team.colour))
       .arg(team.number == ourTeam && ourTeam != 0 ? QStringLiteral(", ours") : QString())

@@ -2,6 +2,7 @@
 #include <ui/base/scoreboard_state.h>
 
 #include <QObject>
+#include <algorithm>
 
 #include <robotlink/frame/match_event.h>
 #include <ui/base/referee_words.h>
@@ -11,8 +12,10 @@
 namespace pitchboard::ui {
 namespace {
 
-QString teamName(TeamColor team) {
-  const std::string_view name = info(team).name;
+QString teamName(TeamColor team, const link::Teams& teams) {
+  const auto known = std::ranges::find(teams, team, &link::Team::colour);
+  const std::string_view name =
+      known == teams.end() || known->name.empty() ? info(team).name : known->name;
   return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).toUpper();
 }
 
@@ -70,7 +73,8 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   state.rightColour = refereeColour(view.teams[1].colour);
   state.left = view.teams[0].score;
   state.right = view.teams[1].score;
-  state.clock = refereeClockText(view.secondsLeft);
+  // It counts down to the end of the half; how long that is past is no time of play.
+  state.clock = clockText(std::max(view.secondsLeft, 0));
   state.state = QString::fromStdString(view.state);
   const std::string& more = !view.setPlay.empty() ? view.setPlay : view.phase;
   if (view.timedOut) {
@@ -94,9 +98,11 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   for (const link::RobotFrame& robot : frame.robots) {
     const auto& penalty = robot.penalty;
     if (!penalty) continue;
-    penalties << robotName(robot) + (penalty->secondsLeft > 0
-                                         ? QStringLiteral(" %1").arg(penalty->secondsLeft)
-                                         : QString());
+    const QString line =
+        robotName(robot) +
+        (penalty->secondsLeft > 0 ? QStringLiteral(" %1").arg(penalty->secondsLeft) : QString());
+    // A second sender of its number is no second player.
+    if (!penalties.contains(line)) penalties << line;
   }
   state.penalties = penalties.join(QStringLiteral(" · "));
   state.tip = refereeTip(view, frame.origin == link::FrameOrigin::Live);
@@ -104,6 +110,14 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
 }
 
 }  // namespace
+
+QString teamsText(const link::MatchFrame& frame) {
+  if (std::ranges::all_of(frame.teams, [](const auto& team) { return team.name.empty(); })) {
+    return {};
+  }
+  const ScoreboardState board = scoreboardOf(frame);
+  return QStringLiteral("%1 – %2, ").arg(board.leftName, board.rightName);
+}
 
 ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
   // Only who plays a match knows its score without a referee: not what is heard, nor its past.
@@ -114,15 +128,16 @@ ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
   for (const link::RobotFrame& robot : frame.robots) robots.push_back(robot.identity);
   const TeamColor leftTeam = link::teamOn(link::Side::Left, robots);
   const TeamColor rightTeam = link::teamOn(link::Side::Right, robots);
-  state.leftName = teamName(leftTeam);
-  state.rightName = teamName(rightTeam);
+  state.leftName = teamName(leftTeam, frame.teams);
+  state.rightName = teamName(rightTeam, frame.teams);
   state.leftColour = theme().team(leftTeam);
   state.rightColour = theme().team(rightTeam);
   state.left = frame.snapshot.score.left;
   state.right = frame.snapshot.score.right;
   state.clock = clockText(frame.snapshot.clock);
+  const bool past = frame.origin == link::FrameOrigin::Recorded;
   state.state = frame.finished                ? QStringLiteral("FINISHED")
-                : frame.paused                ? QStringLiteral("PAUSED")
+                : frame.paused && !past       ? QStringLiteral("PAUSED")
                 : frame.snapshot.clockRunning ? QStringLiteral("PLAYING")
                                               : QStringLiteral("CLOCK STOPPED");
   return state;

@@ -125,7 +125,7 @@ QMenuBar::item:selected, QMenuBar::item:pressed { background: @row; border-radiu
 QToolBar { border: none; border-bottom: 1px solid @edge; padding: @4 @8; spacing: @4; }
 QToolBar QComboBox { min-height: @24; }
 QToolBar#fieldTools, QToolBar[orientation="1"] { border: none; padding: @4; }
-QToolBar#plotTools { padding: @2 @2; spacing: 1px; }
+QToolBar#plotTools { border: none; padding: 0 @2; spacing: 1px; }
 QToolBar#plotTools QToolButton { padding: @2; }
 QToolBar::separator:horizontal { background: @line; width: 1px; margin: @4 @8; }
 QToolButton { border: 1px solid transparent; border-radius: 3px; padding: @3; }

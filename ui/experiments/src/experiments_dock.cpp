@@ -122,8 +122,7 @@ class ExperimentsDock : public QWidget {
     m_words->setContentsMargins(gap, 0, gap, gap);
     layout->addWidget(m_words);
     layout->addWidget(m_tabs, 1);
-    // Less shows no field and no axis.
-    setMinimumHeight(scaled(this, 264));
+    setMinimumHeight(scaled(this, 80));
   }
 
   void makeTabs() {

@@ -69,6 +69,7 @@ SituationDialog::SituationDialog(FramePtr frame, std::optional<link::Scenario> b
       m_poses(new QComboBox(this)),
       m_assertions(new QPlainTextEdit(this)),
       m_seconds(new NumberBox(this)),
+      m_noCalls(new QCheckBox(QStringLiteral("Without the referee's calls"), this)),
       m_goal(new QCheckBox(QStringLiteral("goal"), this)),
       m_goalAgainst(new QCheckBox(QStringLiteral("goal against"), this)),
       m_ballOut(new QCheckBox(QStringLiteral("ball out"), this)),
@@ -156,6 +157,11 @@ void SituationDialog::makeRobotRows(QFormLayout* form) {
   form->addRow(QStringLiteral("They play"), m_behaviour);
   form->setRowVisible(m_behaviour,
                       !std::all_of(m_frame->robots.begin(), m_frame->robots.end(), knowsBehaviour));
+  m_noCalls->setObjectName(QStringLiteral("testNoCalls"));
+  m_noCalls->setToolTip(
+      QStringLiteral("The game stays as it is: no penalties, set plays and whistles"));
+  form->addRow(QStringLiteral("Referee"), m_noCalls);
+  form->setRowVisible(m_noCalls, m_frame->referee.has_value());
 }
 
 QWidget* SituationDialog::makeFolder() {
@@ -260,6 +266,9 @@ link::Situation SituationDialog::situation() const {
   for (const std::string& note : moment.notes) out.description += ' ' + note;
   out.scenario = std::move(moment.scenario);
   out.scenario.name = out.name;
+  if (auto& rules = out.scenario.settings.referee; rules && m_noCalls->isChecked()) {
+    rules->automatic = false;
+  }
   out.team = static_cast<TeamColor>(m_team->currentData().toInt());
   out.runs = static_cast<std::size_t>(m_runs->value());
   const double spread = m_spread->value() / metre;

@@ -55,6 +55,7 @@ class SituationDialog : public QDialog {
   QComboBox *m_team, *m_behaviour, *m_poses;
   QPlainTextEdit* m_assertions;
   NumberBox* m_seconds;
+  QCheckBox* m_noCalls;
   QCheckBox *m_goal, *m_goalAgainst, *m_ballOut, *m_fell, *m_stuck;
   QSpinBox *m_runs, *m_spread;
   QLabel *m_note, *m_problem;

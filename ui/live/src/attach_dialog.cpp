@@ -8,20 +8,18 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QSettings>
 #include <QSpinBox>
 #include <QTableWidget>
 #include <QTimer>
 #include <QVBoxLayout>
-#include <algorithm>
 
 #include <robotlink/blackboard/segments.h>
 #include <ui/base/dialog_size.h>
 #include <ui/base/number_box.h>
+#include <ui/base/robot_words.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
-#include <ui/sources/live_controller.h>
-#include <ui/sources/live_settings.h>
+#include <ui/sources/attached_boards.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -58,15 +56,16 @@ void setTexts(QTableWidget* table, int row, const QStringList& texts) {
 
 }  // namespace
 
-AttachDialog::AttachDialog(LiveController* live, QSettings* settings, QWidget* parent)
-    : QDialog(parent), m_live(live), m_settings(settings) {
+AttachDialog::AttachDialog(AttachedBoards* boards, QWidget* parent)
+    : QDialog(parent), m_boards(boards) {
   constexpr int refreshMilliseconds = 1000;
   setObjectName(QStringLiteral("attachDialog"));
   setWindowTitle(QStringLiteral("Attach blackboard"));
   setAttribute(Qt::WA_DeleteOnClose);
   auto* about = new QLabel(
-      QStringLiteral("On the computer of a robot its blackboard is shown in Live as it is, without "
-                     "messages. It is only read."),
+      QStringLiteral("Live shows an attached blackboard as a robot. A simulated match lists its "
+                     "variables beside those of its robots. It is only read, and changes faster "
+                     "than the sampling rate are missed."),
       this);
   about->setWordWrap(true);
   m_segments = makeTable(this, "segments",
@@ -188,23 +187,18 @@ void AttachDialog::listSegments() {
 }
 
 void AttachDialog::listAttached() {
-  const std::vector<link::AttachedBoard>& boards = m_live->options().boards;
-  const std::vector<std::string> names = link::boardNames(boards);
-  const auto all = m_live->details().boards;
+  const std::vector<link::AttachedStatus> boards = m_boards->status();
   m_attached->setRowCount(static_cast<int>(boards.size()));
   for (int row = 0; row < m_attached->rowCount(); ++row) {
-    const auto place = static_cast<std::size_t>(row);
-    const auto status = std::ranges::find_if(
-        all, [&](const link::AttachedStatus& one) { return one.board.key == boards[place].key; });
-    const bool known = status != all.end();
-    setTexts(m_attached, row,
-             {QString::fromStdString(names[place]), QString::number(boards[place].key),
-              known ? QString::number(status->samples) : QString(),
-              !m_live->isListening()      ? QStringLiteral("Live is not listening")
-              : known && status->attached ? QStringLiteral("attached")
-              : known                     ? QString::fromStdString(status->problem)
-                                          : QString()});
-    m_attached->item(row, 0)->setData(Qt::UserRole, boards[place].key);
+    const link::AttachedStatus& status = boards[static_cast<std::size_t>(row)];
+    sim::RobotIdentity robot;
+    robot.team = status.board.team;
+    robot.number = status.board.number();
+    setTexts(
+        m_attached, row,
+        {robotName(robot), QString::number(status.board.key), QString::number(status.samples),
+         status.attached ? QStringLiteral("attached") : QString::fromStdString(status.problem)});
+    m_attached->item(row, 0)->setData(Qt::UserRole, status.board.key);
   }
   m_detach->setEnabled(m_attached->currentRow() >= 0);
 }
@@ -237,35 +231,17 @@ bool AttachDialog::attach() {
   board.team = static_cast<TeamColor>(m_team->currentData().toInt());
   board.catalogFile = m_catalog->currentData().toString().toStdString();
   board.rate = m_rate->value();
-  std::vector<link::AttachedBoard> boards = m_live->options().boards;
-  std::erase_if(boards, [&board](const auto& known) { return known.key == board.key; });
-  boards.push_back(board);
-  if (const auto good = link::validate(boards); !good) {
-    return say(QString::fromStdString(good.error().message), true);
-  }
-  // Whether it is there and of its catalog's size: said now, tried again later.
-  const auto view = link::SegmentView::attach(board.key);
-  use(boards);
-  if (!view) return say(QString::fromStdString(view.error().text()), true);
-  return say({}, false);
+  const auto attached = m_boards->attach(board);
+  refresh();
+  return say(attached ? QString() : QString::fromStdString(attached.error().text()), !attached);
 }
 
 void AttachDialog::detach() {
   const QTableWidgetItem* item = m_attached->item(m_attached->currentRow(), 0);
   if (item == nullptr) return;
-  const int key = item->data(Qt::UserRole).toInt();
-  std::vector<link::AttachedBoard> boards = m_live->options().boards;
-  std::erase_if(boards, [key](const auto& known) { return known.key == key; });
-  use(boards);
-  say({}, false);
-}
-
-void AttachDialog::use(const std::vector<link::AttachedBoard>& boards) {
-  link::LiveOptions options = m_live->options();
-  options.boards = boards;
-  m_live->setOptions(options);
-  if (m_settings != nullptr) saveAttachedBoards(*m_settings, boards);
+  m_boards->detach(item->data(Qt::UserRole).toInt());
   refresh();
+  say({}, false);
 }
 
 bool AttachDialog::say(const QString& sentence, bool bad) {
@@ -277,9 +253,9 @@ bool AttachDialog::say(const QString& sentence, bool bad) {
   return !bad;
 }
 
-void showAttachDialog(LiveController* live, QSettings* settings, QWidget* window) {
+void showAttachDialog(AttachedBoards* boards, QWidget* window) {
   auto* dialog = window->findChild<AttachDialog*>();
-  if (dialog == nullptr) dialog = new AttachDialog(live, settings, window);
+  if (dialog == nullptr) dialog = new AttachDialog(boards, window);
   dialog->show();
   dialog->raise();
   dialog->activateWindow();

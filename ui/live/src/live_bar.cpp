@@ -137,7 +137,10 @@ void LiveBar::showTeams() {
     bool operator==(const Entry&) const = default;
   };
   QList<Entry> wanted{{QStringLiteral("Our team: choose"), 0}};
-  const int ours = m_live->options().ourTeam;
+  const FramePtr frame = m_live->frame();
+  const bool isColour = m_live->options().ourColour && m_live->options().ourTeam == 0;
+  const int ours =
+      isColour && frame && frame->referee ? frame->referee->ourTeam : m_live->options().ourTeam;
   // Packets have numbers; setups know the names.
   const std::vector<telemetry::TeamSetup>& setups = m_live->options().team.teams;
   const auto nameOf = [&setups](int number) {
@@ -146,7 +149,6 @@ void LiveBar::showTeams() {
                ? QStringLiteral("Team %1").arg(number)
                : QStringLiteral("%1, team %2").arg(QString::fromStdString(known->name)).arg(number);
   };
-  const FramePtr frame = m_live->frame();
   if (frame && frame->referee) {
     for (const link::RefereeTeamView& team : frame->referee->teams) {
       wanted.append(

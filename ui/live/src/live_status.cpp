@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include <ui/base/robot_words.h>
+#include <ui/base/scoreboard_state.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -85,7 +86,8 @@ LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::
                           countText(details.team.errors.messages() + details.unknownReferee +
                                     details.badVariables));
   text.referee = frame == nullptr || !frame->referee ? QStringLiteral("No referee heard")
-                                                     : QStringLiteral("Referee: version %1, %2/s")
+                                                     : QStringLiteral("%1Referee: version %2, %3/s")
+                                                           .arg(teamsText(*frame))
                                                            .arg(frame->referee->version)
                                                            .arg(numberText(m_refereeRate, 0));
   text.trouble = troubleOf(details, frame);

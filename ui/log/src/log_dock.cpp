@@ -10,6 +10,7 @@
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QScrollBar>
+#include <QTime>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -137,6 +138,13 @@ class LogDock : public QWidget {
               [this, source](const std::vector<link::MatchEvent>& events) {
                 appendEvents(events, source->clock(), source->kind());
               });
+      connect(source, &FrameSource::restarted, this, [this, source] {
+        if (source->kind() != SourceKind::Simulate) return;
+        m_model->divide(source->kind(),
+                        QStringLiteral("%1 started, %2")
+                            .arg(QString::fromStdString(m_controller->scenario().title),
+                                 QTime::currentTime().toString(QStringLiteral("HH:mm"))));
+      });
       connect(source, &FrameSource::rewound, this, [this, source](double time) {
         m_model->rewind(source->kind(), time);
         showStartLines();
@@ -199,8 +207,8 @@ class LogDock : public QWidget {
   }
 
   void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {},
-              std::optional<SourceKind> of = {}) {
-    m_model->append(lines, clock, of);
+              std::optional<SourceKind> of = {}, bool events = false) {
+    m_model->append(lines, clock, of, events);
     showStartLines();
     if (!isPast() && m_follow->isChecked()) m_table->scrollToBottom();
   }
@@ -212,7 +220,7 @@ class LogDock : public QWidget {
       lines.push_back(logLineOf(event));
       if (event.kind == link::MatchEventKind::ProcessStarted) lines.back().level = LogLevel::Debug;
     }
-    append(lines, clock, of);
+    append(lines, clock, of, true);
   }
 
   static QString textOf(const QModelIndex& row) {

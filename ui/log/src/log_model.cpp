@@ -15,29 +15,77 @@ bool isStartLine(const LogLine& line) {
 
 }  // namespace
 
+const std::string& LogModel::partOf(const Line& line) {
+  static const std::string events = "\n";  // no origin has this name
+  return line.isEvent ? events : line.origin;
+}
+
 void LogModel::append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock,
-                      std::optional<SourceKind> of) {
+                      std::optional<SourceKind> of, bool events) {
   const std::size_t kept = std::min(lines.size(), maxLines);
   m_dropped += lines.size() - kept;
-  if (kept == 0) return;
-  const std::size_t surplus =
-      m_lines.size() + kept > maxLines ? m_lines.size() + kept - maxLines : 0;
-  if (surplus > 0) {
-    const auto end = m_lines.begin() + static_cast<std::ptrdiff_t>(surplus);
-    beginRemoveRows({}, 0, static_cast<int>(surplus) - 1);
-    m_startLines -= static_cast<int>(std::count_if(m_lines.begin(), end, isStartLine));
-    m_lines.erase(m_lines.begin(), end);
-    m_dropped += surplus;
-    endRemoveRows();
-  }
-  const int first = static_cast<int>(m_lines.size());
-  beginInsertRows({}, first, first + static_cast<int>(kept) - 1);
+  std::vector<Line> made;
   for (std::size_t i = lines.size() - kept; i < lines.size(); ++i) {
-    m_lines.push_back({lines[i], clock, of});
+    made.push_back({lines[i], clock, of, events});
   }
-  m_startLines += static_cast<int>(
-      std::count_if(lines.end() - static_cast<std::ptrdiff_t>(kept), lines.end(), isStartLine));
+  insert(std::move(made));
+  makeRoom();
+}
+
+void LogModel::insert(std::vector<Line> lines) {
+  if (lines.empty()) return;
+  const int first = static_cast<int>(m_lines.size());
+  beginInsertRows({}, first, first + static_cast<int>(lines.size()) - 1);
+  for (Line& line : lines) {
+    ++m_counts[partOf(line)];
+    if (isStartLine(line)) ++m_startLines;
+    m_lines.push_back(std::move(line));
+  }
   endInsertRows();
+}
+
+void LogModel::makeRoom() {
+  while (m_lines.size() > maxLines) {
+    const auto longest = std::max_element(
+        m_counts.begin(), m_counts.end(),
+        [](const auto& one, const auto& other) { return one.second < other.second; });
+    const std::string part = longest->first;
+    const auto isIts = [&part](const Line& line) { return partOf(line) == part; };
+    const auto first = std::find_if(m_lines.begin(), m_lines.end(), isIts);
+    const auto surplus = static_cast<std::ptrdiff_t>(m_lines.size() - maxLines);
+    const auto most = first + std::min(surplus, m_lines.end() - first);
+    const auto last = std::find_if_not(first, most, isIts);
+    m_dropped += static_cast<quint64>(last - first);
+    forget(first, last);
+  }
+}
+
+void LogModel::forget(std::deque<Line>::iterator first, std::deque<Line>::iterator last) {
+  const int row = static_cast<int>(first - m_lines.begin());
+  beginRemoveRows({}, row, row + static_cast<int>(last - first) - 1);
+  for (auto line = first; line != last; ++line) {
+    --m_counts[partOf(*line)];
+    if (isStartLine(*line)) --m_startLines;
+  }
+  m_lines.erase(first, last);
+  endRemoveRows();
+}
+
+void LogModel::divide(SourceKind of, const QString& text) {
+  bool any = false;
+  for (Line& line : m_lines) {
+    if (line.of != of) continue;
+    line.of.reset();
+    any = true;
+  }
+  if (!any) return;
+  emit dataChanged(index(0, 0), index(rowCount() - 1, columns - 1), {Qt::ForegroundRole});
+  Line divider;
+  divider.text = text.toStdString();
+  divider.level = LogLevel::Unknown;
+  divider.isEvent = divider.isDivider = true;
+  insert({divider});
+  makeRoom();
 }
 
 void LogModel::setTimesOfDay(bool on) {
@@ -75,6 +123,7 @@ int LogModel::rowAtMoment() const {
 void LogModel::clear() {
   beginResetModel();
   m_lines.clear();
+  m_counts.clear();
   m_dropped = 0;
   m_startLines = 0;
   endResetModel();
@@ -83,11 +132,7 @@ void LogModel::clear() {
 void LogModel::rewind(SourceKind of, double time) {
   for (int row = rowCount() - 1; row >= 0; --row) {
     const auto line = m_lines.begin() + row;
-    if (line->of != of || line->time <= time) continue;
-    beginRemoveRows({}, row, row);
-    if (isStartLine(*line)) --m_startLines;
-    m_lines.erase(line);
-    endRemoveRows();
+    if (line->of == of && line->time > time) forget(line, line + 1);
   }
 }
 
@@ -102,6 +147,12 @@ int LogModel::columnCount(const QModelIndex& parent) const {
 QVariant LogModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
   const Line& line = m_lines[static_cast<std::size_t>(index.row())];
+  if (line.isDivider) {
+    if (role == Qt::BackgroundRole) return theme().button;
+    if (role == Qt::ForegroundRole) return theme().secondaryText;
+    if (role == Qt::FontRole) return themeFont(TypeRole::Secondary, true);
+    if (role == Qt::DisplayRole && index.column() != Text) return {};
+  }
   if (role == Qt::DisplayRole) {
     switch (index.column()) {
       case Time:

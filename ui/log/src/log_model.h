@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What was said by the simulation and the robots' processes: a bounded list, the oldest lines go
-// first; and which of them are shown. Window thread.
+// What was said by the simulation and the robots' processes: a bounded list, in which the origin
+// with the most lines gives up its oldest first, so that nobody pushes out what others said; and
+// which of them are shown. Window thread.
 
 #include <QAbstractTableModel>
 #include <QDateTime>
 #include <deque>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <base/log_line.h>
@@ -27,9 +30,13 @@ class LogModel : public QAbstractTableModel {
   using QAbstractTableModel::QAbstractTableModel;
 
   /// `clock`: the time of day at their source's second 0, where it has one.
-  /// `of`: whose lines they are, for setMoment().
+  /// `of`: whose lines they are, for setMoment(). `events`: of the match and its referee, which
+  /// share one part of the list whatever robot they are about.
   void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {},
-              std::optional<SourceKind> of = {});
+              std::optional<SourceKind> of = {}, bool events = false);
+  /// The source begins anew: its lines so far belong to no moment of it any more, and `text`
+  /// divides them from what comes.
+  void divide(SourceKind of, const QString& text);
   /// The source that is shown, and the moment while it is not the newest: later lines are pale.
   void setMoment(SourceKind shown, std::optional<double> time);
   /// The last line of the source shown that had been said at the moment; −1: none.
@@ -53,11 +60,17 @@ class LogModel : public QAbstractTableModel {
   struct Line : LogLine {
     std::optional<QDateTime> clock;
     std::optional<SourceKind> of;
+    bool isEvent = false, isDivider = false;
   };
+  static const std::string& partOf(const Line& line);
+  void insert(std::vector<Line> lines);
+  void makeRoom();
+  void forget(std::deque<Line>::iterator first, std::deque<Line>::iterator last);
   bool isLater(const Line& line) const {
     return m_moment && line.of == m_shown && line.time > *m_moment;
   }
   std::deque<Line> m_lines;
+  std::map<std::string, std::size_t> m_counts;  // lines of each part
   SourceKind m_shown = SourceKind::Simulate;
   std::optional<double> m_moment;
   bool m_timesOfDay = true;

@@ -257,6 +257,21 @@ void PlotPage::align() {
   m_heads->update();
 }
 
+// In little room the curves go first. Lanes come back when the page is dragged higher.
+void PlotPage::showLanesWhereTheyFit() {
+  const QList<PlotPane*> all = panes();
+  int charts = 0, lanes = 0;
+  for (const PlotPane* pane : all) {
+    const int least = std::max(pane->minimumHeight(), pane->minimumSizeHint().height());
+    (pane->kind() == PaneKind::Lane ? lanes : charts) += least;
+  }
+  const bool fit =
+      charts == 0 || m_stack->height() - m_ruler->height() - m_heads->height() >= charts + lanes;
+  for (PlotPane* pane : all) {
+    if (pane->kind() == PaneKind::Lane) pane->setVisible(fit);
+  }
+}
+
 // A splitter does not take back what a plot of fixed height cannot use.
 void PlotPage::giveLanesTheirHeight() {
   QList<int> sizes = m_panes->sizes();
@@ -303,6 +318,7 @@ void PlotPage::placeLines() {
 bool PlotPage::eventFilter(QObject* watched, QEvent* event) {
   if (watched == m_stack &&
       (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest)) {
+    if (event->type() == QEvent::Resize) showLanesWhereTheyFit();
     placeLines();
   }
   return QWidget::eventFilter(watched, event);

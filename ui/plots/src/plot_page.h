@@ -84,6 +84,7 @@ class PlotPage : public QWidget {
   void align();
   void placeLines();
   void giveLanesTheirHeight();
+  void showLanesWhereTheyFit();
   void showPointed();
   void showMarks();
   TimeAxis timeAxis() const;

@@ -60,15 +60,12 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   column->setSpacing(0);
   column->addWidget(m_pageRow);
   column->addWidget(m_notices);
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(0);
-  row->addWidget(makeTools());
-  row->addWidget(m_stack, 1);
-  column->addLayout(row, 1);
+  column->addWidget(m_stack, 1);
   auto* pageRow = new QHBoxLayout(m_pageRow);
   pageRow->setContentsMargins(0, 0, 0, 0);
   pageRow->addWidget(m_tabs);
+  pageRow->addStretch(1);
+  pageRow->addWidget(makeTools());
   m_tabs->setObjectName(QStringLiteral("docks"));  // they look like the tabs of docks
   m_tabs->setAccessibleName(QStringLiteral("Tabs of the plots"));
   m_tabs->setDrawBase(false);
@@ -355,7 +352,7 @@ QToolButton* toolButton(QAction* action, QWidget* parent) {
   button->setDefaultAction(action);
   button->setAutoRaise(true);
   button->setIconSize(QSize(scaled(parent, 16), scaled(parent, 16)));
-  button->setFixedHeight(scaled(parent, 24));  // eight of them fit the dock's first height
+  button->setFixedHeight(scaled(parent, 22));
   button->setFont(themeFont(TypeRole::Secondary));
   if (action->icon().isNull()) button->setToolButtonStyle(Qt::ToolButtonTextOnly);
   if (action->menu() != nullptr) button->setPopupMode(QToolButton::InstantPopup);
@@ -364,10 +361,9 @@ QToolButton* toolButton(QAction* action, QWidget* parent) {
 
 }  // namespace
 
-// Beside the plots, because height is what they lack.
+// In the row of tabs, because height is what plots lack.
 QToolBar* PlotsDock::makeTools() {
   auto* tools = new QToolBar(QStringLiteral("Tools of the plots"), this);
-  tools->setOrientation(Qt::Vertical);
   tools->setObjectName(QStringLiteral("plotTools"));
   tools->layout()->setSpacing(1);  // the sheet's, which was asked before it had its name
   tools->setIconSize(QSize(scaled(this, 16), scaled(this, 16)));

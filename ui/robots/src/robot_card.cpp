@@ -31,7 +31,7 @@ void RobotCard::setState(const CardState& state) {
   m_state = state;
   if (taller) updateGeometry();
   setAccessibleName(state.name);
-  QStringList said{state.subtitle, state.action, state.tag};
+  QStringList said{state.teamName, state.subtitle, state.action, state.tag};
   said.removeAll(QString());
   setAccessibleDescription(said.join(QStringLiteral(", ")));
   if (!footOnly)
@@ -108,6 +108,7 @@ bool RobotCard::event(QEvent* event) {
 
 QString RobotCard::headTip() const {
   QStringList lines{m_state.name};
+  if (!m_state.teamName.isEmpty()) lines.first() += QStringLiteral(" of %1").arg(m_state.teamName);
   if (!m_state.subtitle.isEmpty()) lines << m_state.subtitle;
   if (!m_state.runtime.isEmpty()) lines << QStringLiteral("Runs: %1").arg(m_state.runtime);
   if (m_state.battery) {
@@ -156,21 +157,10 @@ void RobotCard::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void RobotCard::keyPressEvent(QKeyEvent* event) {
-  switch (event->key()) {
-    case Qt::Key_Space:
-    case Qt::Key_Return:
-    case Qt::Key_Enter:
-      emit clicked(event->modifiers());
-      return;
-    case Qt::Key_Left:
-      collapse(true);
-      return;
-    case Qt::Key_Right:
-      collapse(false);
-      return;
-    default:
-      QFrame::keyPressEvent(event);
-  }
+  if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)
+    emit clicked(event->modifiers() & ~Qt::KeyboardModifiers(Qt::KeypadModifier));
+  else
+    QFrame::keyPressEvent(event);
 }
 
 void RobotCard::contextMenuEvent(QContextMenuEvent* event) {

@@ -122,14 +122,18 @@ void RobotsDock::showCards(const std::vector<CardState>& states) {
       isNew = true;
     }
     card->setState(state);
-    // The first team is ours, whoever is heard first.
     if (std::ranges::find(m_order, state.id) == m_order.end()) {
-      const auto isBehind = [&state](const RobotKey& known) { return known > state.id; };
+      const auto isBehind = [&](const RobotKey& known) { return order(known) > order(state.id); };
       m_order.insert(std::ranges::find_if(m_order, isBehind), state.id);
     }
   }
   if (isNew) arrange();
   showSelection();
+}
+
+RobotOrder RobotsDock::order(const RobotKey& robot) const {
+  const FramePtr frame = m_context.source->frame();
+  return orderOf(robot, frame ? frame->teams : link::Teams());
 }
 
 void RobotsDock::rename(const std::vector<Renaming>& renamings) {

@@ -100,7 +100,7 @@ void RobotsDock::addListActions(QMenu& menu) {
   menu.addAction(QStringLiteral("Collapse all"), this, [this] { setAllCollapsed(true); });
   menu.addAction(QStringLiteral("Expand all"), this, [this] { setAllCollapsed(false); });
   menu.addAction(QStringLiteral("Order by number"), this, [this] {
-    std::sort(m_order.begin(), m_order.end());
+    std::ranges::sort(m_order, {}, [this](const RobotKey& robot) { return order(robot); });
     arrange();
   });
 }

@@ -5,84 +5,90 @@
 
 #include <base/try.h>
 #include <robotlink/blackboard/system_v.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/live_settings.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_memory.h>
+#include <ui/sources/source_switch.h>
 
 namespace pitchboard::ui {
-namespace {
-constexpr int takeInterval = 20;  // ms
-const char* const noMatch = "open a match first: what is sampled is kept beside its rows";
-}  // namespace
 
-AttachedBoards::AttachedBoards(MatchController* controller, QObject* parent)
-    : QObject(parent), m_controller(controller) {
-  connect(controller, &MatchController::restarted, this, &AttachedBoards::follow);
+AttachedBoards::AttachedBoards(MatchController* match, LiveController* live, SourceSwitch* source,
+                               QSettings* settings, QObject* parent)
+    : QObject(parent), m_match(match), m_live(live), m_source(source), m_settings(settings) {
+  connect(match, &MatchController::restarted, this, &AttachedBoards::followMatch);
+  connect(live, &LiveController::optionsChanged, this, &AttachedBoards::setBesideMatch);
   connect(&m_take, &QTimer::timeout, this, [this] {
-    m_robots->takeRows([this](telemetry::GroupInfo group, auto rows) {
-      // It is none of the robots of the match, even if it has the number of one.
-      for (const char* ofRobots : {"robot", "number", "team"}) group.attributes.erase(ofRobots);
-      m_rows->take(group, rows);
-    });
+    m_robots->takeRows([this](const auto& group, auto rows) { m_rows->take(group, rows); });
   });
+  followMatch();
 }
 
 AttachedBoards::~AttachedBoards() = default;
 
-Result<void> AttachedBoards::attach(int key, double rate) {
-  link::AttachedBoard board;
-  board.key = key;
-  board.rate = rate;
-  TRY(link::validate({board}));
-  TRY(link::SegmentView::attach(key, link::SegmentLayout().bytes));
-  if (!m_controller->memory()->rowsBeside()) return failure(ErrorCode::NotFound, noMatch);
-  detach(key);
-  m_boards.push_back(board);
-  m_robots ? set() : follow();
+const std::vector<link::AttachedBoard>& AttachedBoards::list() const {
+  return m_live->options().boards;
+}
+
+Result<void> AttachedBoards::attach(const link::AttachedBoard& board) {
+  std::vector<link::AttachedBoard> boards = list();
+  std::erase_if(boards, [&board](const auto& known) { return known.key == board.key; });
+  boards.push_back(board);
+  TRY(link::validate(boards));
+  use(boards);
+  TRY(link::SegmentView::attach(board.key));
   return {};
 }
 
 void AttachedBoards::detach(int key) {
-  if (std::erase_if(m_boards, [key](const auto& board) { return board.key == key; }) != 0) set();
+  std::vector<link::AttachedBoard> boards = list();
+  std::erase_if(boards, [key](const auto& board) { return board.key == key; });
+  use(boards);
 }
 
-bool AttachedBoards::contains(int key) const {
-  return std::ranges::find(m_boards, key, &link::AttachedBoard::key) != m_boards.end();
-}
-
-// Another match has rows and a catalog of its own.
-void AttachedBoards::follow() {
-  m_take.stop();
-  m_robots.reset();
-  const MatchMemory* memory = m_controller->memory();
-  auto rows = memory->rowsBeside();
-  if (rows) {
-    m_rows = std::make_unique<link::BoardRowKeeper>(std::move(rows));
-    m_robots =
-        std::make_unique<link::AttachedRobots>(memory->timeBeside(), m_controller->catalog());
-  }
-  set();
-}
-
-void AttachedBoards::set() {
-  std::vector<std::string> taken;
-  for (const auto& robot : m_controller->scenario().robots) taken.push_back(robot.identity.name());
-  const std::vector<std::string> names = link::boardNames(m_boards, taken);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    m_names[m_boards[i].key] = QString::fromStdString(names[i]);
-  }
-  if (m_robots) m_robots->set(m_boards, taken);
-  if (m_robots && !m_boards.empty()) {
-    m_take.start(takeInterval);
-  } else {
-    m_take.stop();
-  }
+void AttachedBoards::use(const std::vector<link::AttachedBoard>& boards) {
+  link::LiveOptions options = m_live->options();
+  options.boards = boards;
+  m_live->setOptions(options);
+  if (m_settings != nullptr) saveAttachedBoards(*m_settings, boards);
 }
 
 std::vector<link::AttachedStatus> AttachedBoards::status() const {
-  if (m_robots) return m_robots->status();
+  const bool besideMatch = m_robots && m_source->kind() == SourceKind::Simulate;
+  const bool isRead = besideMatch || m_live->isListening();
+  const auto known = besideMatch ? m_robots->status() : m_live->details().boards;
   std::vector<link::AttachedStatus> all;
-  for (const link::AttachedBoard& board : m_boards) all.push_back({board, false, noMatch});
+  for (const link::AttachedBoard& board : list()) {
+    const auto found = std::ranges::find(known, board, &link::AttachedStatus::board);
+    const std::string why = isRead ? "" : "Open a match or switch to Live to read it.";
+    all.push_back(found != known.end() ? *found : link::AttachedStatus{board, false, why});
+  }
   return all;
+}
+
+/// Another match has rows and a catalog of its own.
+void AttachedBoards::followMatch() {
+  m_take.stop();
+  m_robots.reset();
+  const MatchMemory* memory = m_match->memory();
+  if (auto rows = memory->rowsBeside()) {
+    m_rows = std::make_unique<link::BoardRowKeeper>(std::move(rows));
+    m_robots = std::make_unique<link::AttachedRobots>(memory->timeBeside(), link::AttachedTo::Match,
+                                                      m_match->catalog());
+  }
+  setBesideMatch();
+}
+
+void AttachedBoards::setBesideMatch() {
+  constexpr int takeInterval = 20;  // ms
+  if (!m_robots) return;
+  std::vector<std::string> taken;
+  for (const auto& robot : m_match->scenario().robots) taken.push_back(robot.identity.name());
+  m_robots->set(list(), taken);
+  if (list().empty())
+    m_take.stop();
+  else
+    m_take.start(takeInterval);
 }
 
 }  // namespace pitchboard::ui

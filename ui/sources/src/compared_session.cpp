@@ -33,6 +33,7 @@ ComparedSession::ComparedSession(Timeline* timeline, QObject* parent)
     emit changed();
   });
   connect(&m_file, &ReplayController::loadedChanged, this, &ComparedSession::rowsCame);
+  connect(&m_file, &ReplayController::rowsCame, this, &ComparedSession::rowsCame);
   connect(&m_file, &ReplayController::failed, this, &ComparedSession::failed);
 }
 

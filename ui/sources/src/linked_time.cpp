@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pitchboard::ui {
 namespace {
@@ -141,18 +142,22 @@ void LinkedTime::setCursor(std::optional<double> time) {
 
 void LinkedTime::setMark(TimeMark mark, std::optional<double> time) {
   if (time && !std::isfinite(*time)) return;
-  if (m_marks[index(mark)] == time) return;
-  m_marks[index(mark)] = time;
+  TimeMarks marks = m_marks;
+  marks[index(mark)] = time;
+  setMarks(marks);
+}
+
+void LinkedTime::setMarks(const TimeMarks& marks) {
+  if (marks == m_marks) return;
+  const TimeMarks before = std::exchange(m_marks, marks);
   emit marksChanged();
+  emit marksMoved(before);
 }
 
 void LinkedTime::showMarks(bool on) {
   if (on == hasMarks()) return;
-  if (on)
-    m_marks = {m_range.begin + 0.4 * span(), m_range.begin + 0.8 * span()};
-  else
-    m_marks = {};
-  emit marksChanged();
+  setMarks(on ? TimeMarks{m_range.begin + 0.4 * span(), m_range.begin + 0.8 * span()}
+              : TimeMarks{});
 }
 
 }  // namespace pitchboard::ui

@@ -53,9 +53,10 @@ void LiveController::setOptions(const link::LiveOptions& options) {
 }
 
 void LiveController::setOurTeam(int number) {
-  if (number == m_options.ourTeam) return;
+  if (number == m_options.ourTeam && !m_options.ourColour) return;
   link::LiveOptions options = m_options;
   options.ourTeam = number;
+  options.ourColour.reset();
   setOptions(options);
 }
 

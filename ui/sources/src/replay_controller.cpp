@@ -56,7 +56,7 @@ QStringList readRows(const QString& path, telemetry::SeriesStore& store, std::at
   if (!range) return {};
   std::vector<telemetry::GroupId> ids;
   for (const telemetry::SessionGroup& group : session->groups()) {
-    ids.push_back(store.addGroup(group.info));
+    ids.push_back(store.addGroup(shownGroup(group)));
   }
   constexpr std::uint64_t rowsBetweenLooks = 4096;
   std::uint64_t rows = 0;
@@ -146,6 +146,13 @@ ReplayController::~ReplayController() {
   ++m_loading;
   m_seeker.waitForDone();
   m_loader.waitForDone();
+  dropPages();
+}
+
+/// Views of its rows may still be in use.
+void ReplayController::dropPages() {
+  if (m_pages) m_pages->setListener({});
+  m_pages.reset();
 }
 
 telemetry::SessionInfo ReplayController::info() const {
@@ -239,7 +246,7 @@ void ReplayController::tellRecorded() {
 void ReplayController::close() {
   ++m_generation;
   ++m_loading;
-  m_pages.reset();
+  dropPages();
   m_file.reset();
   m_frame.reset();
   m_path.clear();
@@ -250,7 +257,7 @@ void ReplayController::close() {
 }
 
 void ReplayController::take(std::shared_ptr<File> file) {
-  m_pages.reset();
+  dropPages();
   m_file = std::move(file);
   m_file->rows = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_budget});
   m_frame = m_file->first;
@@ -347,10 +354,11 @@ void ReplayController::page() {
           if (mine != m_loading) return;
           if (*reader) {
             for (const telemetry::SessionGroup& group : (*reader)->groups()) {
-              (void)file->rows->addGroup(group.info);
+              (void)file->rows->addGroup(shownGroup(group));
             }
             m_pages = std::make_shared<ReplayPages>(std::move(**reader), budget);
             file->rows->setPages(m_pages);
+            m_pages->setListener([this] { m_toUi.post([this] { emit rowsCame(); }); });
           }
           m_loaded = 1.0;
           emit loadedChanged(m_loaded);

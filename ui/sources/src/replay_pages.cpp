@@ -2,10 +2,13 @@
 #include "replay_pages.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
 #include <vector>
+
+#include <robotlink/blackboard/variable_meanings.h>
 
 namespace pitchboard::ui {
 
@@ -18,7 +21,7 @@ namespace {
 // (moments elsewhere): plots and marks never push out each other's rows.
 constexpr double longStretch = 7.0 / 16, shortStretch = 1.0 / 16;
 constexpr double nearby = 5.0;  // s; around a moment, because the next one is mostly near
-constexpr std::size_t mostWanted = 4;
+constexpr std::size_t mostWanted = 8;
 
 bool contains(TimeRange outer, TimeRange inner) {
   return outer.begin <= inner.begin && inner.end <= outer.end;
@@ -36,6 +39,12 @@ double bytesOfRows(const telemetry::SessionReader& session) {
     sum += row * static_cast<double>(group.rows);
   }
   return sum;
+}
+
+telemetry::GroupInfo shownGroup(const telemetry::SessionGroup& group) {
+  telemetry::GroupInfo info = group.info;
+  link::VariableMeanings::published().describeLost(info);
+  return info;
 }
 
 ReplayPages::ReplayPages(telemetry::SessionReader reader, std::size_t bytes)
@@ -117,8 +126,25 @@ void ReplayPages::want(TimeRange range) {
   const double more = std::min(std::max(length, nearby), room / 2);
   m_wanted.push_back(
       {std::max(range.begin - more, m_range.begin), std::min(range.end + more, m_range.end)});
-  if (m_wanted.size() > mostWanted) m_wanted.pop_front();
+  // A long stretch that is looked at comes at once, what is beside it afterwards.
+  if (length > nearby) m_wanted.push_back(range);
+  while (m_wanted.size() > mostWanted) m_wanted.pop_front();
   work();
+}
+
+bool ReplayPages::isReading(TimeRange range) {
+  const std::lock_guard lock(m_mutex);
+  return std::ranges::any_of(m_wanted, [&range](TimeRange one) { return contains(one, range); });
+}
+
+void ReplayPages::setListener(std::function<void()> listener) {
+  const std::lock_guard lock(m_listening);
+  m_listener = std::move(listener);
+}
+
+void ReplayPages::tell() {
+  const std::lock_guard lock(m_listening);
+  if (m_listener) m_listener();
 }
 
 /// Needs the lock.
@@ -131,21 +157,25 @@ void ReplayPages::work() {
       std::optional<TimeRange> range;
       {
         const std::lock_guard lock(m_mutex);
-        if (!m_askedFor.empty()) {
-          group = *m_askedFor.begin();
-        } else if (!m_wanted.empty()) {
+        // What is looked at closely first; the coarse pictures of a long session take a while.
+        if (!m_wanted.empty()) {
           range = m_wanted.back();
+        } else if (!m_askedFor.empty()) {
+          group = *m_askedFor.begin();
         }
-        if (m_ends || (!group && !range)) {
+        if (m_ends || (!group && !range && !isMeasuring())) {
           m_working = false;
           return;
         }
       }
-      if (group) {
+      if (range) {
+        readRows(*range);
+      } else if (group) {
         readSummary(*group);
       } else {
-        readRows(*range);
+        measure();
       }
+      tell();
     }
   });
 }
@@ -184,13 +214,14 @@ void ReplayPages::forgetSummaries() {
   }
 }
 
-void ReplayPages::readRows(TimeRange range) {
+std::shared_ptr<telemetry::SeriesStore> ReplayPages::rowsOf(TimeRange range,
+                                                            const std::function<bool()>& goOn) {
   // Its length is limited, so that the store has no limit of its own.
   auto rows = std::make_shared<telemetry::SeriesStore>(
       telemetry::SeriesOptions{std::numeric_limits<std::size_t>::max()});
   std::vector<GroupId> ids;
   for (const telemetry::SessionGroup& group : m_reader.groups()) {
-    ids.push_back(rows->addGroup(group.info));
+    ids.push_back(rows->addGroup(shownGroup(group)));
   }
   // A value holds until the next row: the stretch begins with the row before it.
   std::vector<telemetry::SessionRow> before;
@@ -203,18 +234,89 @@ void ReplayPages::readRows(TimeRange range) {
   constexpr std::uint64_t rowsBetweenLooks = 4096;
   m_reader.rows(range, {}, [&](GroupId group, const telemetry::RowView& row) {
     rows->append(ids[group], row);
-    if (++count % rowsBetweenLooks == 0) {
-      const std::lock_guard lock(m_mutex);
-      wanted = !m_ends && std::ranges::find(m_wanted, range) != m_wanted.end();
-    }
+    if (++count % rowsBetweenLooks == 0) wanted = goOn();
     return wanted;
+  });
+  return wanted ? rows : nullptr;
+}
+
+void ReplayPages::readRows(TimeRange range) {
+  auto rows = rowsOf(range, [this, range] {
+    const std::lock_guard lock(m_mutex);
+    return !m_ends && std::ranges::find(m_wanted, range) != m_wanted.end();
   });
   const std::lock_guard lock(m_mutex);
   std::erase(m_wanted, range);
-  if (!wanted) return;  // other stretches are looked at by now
+  if (!rows) return;  // other stretches are looked at by now
+  // The part of it that was read first.
+  m_held.remove_if([&range](const Held& held) { return contains(range, held.range); });
   m_held.push_front({range, std::move(rows)});
   keepRoom();
   ++m_revision;
+}
+
+std::optional<telemetry::SeriesStatistics> ReplayPages::statistics(GroupId group,
+                                                                   std::uint32_t column,
+                                                                   TimeRange range) {
+  const std::lock_guard lock(m_mutex);
+  const auto known = std::ranges::find_if(m_measures, [&](const Measure& one) {
+    return one.group == group && one.column == column && one.range == range;
+  });
+  if (known != m_measures.end()) {
+    return known->isDone() ? std::optional(known->sum.result()) : std::nullopt;
+  }
+  // While a mark is dragged nobody waits for where it was.
+  m_measures.remove_if([&](const Measure& one) {
+    return one.group == group && one.column == column && !one.isDone();
+  });
+  m_measures.push_front({group, column, range, {}, range.begin});
+  constexpr std::size_t mostMeasures = 100;
+  if (m_measures.size() > mostMeasures) m_measures.pop_back();
+  work();
+  return std::nullopt;
+}
+
+/// Needs the lock.
+bool ReplayPages::isMeasuring() const {
+  return !std::ranges::all_of(m_measures, &Measure::isDone);
+}
+
+/// One stretch further, so that rows that are looked at need not wait for a whole session.
+void ReplayPages::measure() {
+  TimeRange part{};
+  std::vector<std::pair<GroupId, std::uint32_t>> columns;
+  {
+    const std::lock_guard lock(m_mutex);
+    const auto first = std::ranges::find_if_not(m_measures, &Measure::isDone);
+    if (first == m_measures.end()) return;
+    const double length = std::max(nearby, secondsThatFit() * shortStretch);
+    part = {first->next, std::min(first->next + length, first->range.end)};
+    // Those of one range are measured together.
+    for (const Measure& one : m_measures) {
+      if (one.next == part.begin && one.range == first->range) {
+        columns.emplace_back(one.group, one.column);
+      }
+    }
+  }
+  const auto rows = rowsOf(part, [this] {
+    const std::lock_guard lock(m_mutex);
+    return !m_ends && m_wanted.empty();
+  });
+  if (!rows) return;
+  std::vector<telemetry::Sample> samples;
+  std::vector<double> values;
+  for (const auto& [group, column] : columns) {
+    rows->view(group)->samples(column, part, samples);
+    values.clear();
+    for (const telemetry::Sample& sample : samples) values.push_back(sample.value);
+    const std::lock_guard lock(m_mutex);
+    for (Measure& one : m_measures) {
+      if (one.group != group || one.column != column || one.next != part.begin) continue;
+      one.sum.add(values.data(), values.size());
+      one.next = std::nextafter(part.end, std::numeric_limits<double>::infinity());
+      if (one.isDone()) ++m_revision;
+    }
+  }
 }
 
 }  // namespace pitchboard::ui

@@ -7,12 +7,14 @@
 
 #include <atomic>
 #include <deque>
+#include <functional>
 #include <list>
 #include <map>
 #include <mutex>
 #include <set>
 
 #include <telemetry/series/series_pages.h>
+#include <telemetry/series/series_statistics.h>
 #include <telemetry/session/session_reader.h>
 #include <ui/base/workers.h>
 
@@ -20,6 +22,8 @@ namespace pitchboard::ui {
 
 /// Of all rows as they are; in memory they take about as much.
 double bytesOfRows(const telemetry::SessionReader& session);
+/// As views of its rows shall read it: older files do not say which columns can be lost.
+telemetry::GroupInfo shownGroup(const telemetry::SessionGroup& group);
 
 class ReplayPages : public telemetry::SeriesPages {
  public:
@@ -33,7 +37,12 @@ class ReplayPages : public telemetry::SeriesPages {
   std::optional<Stretch> held(telemetry::GroupId group,
                               std::optional<telemetry::TimeRange> range) override;
   void want(telemetry::TimeRange range) override;
+  std::optional<telemetry::SeriesStatistics> statistics(telemetry::GroupId group,
+                                                        std::uint32_t column,
+                                                        telemetry::TimeRange range) override;
+  bool isReading(telemetry::TimeRange range) override;
   std::uint64_t revision() override { return m_revision; }
+  void setListener(std::function<void()> listener) override;
   telemetry::TimeRange range() override { return m_range; }
   std::size_t bytes() override;
 
@@ -43,6 +52,12 @@ class ReplayPages : public telemetry::SeriesPages {
   void work();
   void readSummary(telemetry::GroupId group);
   void readRows(telemetry::TimeRange range);
+  /// A store with the rows of a range; null when `goOn` ended it.
+  std::shared_ptr<telemetry::SeriesStore> rowsOf(telemetry::TimeRange range,
+                                                 const std::function<bool()>& goOn);
+  bool isMeasuring() const;
+  void measure();
+  void tell();
   void forgetSummaries();
   double secondsThatFit() const;
   void keepRoom();
@@ -68,8 +83,19 @@ class ReplayPages : public telemetry::SeriesPages {
   };
   std::list<Held> m_held;                     // the one used last is first
   std::deque<telemetry::TimeRange> m_wanted;  // the newest is last
+  struct Measure {
+    telemetry::GroupId group;
+    std::uint32_t column;
+    telemetry::TimeRange range;
+    telemetry::StatisticsSum sum;
+    double next;  ///< rows before it are in the sum
+    bool isDone() const { return next > range.end; }
+  };
+  std::list<Measure> m_measures;  // the one asked for last is first
   std::atomic<std::uint64_t> m_revision = 1;
-  Workers m_worker;  // last: it uses all of the above
+  std::mutex m_listening;
+  std::function<void()> m_listener;  // of that mutex
+  Workers m_worker;                  // last: it uses all of the above
 };
 
 }  // namespace pitchboard::ui

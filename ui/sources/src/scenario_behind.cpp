@@ -1,18 +1,57 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/try.h>
+#include <robotlink/session/moment_reader.h>
+#include <robotlink/session/state_archive.h>
+#include <simcore/rules/game_start.h>
+#include <telemetry/session/session_reader.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_memory.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/scenario_behind.h>
 #include <ui/sources/source_switch.h>
 
 namespace pitchboard::ui {
+namespace {
+
+Result<sim::WorldState> nothingKnown() {
+  return failure(ErrorCode::NotFound, "this state of the match is not kept");
+}
+
+Result<sim::WorldState> recordedState(const ReplayController& replay,
+                                      const link::MatchFrame& frame) {
+  const auto session = TRY(telemetry::SessionReader::open(replay.path().toStdString()));
+  auto moment = TRY(
+      link::momentFromSession(session, frame.snapshot.time, link::VariableCatalog::published()));
+  if (moment.state.tick != frame.snapshot.tick) return nothingKnown();
+  return std::move(moment.state);
+}
+
+/// What a file says of the game is its beginning.
+void takeGame(const Result<sim::WorldState>& state, link::Scenario& scenario) {
+  scenario.game.reset();
+  if (!state) return;
+  scenario.settings.referee = state->settings.referee;
+  scenario.settings.teams = state->settings.teams;
+  if (state->game) scenario.game = sim::gameStartOf(*state);
+}
+
+}  // namespace
 
 std::optional<link::Scenario> scenarioBehind(const SourceSwitch& source,
                                              const MatchController& match,
                                              const ReplayController& replay) {
-  if (source.kind() == SourceKind::Simulate) return match.scenario();
+  const FramePtr frame = source.frame();
+  if (source.kind() == SourceKind::Simulate) {
+    link::Scenario scenario = match.scenario();
+    const auto archive = match.memory()->archive();
+    const auto state = frame && archive ? archive->restore(frame->snapshot.tick) : nothingKnown();
+    takeGame(state, scenario);
+    return scenario;
+  }
   if (source.kind() != SourceKind::Replay || replay.attachedScenario().empty()) return {};
   auto read = link::scenarioFromJson(replay.attachedScenario(), "the session's scenario");
   if (!read) return {};
+  takeGame(frame ? recordedState(replay, *frame) : nothingKnown(), *read);
   return std::move(*read);
 }
 

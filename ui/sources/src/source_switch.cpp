@@ -37,6 +37,7 @@ void SourceSwitch::follow() {
   connect(m_current, &FrameSource::eventsReceived, this, &FrameSource::eventsReceived);
   connect(m_current, &FrameSource::eventsRecorded, this, &FrameSource::eventsRecorded);
   connect(m_current, &FrameSource::logReceived, this, &FrameSource::logReceived);
+  connect(m_current, &FrameSource::rowsCame, this, &FrameSource::rowsCame);
   connect(m_current, &FrameSource::rewound, this, &FrameSource::rewound);
   connect(m_current, &FrameSource::restarted, this, [this] {
     forgetPast();

@@ -57,6 +57,10 @@ void Timeline::follow() {
   emit sourceChanged();
 }
 
+FramePtr Timeline::frame() const {
+  return m_source->frame();
+}
+
 EventList* Timeline::events() const {
   return m_collectors.at(m_source->current())->list();
 }
@@ -157,10 +161,6 @@ void Timeline::step(int ticks) {
     return;
   }
   playback()->step(ticks);
-}
-
-void Timeline::togglePlay() {
-  if (isRecording() || isLookingBack()) playback()->setPaused(!playback()->isPaused());
 }
 
 namespace {

@@ -97,6 +97,14 @@ constexpr std::array<Look, link::eventShapeCount> looks{{
     {flag, &ThemeColors::accentLine},
 }};
 
+constexpr int noteImportance = 1'000'000;
+
+// Somebody wrote a note to read it again: no event takes its place.
+int importanceOf(const link::MatchEvent& event) {
+  const bool isNote = event.kind == link::MatchEventKind::Bookmark && !event.detail.empty();
+  return isNote ? noteImportance : link::info(event.kind).importance;
+}
+
 }  // namespace
 
 QColor markColor(link::EventShape shape) {
@@ -130,8 +138,7 @@ std::vector<EventMark> layOutMarks(const std::deque<link::MatchEvent>& events, c
       EventMark& same = marks.back();
       same.last = row;
       ++same.merged;
-      if (link::info(at->kind).importance >
-          link::info(events[static_cast<std::size_t>(same.row)].kind).importance) {
+      if (importanceOf(*at) > importanceOf(events[static_cast<std::size_t>(same.row)])) {
         same.row = row;
         same.x = x;
       }
@@ -140,12 +147,17 @@ std::vector<EventMark> layOutMarks(const std::deque<link::MatchEvent>& events, c
     marks.push_back({x, row, row, row, 1, {}});
   }
   const auto importance = [&events](const EventMark& mark) {
-    return link::info(events[static_cast<std::size_t>(mark.row)].kind).importance;
+    return importanceOf(events[static_cast<std::size_t>(mark.row)]);
   };
   // The more important one of two neighbours that overlap takes the other in, until none overlap.
   std::vector<EventMark> kept;
   for (EventMark& mark : marks) {
-    while (!kept.empty() && mark.x - kept.back().x < sizes.spacing) {
+    const auto room = [&](const EventMark& left) {
+      return importance(left) == noteImportance && importance(mark) < noteImportance
+                 ? sizes.noteRoom
+                 : sizes.spacing;
+    };
+    while (!kept.empty() && mark.x - kept.back().x < room(kept.back())) {
       EventMark& left = kept.back();
       if (importance(left) >= importance(mark)) {
         left.last = mark.last;

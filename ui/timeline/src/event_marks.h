@@ -24,8 +24,9 @@ struct EventMark {
 };
 
 struct MarkSizes {
-  double spacing = 10.0;  ///< px between the centres of two marks at least
-  double labelGap = 8.0;  ///< px from the centre to the label
+  double spacing = 10.0;   ///< px between the centres of two marks at least
+  double labelGap = 8.0;   ///< px from the centre to the label
+  double noteRoom = 72.0;  ///< px behind a bookmark that its note has to itself at least
 };
 
 /// Marks in order of x for events in order of time.

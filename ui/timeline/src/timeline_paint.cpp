@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How the timeline looks.
+#include <QApplication>
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QPainter>
@@ -190,7 +191,7 @@ void TimelineStrip::editNote(int row) {
   m_note->selectAll();
   m_note->setFocus();
   connect(m_note, &QLineEdit::editingFinished, this, [this] { finishNote(true); });
-  m_note->installEventFilter(this);
+  qApp->installEventFilter(this);
 }
 
 bool TimelineStrip::eventFilter(QObject* watched, QEvent* event) {
@@ -199,13 +200,20 @@ bool TimelineStrip::eventFilter(QObject* watched, QEvent* event) {
     finishNote(false);
     return true;
   }
+  // A click anywhere else is done with it, also where the focus does not go.
+  if (event->type() == QEvent::MouseButtonPress && m_note != nullptr) {
+    const auto* pressed = qobject_cast<const QWidget*>(watched);
+    const bool within = pressed == nullptr || pressed->window() != window() || pressed == m_note ||
+                        m_note->isAncestorOf(pressed);
+    if (!within) finishNote(true);
+  }
   return QWidget::eventFilter(watched, event);
 }
 
 void TimelineStrip::finishNote(bool keep) {
   if (m_note == nullptr) return;
   QLineEdit* note = std::exchange(m_note, nullptr);
-  note->removeEventFilter(this);
+  qApp->removeEventFilter(this);
   const bool hadFocus = note->hasFocus();
   if (keep) m_timeline->setNote(m_noteTime, note->text());
   note->hide();

@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <algorithm>
+#include <cmath>
 
 #include "variable_text.h"
 
@@ -29,7 +30,9 @@ std::optional<OverwrittenValue> ValueWatch::check(const telemetry::SeriesStore& 
     view->samples(id->column, {written->time, written->time + longEnough}, samples);
     const auto other =
         std::find_if(samples.begin(), samples.end(), [&written](const telemetry::Sample& sample) {
-          return sample.time > written->time && sample.value != written->value;
+          // A hole says that nothing is seen, not that somebody wrote.
+          return sample.time > written->time && std::isfinite(sample.value) &&
+                 sample.value != written->value;
         });
     if (other != samples.end()) {
       const OverwrittenValue found{*written, other->value, other->time - written->time};

@@ -52,7 +52,7 @@ auto refuse(const QString& sentence) {
 }  // namespace
 
 QString valueText(const ColumnInfo& column, double value) {
-  if (std::isnan(value)) return QStringLiteral("NaN");
+  if (std::isnan(value)) return QStringLiteral("–");
   if (std::isinf(value)) return value > 0 ? QStringLiteral("∞") : QStringLiteral("−∞");
   return numberOf(value, decimalsOf(column));
 }

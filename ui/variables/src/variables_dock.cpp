@@ -12,6 +12,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <set>
 
 #include <ui/base/in_place_message.h>
 #include <ui/base/plot_target.h>
@@ -25,9 +26,7 @@
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
 
-#include "attach_form.h"
 #include "catalog_choice.h"
-#include "guest_boards.h"
 #include "value_writer.h"
 #include "variables_filter.h"
 #include "variables_header.h"
@@ -52,15 +51,13 @@ class VariablesDock : public QWidget {
         m_message(new InPlaceMessage(this)),
         m_empty(makeEmptyLabel(this, QStringLiteral("emptyVariables"))),
         m_timer(new QTimer(this)),
-        m_writer(new ValueWriter(context.controller, m_model, m_message, this)),
-        m_guests(new GuestBoards(context.controller, m_model, m_message, this)) {
+        m_writer(new ValueWriter(context.controller, m_model, m_message, this)) {
     m_model->setObjectName(QStringLiteral("variablesModel"));
     m_catalog = new CatalogChoice(context.controller, context.settings, m_message, this);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
     column->addLayout(makeTools());
-    column->addWidget(m_guests->form());
     column->addWidget(m_message);
     column->addWidget(m_view, 1);
     column->addWidget(m_empty, 1);
@@ -133,7 +130,7 @@ class VariablesDock : public QWidget {
     connect(m_lock, &QToolButton::toggled, this, [this](bool on) { allowEditing(on); });
     auto* more = makeButton("variablesMenu", "application-menu",
                             QStringLiteral("Columns, sampling, catalog, other blackboards"));
-    m_menu = new VariablesMenu(m_context, m_view, m_filter, m_catalog, m_guests, more);
+    m_menu = new VariablesMenu(m_context, m_view, m_filter, m_catalog, more);
     more->setMenu(m_menu);
     connect(m_menu, &VariablesMenu::changedWithinChosen, this, [this] {
       if (m_changed->isChecked())
@@ -166,18 +163,54 @@ class VariablesDock : public QWidget {
       menu->addAction(QStringLiteral("Edit value"), m_view, &VariablesView::editCurrent);
     }
     const auto group = m_model->groupOf(index);
-    const auto& attributes = group->info().attributes;
-    if (attributes.count("attached") != 0) {
-      const int key = QString::fromStdString(attributes.at("key")).toInt();
-      if (m_guests->contains(key)) {
-        menu->addAction(QStringLiteral("Detach %1").arg(QString::fromStdString(group->info().name)),
-                        this, [this, key] { m_guests->detach(key); });
-      }
+    for (const link::AttachedStatus& board : boards()) {
+      const int key = board.board.key;
+      if (keyOf(group->info()) != key) continue;
+      const QString name = QString::fromStdString(group->info().name);
+      menu->addAction(QStringLiteral("Detach %1").arg(name), this, [this, key, name] {
+        m_context.boards->detach(key);
+        m_model->setNote(name, {QStringLiteral("detached"), {}, 0.0});
+      });
     }
     if (menu->isEmpty())
       delete menu;
     else
       menu->popup(m_view->viewport()->mapToGlobal(at));
+  }
+
+  std::vector<link::AttachedStatus> boards() const {
+    if (m_context.boards == nullptr || m_context.source->kind() == SourceKind::Replay) return {};
+    return m_context.boards->list().empty() ? std::vector<link::AttachedStatus>()
+                                            : m_context.boards->status();
+  }
+
+  /// The System V key of an attached blackboard's group; 0: it is another group.
+  static int keyOf(const telemetry::GroupInfo& group) {
+    const auto& attributes = group.attributes;
+    if (!attributes.contains("attached") || !attributes.contains("key")) return 0;
+    return QString::fromStdString(attributes.at("key")).toInt();
+  }
+
+  /// Notes beside the groups of attached blackboards, and a message when one was removed.
+  void describeBoards() {
+    for (const link::AttachedStatus& status : boards()) {
+      if (status.attached) {
+        m_attached.insert(status.board.key);
+      } else if (m_attached.erase(status.board.key) != 0) {
+        m_message->say(InPlaceMessage::Tone::Warning, QString::fromStdString(status.problem));
+      }
+      for (int row = 0; row < m_model->rowCount(); ++row) {
+        const auto group = m_model->groupOf(m_model->index(row, 0));
+        if (keyOf(group->info()) != status.board.key) continue;
+        m_model->setNote(
+            QString::fromStdString(group->info().name),
+            {status.attached ? QString() : QStringLiteral("removed, waiting"),
+             status.missed == 0 ? QString()
+                                : QStringLiteral("The computer was busy and missed %1 samples.")
+                                      .arg(status.missed),
+             status.attached ? status.rate : 0.0});
+      }
+    }
   }
 
   void connectView() {
@@ -296,8 +329,8 @@ class VariablesDock : public QWidget {
     const Timeline* timeline = m_context.timeline;
     const bool past = timeline && (timeline->isLookingBack() || timeline->isRecording());
     m_model->setMoment(past ? std::optional(timeline->shownTime()) : std::nullopt);
-    m_guests->refresh();
     m_model->updateGroups();
+    describeBoards();
     m_model->refreshSet(m_view->rowsInSight());
     constexpr int slowly = 5;
     const bool busy = m_view->isEditing() || QApplication::mouseButtons() != Qt::NoButton;
@@ -343,12 +376,12 @@ class VariablesDock : public QWidget {
   QLabel* m_empty;
   QTimer* m_timer;
   ValueWriter* m_writer;
-  GuestBoards* m_guests;
   CatalogChoice* m_catalog = nullptr;
   VariablesMenu* m_menu = nullptr;
   QLineEdit* m_words = nullptr;
   QToolButton *m_stars = nullptr, *m_changed = nullptr, *m_lock = nullptr;
   std::shared_ptr<const telemetry::SeriesStore> m_store;
+  std::set<int> m_attached;  // keys of blackboards that could be read
   unsigned m_polls = 0;
 };
 

@@ -8,9 +8,7 @@
 #include <ui/sources/source_switch.h>
 #include <ui/variables/variables_dock.h>
 
-#include "attach_form.h"
 #include "catalog_choice.h"
-#include "guest_boards.h"
 #include "variables_filter.h"
 #include "variables_header.h"
 #include "variables_view.h"
@@ -23,14 +21,8 @@ const QString foldKey = QStringLiteral("variables/foldNeverSet");
 }  // namespace
 
 VariablesMenu::VariablesMenu(const VariablesContext& context, VariablesView* view,
-                             VariablesFilter* filter, CatalogChoice* catalog, GuestBoards* guests,
-                             QWidget* parent)
-    : QMenu(parent),
-      m_context(context),
-      m_view(view),
-      m_filter(filter),
-      m_catalog(catalog),
-      m_guests(guests) {
+                             VariablesFilter* filter, CatalogChoice* catalog, QWidget* parent)
+    : QMenu(parent), m_context(context), m_view(view), m_filter(filter), m_catalog(catalog) {
   if (const QSettings* settings = context.settings) {
     m_changedWithin = qBound(1, settings->value(changedKey, m_changedWithin).toInt(), 3600);
     context.controller->memory()->setSampling(
@@ -107,15 +99,12 @@ void VariablesMenu::addBoards() {
   QAction* reset = addAction(QStringLiteral("Use the published catalog"), this,
                              [this] { m_catalog->usePublished(); });
   reset->setObjectName(QStringLiteral("publishedCatalog"));
-  QAction* attach =
-      addAction(QStringLiteral("Attach blackboard…"), this, [this] { m_guests->form()->open(); });
-  attach->setObjectName(QStringLiteral("attachBlackboard"));
-  connect(this, &QMenu::aboutToShow, this, [this, reset, attach] {
-    const bool simulated = m_context.source->kind() == SourceKind::Simulate;
-    attach->setEnabled(simulated);
-    attach->setToolTip(simulated
-                           ? QStringLiteral("Samples any System V key, read-only")
-                           : QStringLiteral("Blackboards of this computer are shown in Simulate"));
+  if (m_context.attachBoard) {
+    QAction* attach = addAction(QStringLiteral("Attach blackboard…"), this, m_context.attachBoard);
+    attach->setObjectName(QStringLiteral("attachBlackboard"));
+    attach->setToolTip(QStringLiteral("Samples any System V key of this computer, read-only"));
+  }
+  connect(this, &QMenu::aboutToShow, this, [this, reset] {
     reset->setEnabled(!m_catalog->isPublished());
     reset->setToolTip(m_catalog->name());
   });

@@ -9,7 +9,6 @@
 namespace pitchboard::ui {
 
 class CatalogChoice;
-class GuestBoards;
 class VariablesFilter;
 class VariablesView;
 struct VariablesContext;
@@ -18,7 +17,7 @@ class VariablesMenu : public QMenu {
   Q_OBJECT
  public:
   VariablesMenu(const VariablesContext& context, VariablesView* view, VariablesFilter* filter,
-                CatalogChoice* catalog, GuestBoards* guests, QWidget* parent);
+                CatalogChoice* catalog, QWidget* parent);
 
   /// Seconds of the source within which a value counts as just changed.
   int changedWithin() const { return m_changedWithin; }
@@ -37,7 +36,6 @@ class VariablesMenu : public QMenu {
   VariablesView* m_view;
   VariablesFilter* m_filter;
   CatalogChoice* m_catalog;
-  GuestBoards* m_guests;
   int m_changedWithin = 5;
 };
 

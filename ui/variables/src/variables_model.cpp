@@ -4,6 +4,7 @@
 #include <QMimeData>
 #include <algorithm>
 
+#include <telemetry/series/group_order.h>
 #include <ui/base/plot_target.h>
 #include <ui/base/robot_words.h>
 
@@ -30,6 +31,13 @@ int categoryRank(const std::string& category) {
 int groupRank(const GroupInfo& info) {
   if (info.name == "match") return 2;
   return info.attributes.count("number") != 0 ? 0 : 1;
+}
+
+bool isListedBefore(const VariableNode& group, const VariableNode& other) {
+  if (group.rank != other.rank) return group.rank < other.rank;
+  if (telemetry::isListedBefore(group.view->info(), other.view->info())) return true;
+  return !telemetry::isListedBefore(other.view->info(), group.view->info()) &&
+         group.group < other.group;
 }
 
 }  // namespace
@@ -122,7 +130,10 @@ void VariablesModel::updateGroups() {
   m_revision = revision;
   // A group whose columns changed goes on under a new id; the old one is history.
   for (std::size_t i = m_groups.size(); i-- > 0;) {
-    if (m_store->findGroup(m_groups[i]->name.toStdString()) == m_groups[i]->group) continue;
+    const VariableNode& known = *m_groups[i];
+    const auto view = m_store->view(known.group);
+    const bool isListed = m_store->findGroup(known.name.toStdString()) == known.group;
+    if (isListed && view && orderOf(view->info()) == orderOf(known.view->info())) continue;
     beginRemoveRows({}, static_cast<int>(i), static_cast<int>(i));
     m_groups.erase(m_groups.begin() + static_cast<std::ptrdiff_t>(i));
     renumber();
@@ -139,7 +150,7 @@ void VariablesModel::updateGroups() {
     auto group = makeGroup(id, std::move(view));
     lookForSet(*group);
     const auto place = std::find_if(m_groups.begin(), m_groups.end(), [&group](const auto& other) {
-      return std::pair(group->rank, group->group) < std::pair(other->rank, other->group);
+      return isListedBefore(*group, *other);
     });
     const int row = static_cast<int>(place - m_groups.begin());
     beginInsertRows({}, row, row);

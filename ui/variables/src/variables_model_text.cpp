@@ -107,6 +107,7 @@ QString VariablesModel::toolTip(const QModelIndex& index) const {
   if (row.kind == Kind::Group) {
     QStringList lines{row.name};
     for (const auto& [key, value] : row.view->info().attributes) {
+      if (key == "order") continue;  // how lists are sorted
       lines << QString::fromStdString(key) + QStringLiteral(": ") + QString::fromStdString(value);
     }
     const GroupNote note = m_notes.value(row.name);

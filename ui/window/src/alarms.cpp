@@ -10,6 +10,7 @@
 #include <QWidget>
 #include <algorithm>
 
+#include <ui/base/elided_words.h>
 #include <ui/base/theme.h>
 #include <ui/sources/source_switch.h>
 
@@ -20,7 +21,6 @@ using Kind = link::MatchEventKind;
 
 const QString kindsKey = QStringLiteral("alarms/kinds");
 const QString soundKey = QStringLiteral("alarms/sound");
-constexpr int calmMilliseconds = 1500;
 
 struct Offer {
   Kind kind;
@@ -40,7 +40,9 @@ constexpr Offer offers[] = {
     {Kind::Goal, "A goal"},
 };
 
-/// A red edge that lets the mouse through.
+}  // namespace
+
+/// A red edge with the reason on a plate, which stays a little longer. Lets the mouse through.
 class AlarmFrame : public QWidget {
  public:
   explicit AlarmFrame(QWidget* host) : QWidget(host) {
@@ -49,7 +51,21 @@ class AlarmFrame : public QWidget {
     setAttribute(Qt::WA_NoSystemBackground);
     host->installEventFilter(this);
     hide();
+    m_edge.setSingleShot(true);
+    m_plate.setSingleShot(true);
+    connect(&m_edge, &QTimer::timeout, this, qOverload<>(&QWidget::update));
+    connect(&m_plate, &QTimer::timeout, this, &QWidget::hide);
   }
+  void raiseWith(const QString& sentence) {
+    setAccessibleName(sentence);
+    setGeometry(parentWidget()->rect());
+    show();
+    raise();
+    update();
+    m_edge.start(edgeMilliseconds);
+    m_plate.start(plateMilliseconds);
+  }
+  bool hasEdge() const { return isVisible() && m_edge.isActive(); }
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override {
@@ -58,23 +74,37 @@ class AlarmFrame : public QWidget {
   }
   void paintEvent(QPaintEvent*) override {
     QPainter painter(this);
-    const double wide = scaled(this, 6);
-    painter.setPen(QPen(theme().errorText, wide));
-    painter.drawRect(QRectF(rect()).adjusted(wide / 2, wide / 2, -wide / 2, -wide / 2));
+    painter.setRenderHint(QPainter::Antialiasing);
+    if (m_edge.isActive()) {
+      const double wide = scaled(this, 6);
+      painter.setPen(QPen(theme().errorText, wide));
+      painter.drawRect(QRectF(rect()).adjusted(wide / 2, wide / 2, -wide / 2, -wide / 2));
+    }
+    const QFont font = themeFont(TypeRole::Body, true);
+    const QFontMetricsF metrics(font);
+    const double most = width() - scaled(this, 64);
+    const QString text = elidedWords(metrics, accessibleName(), most);
+    QRectF plate(0, scaled(this, 44), metrics.horizontalAdvance(text) + scaled(this, 24),
+                 scaled(this, 28));
+    plate.moveLeft((width() - plate.width()) / 2);
+    painter.setPen(theme().errorText);
+    painter.setBrush(theme().errorGround);
+    painter.drawRoundedRect(plate, 3, 3);
+    painter.setFont(font);
+    painter.setPen(theme().text);
+    painter.drawText(plate, Qt::AlignCenter, text);
   }
-};
 
-}  // namespace
+ private:
+  static constexpr int edgeMilliseconds = 1500, plateMilliseconds = 5000;
+  QTimer m_edge, m_plate;
+};
 
 Alarms::Alarms(SourceSwitch* sources, QWidget* field, QSettings* settings, QObject* parent)
     : QObject(parent),
       m_frame(new AlarmFrame(field)),
-      m_calm(new QTimer(this)),
       m_settings(settings),
       m_ring(&QApplication::beep) {
-  m_calm->setSingleShot(true);
-  m_calm->setInterval(calmMilliseconds);
-  connect(m_calm, &QTimer::timeout, m_frame, &QWidget::hide);
   if (settings != nullptr) {
     for (const QString& name : settings->value(kindsKey).toStringList()) {
       if (const auto kind = link::matchEventKind(name.toStdString())) m_chosen.insert(*kind);
@@ -88,7 +118,7 @@ Alarms::Alarms(SourceSwitch* sources, QWidget* field, QSettings* settings, QObje
 }
 
 bool Alarms::isRaised() const {
-  return m_frame->isVisible();
+  return m_frame->hasEdge();
 }
 
 void Alarms::keep() {
@@ -132,13 +162,13 @@ void Alarms::take(const std::vector<link::MatchEvent>& events) {
   });
   if (first == events.end()) return;
   QWidget* field = m_frame->parentWidget();
-  m_frame->setGeometry(field->rect());
-  m_frame->show();
-  m_frame->raise();
-  m_calm->start();
+  const auto all = std::count_if(
+      first, events.end(), [this](const auto& event) { return m_chosen.contains(event.kind); });
+  QString sentence = QString::fromStdString(sentenceOf(*first));
+  if (all > 1) sentence += QStringLiteral(" (and %1 more)").arg(all - 1);
+  m_frame->raiseWith(sentence);
   QApplication::alert(field->window());
   if (m_sound) m_ring();
-  emit raised(QString::fromStdString(sentenceOf(*first)));
 }
 
 }  // namespace pitchboard::ui

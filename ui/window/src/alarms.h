@@ -15,11 +15,11 @@
 
 class QMenu;
 class QSettings;
-class QTimer;
 class QWidget;
 
 namespace pitchboard::ui {
 
+class AlarmFrame;
 class SourceSwitch;
 
 class Alarms : public QObject {
@@ -29,19 +29,16 @@ class Alarms : public QObject {
   Alarms(SourceSwitch* sources, QWidget* field, QSettings* settings, QObject* parent);
   /// A tick for each kind of event that can be an alarm, and one for the sound.
   void fill(QMenu* menu);
+  /// The red edge is seen; what it is about is said a little longer.
   bool isRaised() const;
   /// What makes the sound; at first that of the desktop.
   void setBell(std::function<void()> ring) { m_ring = std::move(ring); }
-
- signals:
-  void raised(const QString& sentence);
 
  private:
   void take(const std::vector<link::MatchEvent>& events);
   void keep();
 
-  QWidget* m_frame;  // over the field
-  QTimer* m_calm;
+  AlarmFrame* m_frame;  // over the field
   QSettings* m_settings;
   std::set<link::MatchEventKind> m_chosen;
   bool m_sound = false;

@@ -2,6 +2,7 @@
 #include "dock_list.h"
 
 #include <ui/experiments/experiments_dock.h>
+#include <ui/live/attach_dialog.h>
 #include <ui/live/bad_messages_dock.h>
 #include <ui/live/referee_dock.h>
 #include <ui/log/log_dock.h>
@@ -34,8 +35,10 @@ QWidget* robots(const StudioParts& s, QWidget* parent) {
                         parent);
 }
 QWidget* variables(const StudioParts& s, QWidget* parent) {
-  return makeVariablesDock({s.controller, s.source, s.timeline, s.plots, s.settings, s.selection},
-                           parent);
+  return makeVariablesDock(
+      {s.controller, s.source, s.timeline, s.plots, s.settings, s.selection, s.boards,
+       [boards = s.boards, parent] { showAttachDialog(boards, parent->window()); }},
+      parent);
 }
 QWidget* noise(const StudioParts& s, QWidget* parent) {
   return makeNoiseDock(s.controller, s.selection, parent);
@@ -70,17 +73,17 @@ QWidget* timeline(const StudioParts& s, QWidget* parent) {
 
 std::span<const DockInfo> studioDocks() {
   static constexpr DockInfo docks[] = {
-      {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, robots},
-      {"variables", "Variables", Qt::RightDockWidgetArea, true, 416, variables},
-      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 416, noise},
-      {"refereeing", "Refereeing", Qt::RightDockWidgetArea, false, 416, refereeing},
-      {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, plots},
-      {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, processes},
-      {"referee", "Referee", Qt::RightDockWidgetArea, false, 416, referee},
-      {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, badMessages},
-      {"log", "Log", Qt::BottomDockWidgetArea, true, 180, log},
-      {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, 280, experiments},
-      {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, 56, timeline, true},
+      {"robots", "Robots", Qt::LeftDockWidgetArea, true, robots},
+      {"variables", "Variables", Qt::RightDockWidgetArea, true, variables},
+      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, noise},
+      {"refereeing", "Refereeing", Qt::RightDockWidgetArea, false, refereeing},
+      {"plots", "Plots", Qt::BottomDockWidgetArea, true, plots},
+      {"processes", "Processes", Qt::BottomDockWidgetArea, true, processes},
+      {"referee", "Referee", Qt::RightDockWidgetArea, false, referee},
+      {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, badMessages},
+      {"log", "Log", Qt::BottomDockWidgetArea, true, log},
+      {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, experiments},
+      {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, timeline, true},
   };
   return docks;
 }

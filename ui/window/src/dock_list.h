@@ -20,7 +20,6 @@ struct DockInfo {
   const char* title;
   Qt::DockWidgetArea area;  ///< docks of the bottom are tabbed together
   bool shownAtFirst;
-  int extent;  ///< width (left, right) or height (bottom) at first, mock pixels
   QWidget* (*make)(const StudioParts& parts, QWidget* parent);
   bool ownRow = false;  ///< bottom: below the tabs, without a title while docked
 };

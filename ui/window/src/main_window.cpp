@@ -10,16 +10,17 @@
 #include <QMenuBar>
 #include <QSettings>
 #include <QTimer>
-#include <QUndoGroup>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <limits>
 #include <utility>
 
+#include <telemetry/series/group_order.h>
 #include <ui/base/notice_bar.h>
 #include <ui/base/plot_target.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/time_axis.h>
+#include <ui/base/undo_history.h>
 #include <ui/base/wheel_guard.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/field/field_view.h>
@@ -27,6 +28,7 @@
 #include <ui/processes/orphan_notice.h>
 #include <ui/session/export_dialog.h>
 #include <ui/session/session_files.h>
+#include <ui/sources/attached_boards.h>
 #include <ui/sources/compared_session.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/live_controller.h>
@@ -50,6 +52,8 @@
 #include "dock_title.h"
 #include "field_only.h"
 #include "field_signs.h"
+#include "help_windows.h"
+#include "key_map.h"
 #include "menu_actions.h"
 #include "menus.h"
 #include "scenario_chooser.h"
@@ -61,6 +65,7 @@
 namespace pitchboard::ui {
 namespace {
 const QString exportTopic = QStringLiteral("export");
+const QString speedTopic = QStringLiteral("speed");
 const QString memoryKey = QStringLiteral("session/memoryMegabytes");
 constexpr int mostMemory = 65536;
 const QString recentSessionsKey = QStringLiteral("sessions/recent");
@@ -72,14 +77,15 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
       m_live(new LiveController(this)),
       m_settings(settings),
       m_source(new SourceSwitch(controller, this)),
-      m_undo(new QUndoGroup(this)),
+      m_undo(new UndoHistory(this)),
       m_selection(new RobotSelection(this)),
       m_time(new LinkedTime(this)),
       m_plots(new PlotTarget(this)),
       m_timeline(new Timeline(m_source, this)),
       m_replay(new ReplayController(this)),
       m_recording(new SessionRecording(controller, m_live, m_source, m_timeline, settings, this)),
-      m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
+      m_timelineActions(new TimelineActions(m_timeline, m_time, this)),
+      m_boards(new AttachedBoards(controller, m_live, m_source, settings, this)) {
   guardWheel(*qApp);
   m_source->add(m_live);
   m_source->setTimesOfDay(settings->value(QStringLiteral("view/timesOfDay"), true).toBool());
@@ -87,8 +93,9 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_timeline->watch(controller);
   m_timeline->watch(m_live);
   m_timeline->watch(m_replay);
-  m_undo->addStack(controller->edits()->undoStack());
-  m_undo->setActiveStack(controller->edits()->undoStack());
+  m_undo->add(controller->edits()->undoStack(), [this] {
+    return m_source->kind() == SourceKind::Simulate && !m_timeline->isLookingBack();
+  });
   setWindowTitle(QStringLiteral("Pitchboard"));
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
@@ -121,12 +128,18 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_plotsDock = findChild<PlotsDock*>();
   new TabCorner(qobject_cast<QDockWidget*>(m_plotsDock->parentWidget()), m_plotsDock->pageTabs(),
                 m_docks);
-  m_undo->addStack(m_plotsDock->undoStack());
+  m_undo->add(m_plotsDock->undoStack(), [] { return true; });
   makeMenus();
+  makeKeys();
+  m_bar->addReplayActions({m_keys->action("openSession"), m_keys->action("compareSession"),
+                           m_keys->action("exportSession"), m_timelineActions->previous(),
+                           m_timelineActions->next()});
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     makeOpeningSign(controller, canvas);
     makeLookingBackSign(m_timeline, canvas);
+    makePublishedKeysSign(m_field->actions().publishedKeys, canvas);
+    makePenaltyStrip(m_source, canvas);
   }
   connectNotices();
   connect(m_replay, &ReplayController::opened, this, [this] {
@@ -140,11 +153,10 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   const auto lock = [this] {
     m_controller->edits()->setLocked(m_source->kind() == SourceKind::Simulate &&
                                      m_timeline->isLookingBack());
-    chooseUndo();
+    m_undo->refresh();
   };
   connect(m_timeline, &Timeline::lookingBackChanged, this, lock);
   connect(m_timeline, &Timeline::sourceChanged, this, lock);
-  connect(qApp, &QApplication::focusChanged, this, &MainWindow::chooseUndo);
   connect(m_bar, &TransportBar::sourceRequested, this, &MainWindow::showSource);
   connect(m_bar->scenarios(), &ScenarioChooser::chosen, m_files, &ScenarioFiles::open);
   connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files, &ScenarioFiles::askAndOpen);
@@ -170,7 +182,7 @@ MainWindow::~MainWindow() {
 // what is seen; then what that shows. Left to themselves, children go by age, the oldest first, and
 // those are the sources that everything else uses. The match itself outlives the window.
 void MainWindow::shutDown() {
-  qApp->disconnect(this);  // focus moves on as widgets go
+  delete m_undo;  // it asks what goes next
   m_recording->end();
   qDeleteAll(findChildren<QDialog*>(Qt::FindDirectChildrenOnly));
   delete m_sessions;
@@ -184,6 +196,7 @@ void MainWindow::shutDown() {
   delete takeCentralWidget();
 
   delete m_recording;
+  delete m_boards;
   delete m_timelineActions;
   delete m_timeline;
   delete m_source;
@@ -192,9 +205,9 @@ void MainWindow::shutDown() {
 }
 
 StudioParts MainWindow::parts() const {
-  return {m_controller, m_source, m_selection, m_field,           m_time,
-          m_settings,   m_plots,  m_timeline,  m_timelineActions, m_replay,
-          m_recording,  m_live,   m_overlay,   m_compared,        m_tests};
+  return {m_controller, m_source,   m_selection,       m_field,  m_time,      m_settings,
+          m_plots,      m_timeline, m_timelineActions, m_replay, m_recording, m_live,
+          m_overlay,    m_compared, m_tests,           m_boards};
 }
 
 QStringList MainWindow::recentSessions() const {
@@ -254,7 +267,8 @@ void MainWindow::showPalette() {
 
 void MainWindow::makeMenus() {
   StudioMenus({parts(), m_undo, m_files, m_sessions, m_bar->scenarios(), m_bar->transportActions(),
-               m_status, m_docks, m_fieldOnly, m_alarms},
+               m_bar->speedSteps(), [this] { showShortcuts(this, *m_keys); }, m_status, m_docks,
+               m_fieldOnly, m_alarms},
               *this)
       .make();
 }
@@ -299,6 +313,7 @@ void MainWindow::showExport() {
       }
     }
   }
+  std::ranges::stable_sort(source.groups, telemetry::isListedBefore);
   source.clock = m_source->clock();
   auto* dialog =
       new ExportDialog(std::move(source), m_timeline->selection().value_or(*all), m_field, this);
@@ -329,18 +344,6 @@ void MainWindow::showSource(SourceKind kind) {
   m_source->choose(source);
 }
 
-// Undo belongs to the plots while somebody works there, else to the match.
-void MainWindow::chooseUndo() {
-  const QWidget* focus = QApplication::focusWidget();
-  if (focus != nullptr &&
-      (m_plotsDock->isAncestorOf(focus) || m_plotsDock->pageTabs()->isAncestorOf(focus))) {
-    m_undo->setActiveStack(m_plotsDock->undoStack());
-    return;
-  }
-  const bool editable = m_source->kind() == SourceKind::Simulate && !m_timeline->isLookingBack();
-  m_undo->setActiveStack(editable ? m_controller->edits()->undoStack() : nullptr);
-}
-
 void MainWindow::makeDocks() {
   const StudioParts parts = this->parts();
   for (const DockInfo& info : studioDocks()) {
@@ -354,6 +357,13 @@ void MainWindow::makeDocks() {
     }
     connect(dock, &QDockWidget::dockLocationChanged, this, &MainWindow::showTitles,
             Qt::QueuedConnection);
+    // A panel that is closed does not keep the keys.
+    connect(dock, &QDockWidget::visibilityChanged, m_field, [this, dock](bool visible) {
+      const QWidget* focus = focusWidget();
+      if (!visible && dock->isHidden() && focus != nullptr && dock->isAncestorOf(focus)) {
+        m_field->setFocus();
+      }
+    });
   }
 }
 
@@ -397,7 +407,10 @@ void MainWindow::connectNotices() {
                        live = QStringLiteral("live"), recording = QStringLiteral("recording"),
                        refused = QStringLiteral("refused"), locked = QStringLiteral("locked"),
                        finished = QStringLiteral("finished"), compared = QStringLiteral("compared"),
-                       test = QStringLiteral("test");
+                       test = QStringLiteral("test"), continued = QStringLiteral("continued");
+  const auto settleAll = [this](const QStringList& topics) {
+    for (const QString& topic : topics) m_notices->settle(topic);
+  };
   const auto tell = [this](const QString& topic) {
     return [this, topic](const QString& sentence) { m_notices->show({topic}, sentence); };
   };
@@ -417,20 +430,28 @@ void MainWindow::connectNotices() {
                                                                : match},
                             sentence);
           });
-  connect(m_controller, &MatchController::obeyed, m_notices,
-          [this] { m_notices->settle(refused); });
-  connect(m_controller, &MatchController::rewound, m_notices,
-          [this] { m_notices->settle(refused); });
+  connect(m_controller, &MatchController::askedForSpeed, m_notices,
+          [this](const QStringList& programs, double wanted) { askForSpeed(programs, wanted); });
+  connect(m_controller, &MatchController::obeyed, m_notices, [settleAll] {
+    settleAll({refused, match});
+  });
+  connect(m_controller, &MatchController::rewound, m_notices, [settleAll] {
+    settleAll({refused, match, finished});
+  });
   connect(m_controller, &MatchController::opened, m_notices, [this] {
     if (m_controller->isOpen()) m_notices->settle(scenario);
   });
-  connect(m_controller, &MatchController::scenarioChanged, m_notices, [this] {
-    for (const QString& topic : {match, refused, finished}) m_notices->settle(topic);
+  connect(m_controller, &MatchController::scenarioChanged, m_notices, [this, settleAll] {
+    settleAll({match, refused, finished, continued, speedTopic});
     m_toldFinished = false;
+  });
+  // What cannot stand still or go faster goes on with a match in real time.
+  connect(m_controller, &MatchController::transportChanged, m_notices, [this] {
+    if (!m_controller->isPaused() && m_controller->speed() == 1.0) m_notices->settle(match);
   });
   connect(m_controller->edits(), &MatchEdits::lockedChanged, m_notices,
           [this] { m_notices->settle(locked); });
-  connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices, tell(match));
+  connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices, tell(continued));
   connect(m_live, &LiveController::errorOccurred, m_notices, tell(live));
   connect(m_live, &LiveController::optionsChanged, m_notices, [this] { m_notices->settle(live); });
   connect(m_compared, &ComparedSession::failed, m_notices, tell(compared));
@@ -441,6 +462,23 @@ void MainWindow::connectNotices() {
   connect(m_files, &ScenarioFiles::failed, m_notices, tell(scenario));
   connect(m_controller, &MatchController::frameReceived, this,
           [this](const FramePtr& frame) { tellFinished(*frame); });
+}
+
+void MainWindow::askForSpeed(const QStringList& programs, double wanted) {
+  using Programs = MatchController::RealTimePrograms;
+  const QString speed = wanted == link::MatchRunner::unlimitedSpeed
+                            ? QStringLiteral("maximum speed")
+                            : QStringLiteral("×%1").arg(numberText(wanted, wanted < 1.0 ? 2 : 0));
+  const auto answer = [this, wanted](Programs what) {
+    return [this, wanted, what] { m_controller->answerSpeed(wanted, what); };
+  };
+  m_notices->show(
+      {speedTopic},
+      QStringLiteral("%1 keeps real time (\"clock\": \"real\") and cannot follow %2.")
+          .arg(programs.join(QStringLiteral(", ")), speed),
+      {{QStringLiteral("Restart with match time"), answer(Programs::RestartWithMatchTime)},
+       {QStringLiteral("Stay at ×1"), [this] { m_controller->setSpeed(1.0); }},
+       {QStringLiteral("Change speed only for the others"), answer(Programs::LeaveBehind)}});
 }
 
 // A match that stands still should not look as if it hung.

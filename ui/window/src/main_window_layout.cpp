@@ -6,6 +6,7 @@
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QLineEdit>
+#include <QMouseEvent>
 #include <QScreen>
 #include <QSettings>
 #include <QTimer>
@@ -20,6 +21,7 @@
 #include "dock_list.h"
 #include "dock_title.h"
 #include "field_only.h"
+#include "geometry.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -27,6 +29,7 @@ namespace {
 constexpr int layoutVersion = 2;
 const QString geometryKey = QStringLiteral("window/geometry");
 const QString layoutKey = QStringLiteral("window/layout");
+const QString untouchedKey = QStringLiteral("window/layoutFollowsSize");
 }  // namespace
 
 // A tab says the name already, and the timeline its times.
@@ -42,6 +45,10 @@ void MainWindow::showTitles() {
 }
 
 void MainWindow::restoreLayout() {
+  // A minimum of its own: without one the layout makes the window larger whenever a panel asks for
+  // more, beyond the screen if need be.
+  const QSize least(scaled(this, leastWindow.width()), scaled(this, leastWindow.height()));
+  setMinimumSize(least.boundedTo(screen()->availableSize()));
   const bool isKept = restoreGeometry(m_settings->value(geometryKey).toByteArray());
   if (!isKept) {
     const QSize room = screen()->availableSize();
@@ -49,13 +56,14 @@ void MainWindow::restoreLayout() {
   }
   resetLayout();
   const QByteArray saved = m_settings->value(layoutKey).toByteArray();
-  if (!saved.isEmpty() && !restoreState(saved, layoutVersion)) {
+  if (!saved.isEmpty() && restoreState(saved, layoutVersion)) {
+    m_followsSize = m_settings->value(untouchedKey, false).toBool();
+  } else if (!saved.isEmpty()) {
     resetLayout();
     m_notices->show(
         {QStringLiteral("layout")},
         QStringLiteral("The saved layout is from another version, so the default layout is used."));
   }
-  // Docks that were never laid out ask for more than they need, and have made it larger.
   if (!isKept) m_firstSize = size();
   m_savedLayout = saveState(layoutVersion);
   restoreFieldLayers(*m_field, *m_settings);
@@ -74,6 +82,42 @@ void MainWindow::saveLayout() {
   if (now == m_savedLayout) return;
   m_savedLayout = now;
   m_settings->setValue(layoutKey, now);
+  m_settings->setValue(untouchedKey, m_followsSize);
+}
+
+// Panels keep their shares of the window until somebody gives them others.
+bool MainWindow::event(QEvent* event) {
+  if (event->type() == QEvent::MouseButtonPress &&
+      isSeparator(static_cast<QMouseEvent*>(event)->position().toPoint())) {
+    m_followsSize = false;
+  }
+  return QMainWindow::event(event);
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  if (m_followsSize && !m_fieldOnly->isOn()) shareRoomOut();
+}
+
+void MainWindow::shareRoomOut() {
+  const double unit = scaled(this, 1000) / 1000.0;
+  const Extents extents = extentsFor(size() / unit);
+  const std::pair<Qt::DockWidgetArea, int> areas[] = {{Qt::LeftDockWidgetArea, extents.left},
+                                                      {Qt::RightDockWidgetArea, extents.right},
+                                                      {Qt::BottomDockWidgetArea, extents.bottom}};
+  for (const auto& [area, extent] : areas) {
+    for (std::size_t i = 0; i < m_docks.size(); ++i) {
+      QDockWidget* dock = m_docks[i];
+      if (studioDocks()[i].ownRow || dockWidgetArea(dock) != area || dock->isFloating() ||
+          dock->isHidden()) {
+        continue;
+      }
+      // Tabs of one place have one size.
+      resizeDocks({dock}, {scaled(this, extent)},
+                  area == Qt::BottomDockWidgetArea ? Qt::Vertical : Qt::Horizontal);
+      break;
+    }
+  }
 }
 
 void MainWindow::showEvent(QShowEvent* event) {
@@ -81,6 +125,8 @@ void MainWindow::showEvent(QShowEvent* event) {
   if (std::exchange(m_wasShown, true)) return;
   QTimer::singleShot(0, this, [this] {
     fitScreen();
+    // Docks that were never laid out have no sizes that could be given to them.
+    if (m_followsSize) shareRoomOut();
     // Panels that float were shown before the window. A window manager that had not seen it then
     // does not know whose they are, and puts the window over them at the first click.
     for (QDockWidget* dock : m_docks) {
@@ -117,40 +163,41 @@ void MainWindow::fitScreen() {
 }
 
 void MainWindow::resetLayout() {
+  m_notices->settle(QStringLiteral("layout"));
+  setUpdatesEnabled(false);
   const auto infos = studioDocks();
-  const auto isBottom = [&infos](std::size_t i) {
-    return infos[i].area == Qt::BottomDockWidgetArea;
-  };
-  // Rows of their own first: next to a tabbed dock a new one would become a tab.
-  QDockWidget* firstBottom = nullptr;
-  for (std::size_t i = 0; i < infos.size(); ++i) {
-    m_docks[i]->setFloating(false);
-    addDockWidget(infos[i].area, m_docks[i]);
-    if (isBottom(i) && !infos[i].ownRow && firstBottom == nullptr) firstBottom = m_docks[i];
+  // Hidden while they are placed: nothing on the way asks for room.
+  for (QDockWidget* dock : m_docks) {
+    dock->setFloating(false);
+    dock->hide();
   }
-  for (std::size_t i = 0; i < infos.size(); ++i) {
-    if (infos[i].ownRow && firstBottom != nullptr) {
-      splitDockWidget(firstBottom, m_docks[i], Qt::Vertical);
+  // Rows of their own first: next to a tabbed dock a new one would become a tab.
+  std::map<Qt::DockWidgetArea, QDockWidget*> lastTab;
+  QDockWidget* firstBottom = nullptr;
+  for (const bool ownRow : {false, true}) {
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+      if (infos[i].ownRow != ownRow) continue;
+      QDockWidget* dock = m_docks[i];
+      QDockWidget*& last = lastTab[infos[i].area];
+      addDockWidget(infos[i].area, dock);
+      if (ownRow && firstBottom != nullptr) {
+        splitDockWidget(firstBottom, dock, Qt::Vertical);
+      } else if (!ownRow && last == nullptr && infos[i].area == Qt::BottomDockWidgetArea) {
+        firstBottom = dock;
+      }
+      if (!ownRow && last == nullptr) last = dock;
     }
   }
   // One below the other, three docks at the right would show a few rows each.
-  std::map<Qt::DockWidgetArea, QDockWidget*> lastTab;
   for (std::size_t i = 0; i < infos.size(); ++i) {
-    QDockWidget* dock = m_docks[i];
-    bool isFirst = true;
-    if (!infos[i].ownRow) {
-      QDockWidget*& last = lastTab[infos[i].area];
-      isFirst = last == nullptr;
-      if (!isFirst) tabifyDockWidget(last, dock);
-      last = dock;
-    }
-    dock->setVisible(infos[i].shownAtFirst);
-    // Tabs of one place have one size, that of the first.
-    if (!isFirst) continue;
-    resizeDocks({dock}, {scaled(this, infos[i].extent)},
-                isBottom(i) ? Qt::Vertical : Qt::Horizontal);
+    QDockWidget* first = lastTab[infos[i].area];
+    if (!infos[i].ownRow && first != m_docks[i]) tabifyDockWidget(first, m_docks[i]);
   }
-  if (firstBottom != nullptr) firstBottom->raise();
+  for (std::size_t i = 0; i < infos.size(); ++i) m_docks[i]->setVisible(infos[i].shownAtFirst);
+  for (const auto& [area, first] : lastTab) first->raise();
+  m_followsSize = true;
+  shareRoomOut();
+  setUpdatesEnabled(true);
 }
 
 // What the keyboard reaches can be said: by its own words, or by those of the dock it is in.

@@ -9,9 +9,9 @@
 #include <QInputDialog>
 #include <QMenuBar>
 #include <QSettings>
-#include <QUndoGroup>
 
 #include <ui/base/notice_bar.h>
+#include <ui/base/undo_history.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/field/field_view.h>
 #include <ui/live/attach_dialog.h>
@@ -44,10 +44,21 @@
 namespace pitchboard::ui {
 namespace {
 
-QAction* withIcon(QAction* action, const char* icon, const QKeySequence& keys = {}) {
-  if (icon != nullptr) action->setIcon(themedIcon(QLatin1String(icon)));
-  if (!keys.isEmpty()) action->setShortcut(keys);
+QAction* withIcon(QAction* action, const char* icon, const char* id = nullptr) {
+  action->setIcon(themedIcon(QLatin1String(icon)));
+  if (id != nullptr) action->setObjectName(QLatin1String(id));
   return action;
+}
+
+/// The panel that was asked for has the keys: its first control that takes them.
+void focusFirst(QWidget& panel) {
+  for (QWidget* next = panel.nextInFocusChain(); next != &panel; next = next->nextInFocusChain()) {
+    if (!panel.isAncestorOf(next)) break;
+    if ((next->focusPolicy() & Qt::TabFocus) && next->isEnabled() && next->isVisibleTo(&panel)) {
+      next->setFocus(Qt::OtherFocusReason);
+      return;
+    }
+  }
 }
 
 }  // namespace
@@ -80,7 +91,7 @@ void StudioMenus::makeFile() {
   ScenarioFiles* files = m_context.files;
   withIcon(menu->addAction(QStringLiteral("&Open…"), &m_window,
                            [this_ = &m_window] { this_->askAndOpen(); }),
-           "document-open", QKeySequence::Open);
+           "document-open", "openFile");
   QMenu* recent = menu->addMenu(QStringLiteral("Open &recent"));
   QObject::connect(
       menu, &QMenu::aboutToShow, recent,
@@ -102,10 +113,10 @@ void StudioMenus::makeFile() {
       });
   SessionFiles* sessions = m_context.sessions;
   withIcon(menu->addAction(QStringLiteral("Open s&ession…"), sessions, &SessionFiles::askAndOpen),
-           "document-open-folder", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
+           "document-open-folder", "openSession");
   onlyInTheMatch(withIcon(menu->addAction(QStringLiteral("&Save this moment as a scenario…"), files,
                                           &ScenarioFiles::askAndSave),
-                          "document-save", QKeySequence::Save));
+                          "document-save", "saveScenario"));
   SituationTests* tests = m_parts.tests;
   QAction* asTest = withIcon(
       menu->addAction(QStringLiteral("Save this moment as a &test…"), tests, &SituationTests::ask),
@@ -126,7 +137,7 @@ void StudioMenus::makeFile() {
            "document-export");
   menu->addSeparator();
   withIcon(menu->addAction(QStringLiteral("&Quit"), &m_window, &QWidget::close), "application-exit",
-           QKeySequence(Qt::CTRL | Qt::Key_Q));
+           "quit");
 }
 
 void StudioMenus::makeEdit() {
@@ -134,10 +145,8 @@ void StudioMenus::makeEdit() {
   MatchController* controller = m_parts.controller;
   RobotSelection* selection = m_parts.selection;
   SourceSwitch* source = m_parts.source;
-  QAction* undo = m_context.undo->createUndoAction(&m_window, QStringLiteral("Undo"));
-  QAction* redo = m_context.undo->createRedoAction(&m_window, QStringLiteral("Redo"));
-  menu->addAction(withIcon(undo, "edit-undo", QKeySequence::Undo));
-  menu->addAction(withIcon(redo, "edit-redo", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)));
+  menu->addAction(withIcon(m_context.undo->undoAction(), "edit-undo", "undo"));
+  menu->addAction(withIcon(m_context.undo->redoAction(), "edit-redo", "redo"));
   menu->addSeparator();
   withIcon(menu->addAction(QStringLiteral("Select &all robots"), selection,
                            [source, selection] {
@@ -149,19 +158,17 @@ void StudioMenus::makeEdit() {
                              }
                              selection->set(all);
                            }),
-           // Ctrl+A is a key of the field: it adds a red robot.
-           "edit-select-all", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A));
+           "edit-select-all", "selectAll");
   withIcon(menu->addAction(QStringLiteral("&Find anything…"), &m_window,
                            [this_ = &m_window] { this_->showPalette(); }),
-           "edit-find", QKeySequence(Qt::CTRL | Qt::Key_K));
-  // The Delete key itself belongs to the field, so that it also works in text boxes elsewhere.
+           "edit-find", "findAnything");
   QAction* remove = menu->addAction(
       QStringLiteral("&Delete selected robots"), controller, [controller, selection] {
         if (const FramePtr frame = controller->frame()) {
           controller->edits()->removeRobots(frame->slotsOf(selection->ids()));
         }
       });
-  withIcon(remove, "edit-delete");
+  withIcon(remove, "edit-delete", "removeSelected");
   remove->setEnabled(false);
   QObject::connect(selection, &RobotSelection::changed, remove, [remove, source](const auto& ids) {
     remove->setEnabled(!ids.empty() && source->kind() == SourceKind::Simulate);
@@ -189,9 +196,10 @@ void StudioMenus::makeThemes(QMenu* menu) {
 
 void StudioMenus::makeView() {
   QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&View"));
+  QMenu* panels = menu->addMenu(QStringLiteral("&Panels"));
   for (QDockWidget* dock : m_context.docks) {
     QAction* action = dock->toggleViewAction();
-    menu->addAction(action);
+    panels->addAction(action);
     // Among tabs, what is asked for comes to the front, also what is open behind another; only
     // what is seen is closed. A dock by itself would close what nobody saw.
     action->disconnect(dock);
@@ -203,24 +211,31 @@ void StudioMenus::makeView() {
             dock->show();
             dock->raise();
             action->setChecked(true);
+            focusFirst(*dock->widget());
           } else {
             dock->close();
           }
         });
   }
-  menu->addSeparator();
+  panels->addSeparator();
+  panels->addAction(QStringLiteral("&Reset layout"), &m_window, &MainWindow::resetLayout);
   QMenu* layers = menu->addMenu(QStringLiteral("Field &layers"));
   for (QAction* action : m_parts.field->actions().layers) layers->addAction(action);
   layers->addSeparator();
   for (QAction* action : m_parts.field->actions().options) layers->addAction(action);
-  for (QAction* action : m_parts.field->actions().view) menu->addAction(action);
-  QAction* overlay = menu->addAction(QStringLiteral("Overlay what is &heard live"));
+  const FieldActions& field = m_parts.field->actions();
+  QMenu* tools = menu->addMenu(QStringLiteral("Field &tools"));
+  for (QAction* action : field.tools) tools->addAction(action);
+  menu->addSeparator();
+  menu->addActions({field.flip, field.fit, field.publishedKeys});
+  menu->addSeparator();
+  QAction* overlay = menu->addAction(QStringLiteral("Overlay &live robots"));
   overlay->setObjectName(QStringLiteral("liveOverlay"));
   overlay->setCheckable(true);
   overlay->setToolTip(QStringLiteral("Simulated and heard robots side by side, matched by number"));
   QObject::connect(overlay, &QAction::toggled, m_parts.overlay, &LiveOverlay::setOn);
   QObject::connect(m_parts.overlay, &LiveOverlay::switched, overlay, &QAction::setChecked);
-  QAction* day = menu->addAction(QStringLiteral("Times of &day in Live and Replay"));
+  QAction* day = menu->addAction(QStringLiteral("Time of &day in Live and Replay"));
   day->setObjectName(QStringLiteral("timesOfDay"));
   day->setCheckable(true);
   day->setChecked(m_parts.source->timesOfDay());
@@ -232,12 +247,11 @@ void StudioMenus::makeView() {
   });
   menu->addSeparator();
   makeThemes(menu->addMenu(QStringLiteral("&Theme")));
-  menu->addAction(QStringLiteral("&Reset layout"), &m_window, &MainWindow::resetLayout);
   m_context.alarms->fill(menu->addMenu(QStringLiteral("&Alarms")));
   menu->addAction(m_context.fieldOnly->action());
   QAction* full = menu->addAction(QStringLiteral("&Full screen"));
   full->setCheckable(true);
-  withIcon(full, "view-fullscreen", QKeySequence(Qt::SHIFT | Qt::Key_F11));
+  withIcon(full, "view-fullscreen", "fullScreen");
   QObject::connect(full, &QAction::triggered, &m_window, [this_ = &m_window](bool on) {
     this_->setWindowState(this_->windowState().setFlag(Qt::WindowFullScreen, on));
   });
@@ -262,10 +276,9 @@ void StudioMenus::makeLive() {
                   [window = &m_window, parts = m_parts] {
                     showLiveSettings(parts.live, parts.settings, window);
                   });
-  menu->addAction(QStringLiteral("&Attach blackboard…"), &m_window,
-                  [window = &m_window, parts = m_parts] {
-                    showAttachDialog(parts.live, parts.settings, window);
-                  });
+  menu->addAction(
+      QStringLiteral("&Attach blackboard…"), &m_window,
+      [window = &m_window, boards = m_parts.boards] { showAttachDialog(boards, window); });
 }
 
 void StudioMenus::makeSimulation() {
@@ -274,15 +287,18 @@ void StudioMenus::makeSimulation() {
   for (QAction* action : m_context.transport) menu->addAction(action);
   QMenu* speeds = menu->addMenu(QStringLiteral("S&peed"));
   onlyInTheMatch(speeds->menuAction());
-  QObject::connect(speeds, &QMenu::aboutToShow, speeds, [speeds, controller] {
-    speeds->clear();
-    for (const double speed : matchSpeeds) {
-      QAction* action = speeds->addAction(speedText(speed), controller,
-                                          [controller, speed] { controller->setSpeed(speed); });
-      action->setCheckable(true);
-      action->setChecked(speed == controller->speed());
-    }
-  });
+  QObject::connect(
+      speeds, &QMenu::aboutToShow, speeds, [speeds, controller, steps = m_context.speedSteps] {
+        speeds->clear();
+        for (const double speed : matchSpeeds) {
+          QAction* action = speeds->addAction(speedText(speed), controller,
+                                              [controller, speed] { controller->setSpeed(speed); });
+          action->setCheckable(true);
+          action->setChecked(speed == controller->speed());
+        }
+        speeds->addSeparator();
+        speeds->addActions(steps);
+      });
   addMatchEntries(menu, controller, &m_window, [this](QAction* action) { onlyInTheMatch(action); });
   menu->addSeparator();
   QAction* freely = menu->addAction(QStringLiteral("Robot processes run &freely at ×1"));
@@ -351,7 +367,7 @@ void StudioMenus::makeTimeline() {
                                     &ComparedSession::alignByTime);
   QAction* stop =
       menu->addAction(QStringLiteral("Stop c&omparing"), compared, &ComparedSession::stop);
-  compare->setObjectName(QStringLiteral("compareSession"));
+  withIcon(compare, "view-split-left-right", "compareSession");
   stop->setObjectName(QStringLiteral("stopComparing"));
   const auto showCompared = [byTime, stop, compared] {
     stop->setEnabled(compared->isOn());
@@ -363,10 +379,7 @@ void StudioMenus::makeTimeline() {
   SessionRecording* recording = m_parts.recording;
   QAction* exportAction = menu->addAction(QStringLiteral("&Export…"), &m_window,
                                           [this_ = &m_window] { this_->showExport(); });
-  exportAction->setObjectName(QStringLiteral("exportSession"));
-  QObject::connect(menu, &QMenu::aboutToShow, exportAction, [exportAction, timeline] {
-    exportAction->setEnabled(timeline->available().has_value());
-  });
+  withIcon(exportAction, "document-export", "exportSession");
   menu->addAction(QStringLiteral("Memor&y for the past…"), &m_window, [this_ = &m_window] {
     bool chosen = false;
     const int megabytes = QInputDialog::getInt(
@@ -391,8 +404,8 @@ void StudioMenus::makePlots() {
 
 void StudioMenus::makeHelp() {
   QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Help"));
-  menu->addAction(QStringLiteral("&Keyboard shortcuts"), &m_window,
-                  [this_ = &m_window] { showShortcuts(this_); });
+  menu->addAction(m_parts.field->actions().showKeys);
+  menu->addAction(QStringLiteral("&Keyboard shortcuts"), &m_window, m_context.showShortcuts);
   menu->addAction(QStringLiteral("Copy state &hash"), m_context.status,
                   &StudioStatusBar::copyStateHash);
   menu->addSeparator();

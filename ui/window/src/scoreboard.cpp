@@ -4,10 +4,13 @@
 #include <QFontMetrics>
 #include <QPainter>
 
+#include <ui/base/elided_words.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
 namespace {
+
+constexpr int square = 10;  // px of the mock
 
 QString scoreText(const ScoreboardState& state) {
   return QStringLiteral("%1 : %2").arg(state.left).arg(state.right);
@@ -21,9 +24,7 @@ Scoreboard::Scoreboard(QWidget* parent) : QWidget(parent) {
 
 void Scoreboard::setState(const ScoreboardState& state) {
   if (state == m_state) return;
-  const QSize before = sizeHint();
   m_state = state;
-  if (sizeHint() != before) updateGeometry();
   setToolTip(state.tip.isEmpty() ? QStringLiteral("Score, time of play and state of the game")
                                  : state.tip);
   setAccessibleName(
@@ -32,15 +33,25 @@ void Scoreboard::setState(const ScoreboardState& state) {
   update();
 }
 
+// Of the fonts and the window only: whatever the match says, nothing beside it moves.
+Scoreboard::Widths Scoreboard::widths() const {
+  const int window = this->window()->width();
+  const bool narrow = window < scaled(this, 1100), wide = window >= scaled(this, 1600);
+  Widths widths{};
+  widths.names = narrow ? themeFont(TypeRole::Body, true) : themeFont(TypeRole::Score);
+  const QFontMetrics names(widths.names), score(themeFont(TypeRole::Score));
+  widths.name = scaled(this, narrow ? 40 : wide ? 150 : 76);
+  widths.score = score.horizontalAdvance(QStringLiteral("88 : 88"));
+  widths.clock = names.horizontalAdvance(QStringLiteral("88:88")) + scaled(this, 2);
+  widths.tag = scaled(this, narrow ? 84 : wide ? 180 : 132);
+  widths.gap = scaled(this, narrow ? 5 : 8);
+  return widths;
+}
+
 QSize Scoreboard::sizeHint() const {
-  const QFontMetrics score(themeFont(TypeRole::Score));
-  const QFontMetrics tag(themeFont(TypeRole::Secondary, true));
-  const int words = score.horizontalAdvance(m_state.leftName + scoreText(m_state) +
-                                            m_state.rightName + m_state.clock);
-  const int penalties =
-      m_state.penalties.isEmpty() ? 0 : tag.horizontalAdvance(m_state.penalties) + scaled(this, 12);
-  return {words + penalties + tag.horizontalAdvance(m_state.state) +
-              scaled(this, 2 * 10 + 5 * 8 + 4 * 12 + 16),
+  const Widths w = widths();
+  return {2 * (w.name + scaled(this, square + 5)) + w.score + w.clock + w.tag + 4 * w.gap +
+              scaled(this, 4),
           scaled(this, 28)};
 }
 
@@ -48,55 +59,52 @@ void Scoreboard::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   const auto px = [this](double pixels) { return scaled(this, pixels); };
-  int right = width() - px(4);
-
+  const Widths w = widths();
+  const QRect all(width() - sizeHint().width(), 0, sizeHint().width(), height());
+  int left = all.left();
+  const auto take = [&](int wide, int gap) {
+    const QRect place(left, 0, wide, height());
+    left += wide + gap;
+    return place;
+  };
+  const auto word = [&](const QRect& place, const QString& text, const QFont& font, int align) {
+    painter.setFont(font);
+    painter.setPen(theme().text);
+    const QString shown = elidedWords(QFontMetricsF(font), text, place.width());
+    painter.drawText(place, align | Qt::AlignVCenter, shown);
+    return QFontMetrics(font).horizontalAdvance(shown);
+  };
+  const auto colourAt = [&](int x, const QColor& colour) {
+    if (!colour.isValid()) return;
+    const int side = px(square);
+    const QRect box(x, (height() - side) / 2, side, side);
+    painter.fillRect(box, colour);
+    // White on white and black on black must be seen.
+    painter.setPen(theme().secondaryText);
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(box.adjusted(0, 0, -1, -1));
+  };
+  // Names stand against the score, whatever their length.
+  left += px(square + 5);
+  const QRect leftName = take(w.name, w.gap);
+  const int leftWide = word(leftName, m_state.leftName, w.names, Qt::AlignRight);
+  colourAt(leftName.right() + 1 - leftWide - px(square + 5), m_state.leftColour);
+  const QRect score = take(w.score, w.gap);
+  if (!m_state.leftName.isEmpty())
+    word(score, scoreText(m_state), themeFont(TypeRole::Score), Qt::AlignHCenter);
+  const QRect rightName = take(w.name, px(square + 5) + w.gap);
+  const int rightWide = word(rightName, m_state.rightName, w.names, Qt::AlignLeft);
+  colourAt(rightName.left() + rightWide + px(5), m_state.rightColour);
+  painter.fillRect(QRect(left - w.gap / 2, px(4), 1, height() - px(8)), theme().innerLine);
+  word(take(w.clock, w.gap), m_state.clock, w.names, Qt::AlignHCenter);
   const QFont tagFont = themeFont(TypeRole::Secondary, true);
-  const int tagWidth = QFontMetrics(tagFont).horizontalAdvance(m_state.state) + px(16);
-  const QRectF tag(right - tagWidth + 0.5, (height() - px(20)) / 2 + 0.5, tagWidth - 1, px(20) - 1);
+  const QRect place = take(w.tag, 0);
+  const QRectF tag(place.left() + 0.5, (height() - px(20)) / 2 + 0.5, place.width() - 1,
+                   px(20) - 1);
   painter.setPen(theme().innerLine);
   painter.setBrush(theme().button);
   painter.drawRoundedRect(tag, 3, 3);
-  painter.setFont(tagFont);
-  painter.setPen(theme().text);
-  painter.drawText(tag, Qt::AlignCenter, m_state.state);
-  right -= tagWidth + px(8);
-  if (!m_state.penalties.isEmpty()) {
-    const int wide = QFontMetrics(tagFont).horizontalAdvance(m_state.penalties);
-    painter.setPen(theme().warningText);
-    painter.drawText(QRect(right - wide, 0, wide, height()), Qt::AlignVCenter, m_state.penalties);
-    painter.setPen(theme().text);
-    right -= wide + px(12);
-  }
-
-  const QFont font = themeFont(TypeRole::Score);
-  const QFontMetrics metrics(font);
-  painter.setFont(font);
-  const auto word = [&](const QString& text, int gap) {
-    const int wide = metrics.horizontalAdvance(text);
-    painter.drawText(QRect(right - wide, 0, wide, height()), Qt::AlignVCenter, text);
-    right -= wide + px(gap);
-  };
-  const auto square = [&](const QColor& colour, int gap) {
-    const int side = px(10);
-    const QRect box(right - side, (height() - side) / 2, side, side);
-    if (colour.isValid()) {
-      painter.fillRect(box, colour);
-      // White on white and black on black must be seen.
-      painter.setPen(theme().secondaryText);
-      painter.setBrush(Qt::NoBrush);
-      painter.drawRect(box.adjusted(0, 0, -1, -1));
-      painter.setPen(theme().text);
-    }
-    right -= side + px(gap);
-  };
-  word(m_state.clock, 12);
-  painter.fillRect(QRect(right, px(4), 1, height() - px(8)), theme().innerLine);
-  right -= px(12);
-  square(m_state.rightColour, 8);
-  word(m_state.rightName, 12);
-  if (!m_state.leftName.isEmpty()) word(scoreText(m_state), 12);
-  word(m_state.leftName, 8);
-  square(m_state.leftColour, 0);
+  word(place.adjusted(px(6), 0, -px(6), 0), m_state.state, tagFont, Qt::AlignHCenter);
 }
 
 }  // namespace pitchboard::ui

@@ -4,6 +4,7 @@
 // Team colours and names, score, clock and state of the game, at the right of the tool bar. UI
 // thread only.
 
+#include <QFont>
 #include <QWidget>
 
 #include <ui/base/scoreboard_state.h>
@@ -23,6 +24,11 @@ class Scoreboard : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  struct Widths {
+    int name, score, clock, tag, gap;
+    QFont names;
+  };
+  Widths widths() const;
   ScoreboardState m_state;
 };
 

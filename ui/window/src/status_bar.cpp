@@ -13,6 +13,7 @@
 #include <base/angles.h>
 #include <ui/base/elided_words.h>
 #include <ui/base/robot_words.h>
+#include <ui/base/scoreboard_state.h>
 #include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
 #include <ui/sources/live_controller.h>
@@ -228,11 +229,12 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
                             .arg(countText(static_cast<qulonglong>(frame.ticksPerSecond + 0.5)),
                                  numberText(frame.speed, 2)));
   const auto robots = frame.robots.size();
-  m_world->setText(
-      QStringLiteral("%1, tick %2, seed %3")
-          .arg(robots == 1 ? QStringLiteral("1 robot") : QStringLiteral("%1 robots").arg(robots),
-               countText(frame.snapshot.tick))
-          .arg(frame.settings->seed));
+  m_world->setText(teamsText(frame) + QStringLiteral("%1, tick %2, seed %3")
+                                          .arg(robots == 1
+                                                   ? QStringLiteral("1 robot")
+                                                   : QStringLiteral("%1 robots").arg(robots),
+                                               countText(frame.snapshot.tick))
+                                          .arg(frame.settings->seed));
   switch (m_context.controller->cognition()) {
     case link::Cognition::Separate:
       m_processes->setText(frame.inLockStep

@@ -8,6 +8,7 @@ class QSettings;
 
 namespace pitchboard::ui {
 
+class AttachedBoards;
 class ComparedSession;
 class FieldView;
 class LinkedTime;
@@ -40,6 +41,7 @@ struct StudioParts {
   LiveOverlay* overlay = nullptr;       ///< the other source drawn beside the shown one
   ComparedSession* compared = nullptr;  ///< a second session drawn over the shown one
   SituationTests* tests = nullptr;      ///< moments that are saved as tests
+  AttachedBoards* boards = nullptr;     ///< blackboards of this computer
 };
 
 }  // namespace pitchboard::ui

@@ -10,6 +10,8 @@
 #include <QToolButton>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
@@ -81,7 +83,6 @@ TransportBar::TransportBar(const TransportContext& context, QSettings* settings,
   connect(timer, &QTimer::timeout, this, [this] {
     if (const FramePtr frame = m_context.source->frame()) {
       m_scoreboard->setState(scoreboardOf(*frame));
-      placeScoreboard();
     }
     if (isFinished() != m_finished) showTransport();
     if (m_context.recording->isRecording()) showRecord();
@@ -118,7 +119,6 @@ void TransportBar::addTransport() {
                           else
                             m_context.controller->restart();
                         });
-  m_restart->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_R));
   m_play = addAction(themedIcon(QStringLiteral("media-playback-pause")), QStringLiteral("Pause"),
                      this, [this] {
                        if (Playback* past = playback()) {
@@ -130,7 +130,6 @@ void TransportBar::addTransport() {
                          m_context.controller->setPaused(!m_context.controller->isPaused());
                        }
                      });
-  m_play->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_P));
   m_step = addAction(themedIcon(QStringLiteral("media-skip-forward")), QStringLiteral("One tick"),
                      this, [this] {
                        if (Playback* past = playback())
@@ -138,20 +137,22 @@ void TransportBar::addTransport() {
                        else
                          m_context.controller->stepOnce();
                      });
-  m_step->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_Period));
   m_restart->setObjectName(QStringLiteral("restart"));
   m_play->setObjectName(QStringLiteral("play"));
   m_step->setObjectName(QStringLiteral("step"));
 
   m_speed->setObjectName(QStringLiteral("speed"));
-  m_speed->setMinimumWidth(scaled(this, 68));
-  connect(m_speed, &QComboBox::activated, this, [this] {
-    const double speed = m_speed->currentData().toDouble();
-    if (Playback* past = playback())
-      past->setSpeed(speed);
-    else
-      m_context.controller->setSpeed(speed);
-  });
+  connect(m_speed, &QComboBox::activated, this,
+          [this] { setSpeed(m_speed->currentData().toDouble()); });
+  for (const auto& [id, text, by] :
+       {std::tuple("slower", "Slo&wer", -1), std::tuple("faster", "&Faster", 1)}) {
+    auto* action = new QAction(QString::fromUtf8(text), this);
+    action->setObjectName(QLatin1String(id));
+    connect(action, &QAction::triggered, this, [this, by = by] {
+      if (m_speed->isEnabled()) setSpeed(nextSpeed(by));
+    });
+    m_speedSteps << action;
+  }
   m_speed->setAccessibleName(QStringLiteral("Speed"));
   addWidget(m_speed);
   connect(m_context.controller, &MatchController::transportChanged, this,
@@ -161,6 +162,30 @@ void TransportBar::addTransport() {
   for (Playback* past : {m_context.timeline->past(), m_context.replay->playback()}) {
     connect(past, &Playback::changed, this, &TransportBar::showTransport);
   }
+}
+
+void TransportBar::setSpeed(double speed) {
+  if (Playback* past = playback())
+    past->setSpeed(speed);
+  else
+    m_context.controller->setSpeed(speed);
+}
+
+// Of the offered ones; a speed that was typed on the command line may stand between two of them.
+double TransportBar::nextSpeed(int by) const {
+  const Playback* past = playback();
+  const std::span<const double> speeds =
+      past != nullptr ? past->speeds() : std::span<const double>(matchSpeeds);
+  const auto rank = [](double speed) {
+    return speed == link::MatchRunner::unlimitedSpeed ? std::numeric_limits<double>::max() : speed;
+  };
+  const double now = past != nullptr ? past->speed() : m_context.controller->speed();
+  double next = now;
+  for (const double offered : speeds) {
+    if (by > 0 && rank(offered) > rank(now)) return offered;
+    if (by < 0 && rank(offered) < rank(now)) next = offered;
+  }
+  return next;
 }
 
 void TransportBar::addRecord() {
@@ -185,6 +210,17 @@ void TransportBar::addRecord() {
   showRecord();
 }
 
+// Behind Record, where the Live controls stand in Live.
+void TransportBar::addReplayActions(const QList<QAction*>& actions) {
+  for (QAction* action : actions) {
+    auto* button = new QToolButton(this);
+    button->setDefaultAction(action);
+    button->setToolButtonStyle(Qt::ToolButtonIconOnly);
+    addControl(SourceKind::Replay, addWidget(button));
+  }
+  showMode();
+}
+
 void TransportBar::showRecord() {
   const bool on = m_context.recording->isRecording();
   const int side = iconSize().height();
@@ -200,9 +236,9 @@ void TransportBar::showRecord() {
   painter.drawEllipse(centre, radius, radius);
   painter.end();
   m_record->setIcon(QIcon(dot));
-  m_record->setText(
-      on ? QStringLiteral("Recording %1").arg(clockText(m_context.recording->status().seconds))
-         : QStringLiteral("Record"));
+  // One width, whatever it says: nothing moves when a recording begins or ends.
+  const QString record = QStringLiteral("Record");
+  m_record->setText(on ? clockText(m_context.recording->status().seconds) : record);
   m_record->setToolTip(
       on ? QStringLiteral("Stop recording into %1\n%2")
                .arg(m_context.recording->path(),
@@ -226,11 +262,15 @@ bool TransportBar::isFinished() const {
 
 void TransportBar::resizeEvent(QResizeEvent* event) {
   QToolBar::resizeEvent(event);
-  // A title is shown whole where there is room for it.
-  constexpr int least = 168, roomy = 1200;  // px of the mock
-  m_scenarios->setMinimumWidth(width() >= scaled(this, roomy)
-                                   ? std::max(m_scenarios->sizeHint().width(), scaled(this, least))
-                                   : scaled(this, least));
+  // Widths follow the window and nothing else: titles, scores and recordings move nothing.
+  constexpr int narrow = 1100, roomy = 1400;  // px of the mock
+  const bool isNarrow = width() < scaled(this, narrow);
+  m_scenarios->setFixedWidth(scaled(this, isNarrow                        ? 104
+                                          : width() < scaled(this, roomy) ? 196
+                                                                          : 266));
+  m_record->setToolButtonStyle(isNarrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
+  m_record->setFixedWidth(scaled(this, isNarrow ? 44 : 96));
+  m_speed->setFixedWidth(scaled(this, isNarrow ? 58 : 68));
   placeScoreboard();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/blackboard/variable_meanings.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <charconv>
@@ -67,8 +68,9 @@ Result<VariableMeanings> VariableMeanings::parse(std::string_view text, std::str
     file.require("rules");
     if (const auto* rules = file.array("rules", mostRules)) {
       for (std::size_t i = 0; i < rules->size(); ++i) {
-        const JsonObject json(report, (*rules)[i], "rules[" + std::to_string(i) + "]",
-                              {"name", "category", "unit", "kind", "labels", "absent"});
+        const JsonObject json(
+            report, (*rules)[i], "rules[" + std::to_string(i) + "]",
+            {"name", "category", "unit", "kind", "labels", "absent", "lost_by", "lost_when"});
         json.require("name");
         Rule rule;
         rule.name = json.text("name", "", longestText);
@@ -80,6 +82,10 @@ Result<VariableMeanings> VariableMeanings::parse(std::string_view text, std::str
         }
         rule.labels = readLabels(json);
         if (json.find("absent")) rule.absent = json.number("absent", 0.0, anyNumber);
+        if (json.find("lost_by")) {
+          rule.lostBy = json.text("lost_by", "", longestText);
+          rule.lostWhen = json.number("lost_when", 1.0, anyNumber);
+        }
         out.m_rules.push_back(std::move(rule));
       }
     }
@@ -106,7 +112,7 @@ std::optional<double> VariableMeanings::absent(std::string_view name) const {
 }
 
 void VariableMeanings::describe(telemetry::ColumnInfo& column) const {
-  bool category = false, unit = false, kind = false;
+  bool category = false, unit = false, kind = false, lost = false;
   for (const Rule& rule : m_rules) {
     if (!fits(rule.name, column.name)) continue;
     if (rule.category && !category) {
@@ -122,6 +128,24 @@ void VariableMeanings::describe(telemetry::ColumnInfo& column) const {
       column.labels = rule.labels;
       kind = true;
     }
+    if (rule.lostBy && !lost) {
+      // "*": the variable itself.
+      column.lostBy = *rule.lostBy == "*" ? column.name : *rule.lostBy;
+      column.lostWhen = rule.lostWhen;
+      lost = true;
+    }
+  }
+}
+
+void VariableMeanings::describeLost(telemetry::GroupInfo& group) const {
+  const auto isSaid = [](const telemetry::ColumnInfo& column) { return !column.lostBy.empty(); };
+  if (std::ranges::any_of(group.columns, isSaid)) return;
+  for (telemetry::ColumnInfo& column : group.columns) {
+    telemetry::ColumnInfo known;
+    known.name = column.name;
+    describe(known);
+    column.lostBy = known.lostBy;
+    column.lostWhen = known.lostWhen;
   }
 }
 

@@ -18,6 +18,14 @@ struct RobotKey {
   auto operator<=>(const RobotKey&) const = default;
 };
 
+/// The order in which robots are listed, on the screen and in files: our team before the others,
+/// then by team, number and sender.
+struct RobotOrder {
+  bool isTheirs = true;
+  RobotKey robot;
+  auto operator<=>(const RobotOrder&) const = default;
+};
+
 /// A robot that goes on under another key.
 struct Renaming {
   RobotKey from, to;

@@ -2,7 +2,7 @@
 #pragma once
 
 // What blackboard variables mean to a reader (unit, category, words for codes), from
-// resources/variables.json. Private to robotlink.
+// resources/variables.json. Values; any thread.
 
 #include <map>
 #include <optional>
@@ -24,6 +24,9 @@ class VariableMeanings {
 
   /// Fills everything but name and type.
   void describe(telemetry::ColumnInfo& column) const;
+  /// Of a session that was recorded before files said which variables can be lost: those that this
+  /// program would record so (telemetry::ColumnInfo::lostBy).
+  void describeLost(telemetry::GroupInfo& group) const;
   /// The value of this variable that says "not seen"; nothing where each is a value.
   std::optional<double> absent(std::string_view name) const;
 
@@ -34,6 +37,8 @@ class VariableMeanings {
     std::optional<telemetry::ColumnKind> kind;
     std::map<std::int32_t, std::string> labels;
     std::optional<double> absent;
+    std::optional<std::string> lostBy;  // telemetry::ColumnInfo
+    double lostWhen = 1.0;
   };
   std::vector<Rule> m_rules;
 };

@@ -14,9 +14,8 @@
 
 namespace pitchboard::link {
 
-/// The moment as a scenario without a referee: every robot is told at the beginning what the
-/// referee has told it at this moment, and nobody calls anything after that. With a referee it
-/// would begin before its first kick-off.
+/// The moment as a scenario without the stop conditions of its match. A referee's game goes on from
+/// this moment.
 MomentScenario situationScenario(const MatchFrame& frame, const MomentOptions& options);
 
 struct Situation {

@@ -12,6 +12,7 @@
 
 #include <base/geometry.h>
 #include <base/ids.h>
+#include <telemetry/wire/gamecontroller.h>
 #include <telemetry/wire/link_health.h>
 
 namespace pitchboard::link {
@@ -47,7 +48,7 @@ struct RefereeTeamView {
   int score = 0;
   int playersLeft = 0;  ///< on the field: not penalised, substitutes that came in counted
   std::vector<RefereePlayerView> players{};
-  std::string name{};  ///< as a team setup says it; empty: nobody does
+  std::string name{};  ///< of the team setup or the scenario; empty: it has none
 };
 
 /// What really happens, without the league's delays: monitor mode.
@@ -92,6 +93,7 @@ struct RefereeView {
   std::optional<int> kickOffTeam;     ///< team number
   std::array<RefereeTeamView, 2> teams;  ///< left, right
   int ourTeam = 0;  ///< chosen number; 0 when none was chosen or it does not play
+  std::optional<telemetry::RefereeState> packet;  ///< all of this comes from
 };
 
 /// Where the robots of a team think that the ball is, taken together.

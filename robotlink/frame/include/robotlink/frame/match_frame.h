@@ -81,6 +81,11 @@ struct MatchFrame {
     while (robot(key) != nullptr) ++key.sender;
     return key;
   }
+  /// Puts the robots in the order in which they are listed.
+  void sortRobots() {
+    std::ranges::stable_sort(robots, {},
+                             [this](const RobotFrame& robot) { return orderOf(robot.key, teams); });
+  }
   /// For orders to robots of a simulated match: their slots, without those that are not there.
   std::vector<RobotId> slotsOf(const std::vector<RobotKey>& keys) const {
     std::vector<RobotId> found;

@@ -7,13 +7,14 @@
 #include <optional>
 
 #include <robotlink/frame/live_values.h>
+#include <robotlink/frame/teams.h>
 #include <telemetry/wire/gamecontroller.h>
 
 namespace pitchboard::link {
 
-/// All that the packet says; from whom and when, true data and replies are left to the caller.
-/// `ourTeam`: the number of the team whose side is taken.
-RefereeView viewOf(const telemetry::RefereeState& packet, int ourTeam = 0);
+/// All that the packet says, with the names of these teams; from whom and when, which team is ours,
+/// true data and replies are left to the caller.
+RefereeView viewOf(const telemetry::RefereeState& packet, const Teams& teams = {});
 
 /// True data (RGTD) beside it; the caller knows their age.
 RefereeTruth truthOf(const telemetry::RefereeState& trueData);

@@ -28,9 +28,15 @@ using Teams = std::vector<Team>;
 
 /// Of the team at this place; nothing: nobody knows.
 std::optional<TeamColor> colourAt(int place, const Teams& teams);
+/// What the team with the referee's `number` is called; empty: it has no name.
+std::string_view teamName(int number, const Teams& teams);
+/// Where this robot is listed.
+RobotOrder orderOf(const RobotKey& robot, const Teams& teams);
 
 /// Those of a simulated match: one for each colour, in the order of TeamColor.
 const Teams& teamsByColour();
+/// The same with the names and numbers of a scenario.
+void fillTeams(const std::vector<sim::TeamSettings>& settings, Teams& teams);
 /// Of a simulated robot, in teamsByColour().
 inline RobotKey keyOf(const sim::RobotIdentity& robot) {
   return {static_cast<int>(robot.team) + 1, robot.number, 0};

@@ -7,6 +7,7 @@
 // said, and taken up when it comes again.
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -68,10 +69,14 @@ struct AttachedStatus {
 using BoardRowsTaker =
     std::function<void(const telemetry::GroupInfo& group, std::span<const BoardRow> rows)>;
 
+/// Where attached blackboards are shown: as robots of Live, or as rows beside those of a simulated
+/// match, of whose robots they are none.
+enum class AttachedTo : std::uint8_t { Live, Match };
+
 class AttachedRobots {
  public:
   /// `seconds`: the time of the rows, s; called on any thread. `catalog`: of boards that name none.
-  explicit AttachedRobots(std::function<double()> seconds,
+  explicit AttachedRobots(std::function<double()> seconds, AttachedTo place = AttachedTo::Live,
                           VariableCatalog catalog = VariableCatalog::published());
   ~AttachedRobots();
 
@@ -87,6 +92,7 @@ class AttachedRobots {
  private:
   class Reader;
   const std::function<double()> m_seconds;
+  const AttachedTo m_place;
   const VariableCatalog m_catalog;
   std::vector<std::unique_ptr<Reader>> m_readers;
 };

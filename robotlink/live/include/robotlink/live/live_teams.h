@@ -20,6 +20,11 @@ telemetry::Surroundings surroundingsOf(const sim::FieldSpec& field);
 /// The options of the monitor with the field of Live in them.
 telemetry::MonitorOptions monitorOptions(const LiveOptions& options);
 
+/// Chooses our team by what a person typed: the referee's number ("12"; "0": none) or a colour
+/// ("red"). Error InvalidArgument.
+Result<void> chooseOurTeam(LiveOptions& options, std::string_view text);
+/// The referee's number of our team, chosen by number or colour; 0: not known.
+int ourNumber(const LiveOptions& options, const telemetry::RefereeState* referee);
 /// Who plays, as setups and the referee say it; null: none was heard.
 Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee);
 

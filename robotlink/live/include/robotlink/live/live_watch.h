@@ -41,9 +41,9 @@ struct LiveOptions {
   telemetry::SenderFilter refereeSenders{};  ///< who may be the referee; the robots' is in `team`
   telemetry::Profile profile = telemetry::publishedProfile();
   telemetry::MonitorOptions team;
-  int ourTeam = 0;                     ///< the referee's number of our team; 0: not chosen
-  TeamColor colour = TeamColor::Blue;  ///< of our robots while the referee says none
-  bool colourByNumber = false;         ///< as the published telemetry: a colour for each number
+  int ourTeam = 0;                       ///< the referee's number of our team; 0: not chosen
+  std::optional<TeamColor> ourColour{};  ///< of our team, where it was chosen by its colour
+  bool colourByNumber = false;           ///< as the published telemetry: a colour for each number
   sim::FieldSpec field;
   std::vector<AttachedBoard> boards;          ///< of robots that are this computer
   std::vector<std::string> catalogs;          ///< files; of variables that robots send

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <base/ids.h>
+#include <base/robot_key.h>
 #include <robotlink/session/row_walk.h>
 #include <simcore/world/world_state.h>
 #include <telemetry/wire/team_monitor.h>
@@ -22,6 +23,7 @@ inline constexpr double ballReach = 0.5;
 
 struct RobotSummary {
   std::string name;  ///< of its group: "B1"
+  RobotOrder order;
   TeamColor team = TeamColor::Blue;
   double seconds = 0.0;            ///< for which there are rows
   std::optional<double> distance;  ///< m walked (live: of its believed places)
@@ -45,6 +47,7 @@ struct RobotSummary {
 
 struct TeamSummary {
   TeamColor team = TeamColor::Blue;
+  std::string name{};        ///< "RoboFEI"; empty: it has none
   std::optional<int> score;  ///< at the end; nothing when it is not known
   int scored = 0;            ///< in this time
   double ballSeconds = 0.0;
@@ -57,8 +60,8 @@ struct SessionStatistics {
   telemetry::TimeRange range;  ///< s of the source
   bool truthKnown = false;
   std::uint64_t rows = 0;
-  std::vector<RobotSummary> robots;  ///< by team, then name
-  std::vector<TeamSummary> teams;    ///< those that have robots
+  std::vector<RobotSummary> robots;  ///< our team's first, then by team and number
+  std::vector<TeamSummary> teams;    ///< those that have robots, in the same order
 };
 
 /// Curves have this many parts.

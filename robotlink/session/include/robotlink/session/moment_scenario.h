@@ -19,8 +19,9 @@ struct MomentOptions {
   Ball ball = Ball::True;     ///< Perceived likewise
   /// Given to robots whose own is not known (live ones). A name of behaviours(), or noBehaviour.
   std::string behaviour = "striker";
-  /// Physics, noise, stop conditions and scripted writes are taken over from here; the field too,
-  /// unless the frame has one of another size.
+  /// Physics, noise, stop conditions, scripted writes and the referee's rules are taken over from
+  /// here; the field too, unless the frame has one of another size. Its game, if it has one, is
+  /// that of this moment; without one the referee's packet in the frame says it in whole seconds.
   const Scenario* base = nullptr;
   /// The map of the match that will start: what robots had on received blackboards is written
   /// there, but for the referee's words.

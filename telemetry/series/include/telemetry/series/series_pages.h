@@ -5,6 +5,7 @@
 // that are being looked at. The owner of the file implements it; views of a SeriesStore ask it.
 // Callable from any thread.
 
+#include <functional>
 #include <memory>
 
 #include <telemetry/series/series_store.h>
@@ -27,8 +28,17 @@ class SeriesPages {
   virtual std::optional<Stretch> held(GroupId group, std::optional<TimeRange> range) = 0;
   /// Reads the rows of this range, unless so long a stretch does not fit into memory.
   virtual void want(TimeRange range) = 0;
+  /// Of every row of the range, however many there are; nothing while they are being read. Asking
+  /// has them read.
+  virtual std::optional<SeriesStatistics> statistics(GroupId group, std::uint32_t column,
+                                                     TimeRange range) = 0;
+  /// want() is not done yet with this range.
+  virtual bool isReading(TimeRange range) = 0;
   /// Grows whenever something that was asked for has been read: ask again.
   virtual std::uint64_t revision() = 0;
+  /// Called whenever revision() has grown, from the thread that reads; null: nobody wants to know.
+  /// The former one is not called any more once this has returned.
+  virtual void setListener(std::function<void()> listener) = 0;
   /// Of everything there is.
   virtual TimeRange range() = 0;
   virtual std::size_t bytes() = 0;

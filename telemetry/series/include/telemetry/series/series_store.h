@@ -47,6 +47,7 @@ struct SeriesBucket {
 struct SeriesStatistics {
   std::uint64_t samples = 0;
   double mean = 0.0, min = 0.0, max = 0.0, sigma = 0.0, rms = 0.0;
+  bool reading = false;  ///< of some rows only so far; SeriesStore::pagesRevision() tells of others
 };
 
 /// One group as it was at one instant; immutable, any thread, keeps its chunks alive.
@@ -57,14 +58,15 @@ class GroupView {
   /// Nothing when there is no row.
   virtual std::optional<TimeRange> range() const = 0;
   virtual std::size_t rows() const = 0;
-  /// Rows per second over the last second of the group's time; 0 when unknown.
+  /// Rows of different times per second, over the last second of the group's time; 0 when unknown.
   virtual double rate() const = 0;
 
   virtual std::optional<Sample> latest(std::uint32_t column) const = 0;
   /// The last sample at or before `time`.
   virtual std::optional<Sample> at(std::uint32_t column, double time) const = 0;
-  /// The whole row at or before `time`: words and values as they were appended. False: there is
-  /// none.
+  /// The whole row at or before `time`: words and values as they were appended, also those of a
+  /// column that was not seen (ColumnInfo::lostBy), which is NaN for all other calls. False: there
+  /// is none.
   virtual bool rowAt(double time, double& rowTime, std::vector<std::uint32_t>& words,
                      std::vector<double>& values) const = 0;
   /// Time of the last change of value; the first row's when it never changed.
@@ -80,6 +82,9 @@ class GroupView {
   /// and samples() must not be joined by lines. Asking reads the rows, if they fit
   /// (SeriesStore::pagesRevision() tells when they have come).
   virtual bool hasEveryRow(TimeRange /*range*/) const { return true; }
+  /// The rows that are not in memory are on their way; false also where they never will come,
+  /// because so many do not fit.
+  virtual bool isReading(TimeRange /*range*/) const { return false; }
 };
 
 class SeriesPages;

@@ -57,6 +57,11 @@ class SummaryBuilder {
   SummaryPart take();
 
   std::vector<ColumnType> m_types;
+  struct Losable {
+    std::size_t column, flag;  // words of a row
+    std::uint32_t lost;
+  };
+  std::vector<Losable> m_losable;
   std::vector<Extremes> m_now;
   std::uint32_t m_rows = 0;
   double m_begin = 0.0, m_end = 0.0;

@@ -37,6 +37,12 @@ struct ColumnInfo {
   /// Of a Float64 column: what is worth keeping of its values, a power of two. A session file keeps
   /// them as single precision, rounded to it. 0: every bit.
   double resolution = 0.0;
+  /// Of a Float32 column: the 32-bit column of the same group (it may be this one) that tells by
+  /// the value `lostWhen` that nothing was seen. Views show a hole there, while the row keeps the
+  /// word: VISION_BALL_DIST is the last distance seen, and lost while VISION_LOST is 1. Empty:
+  /// always seen.
+  std::string lostBy = {};
+  double lostWhen = 0.0;
   bool operator==(const ColumnInfo&) const = default;
 };
 

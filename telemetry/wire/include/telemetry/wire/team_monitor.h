@@ -54,7 +54,7 @@ constexpr bool hasOwnPlace(const RobotKey& robot) {
 /// One robot at one moment: a value that may cross threads.
 struct RobotStatus : LinkHealth {
   RobotKey key;
-  std::array<ProcessStatus, processCount> processes{};
+  std::array<ProcessHeartbeat, processCount> processes{};
   std::optional<Battery> battery;
   WallTime lastMessage{};
   ErrorTally errors;

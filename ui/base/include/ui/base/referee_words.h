@@ -16,7 +16,7 @@ QString refereeStateText(const link::RefereeView& view);
 QString refereeSetPlayText(const link::RefereeView& view);
 /// "Really: PLAYING 05:10, ball free in 3 s"; empty without true data.
 QString refereeTruthText(const link::RefereeView& view);
-/// "Team 12 (blue), ours: 2 goals, 3 players left".
+/// "RoboFEI, team 12 (blue), ours: 2 goals, 3 players left".
 QString refereeTeamText(const link::RefereeTeamView& team, int ourTeam);
 /// "05:12", "−00:07".
 QString refereeClockText(int seconds);

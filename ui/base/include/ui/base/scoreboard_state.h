@@ -12,7 +12,7 @@
 namespace pitchboard::ui {
 
 struct ScoreboardState {
-  QString leftName, rightName;     ///< BLUE; TEAM 12 where the colour is not known
+  QString leftName, rightName;     ///< ROBOFEI; BLUE without a name; TEAM 12 without a colour
   QColor leftColour, rightColour;  ///< not valid: no square
   int left = 0, right = 0;
   QString clock = QStringLiteral("00:00");
@@ -22,6 +22,8 @@ struct ScoreboardState {
   bool operator==(const ScoreboardState&) const = default;
 };
 
+/// "ROBOFEI – GUESTS, " in front of other text; empty where no team has a name.
+QString teamsText(const link::MatchFrame& frame);
 /// Of a live frame: what the referee says.
 ScoreboardState scoreboardOf(const link::MatchFrame& frame);
 

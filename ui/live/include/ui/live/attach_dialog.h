@@ -1,31 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Robots that are this computer: chooses a System V segment, the robot it belongs to and the
-// catalog of its variables, and lets attached ones go. What is attached is kept in the settings.
-// Segments are only read. Qt owns it. UI thread only.
+// Attaches blackboards of this computer: chooses a System V segment, the robot it belongs to and
+// the catalog of its variables, and detaches them. Qt owns it. UI thread only.
 
 #include <QDialog>
-
-#include <robotlink/live/attached_robots.h>
 
 class QComboBox;
 class QLabel;
 class QPushButton;
-class QSettings;
 class QSpinBox;
 class QTableWidget;
 
 namespace pitchboard::ui {
 
-class LiveController;
+class AttachedBoards;
 class NumberBox;
 
 class AttachDialog : public QDialog {
   Q_OBJECT
  public:
-  /// `settings` may be null: nothing is kept.
-  AttachDialog(LiveController* live, QSettings* settings, QWidget* parent);
+  /// `boards` outlives it.
+  AttachDialog(AttachedBoards* boards, QWidget* parent);
 
   /// Attaches what is chosen; false when it cannot be, which is then shown.
   bool attach();
@@ -38,11 +34,9 @@ class AttachDialog : public QDialog {
   void choose();
   void chooseCatalog(int index);
   void detach();
-  void use(const std::vector<link::AttachedBoard>& boards);
   bool say(const QString& sentence, bool bad);
 
-  LiveController* m_live;
-  QSettings* m_settings;
+  AttachedBoards* m_boards;
   QTableWidget *m_segments, *m_attached;
   QSpinBox *m_key, *m_robot;
   QComboBox *m_team, *m_catalog;
@@ -52,6 +46,6 @@ class AttachDialog : public QDialog {
 };
 
 /// Opens the dialog, or brings the open one to the front.
-void showAttachDialog(LiveController* live, QSettings* settings, QWidget* window);
+void showAttachDialog(AttachedBoards* boards, QWidget* window);
 
 }  // namespace pitchboard::ui

@@ -12,7 +12,7 @@
 
 namespace pitchboard::ui {
 
-using LampState = telemetry::ProcessState;
+using LampState = telemetry::HeartbeatState;
 
 struct Lamp {
   LampState state = LampState::Unknown;
@@ -38,6 +38,7 @@ struct CardState {
   TeamColor team = TeamColor::Blue;
   int number = 0;
   QString name;
+  QString teamName;  ///< "RoboFEI"; empty: it has none
   QString subtitle;  ///< what its team calls it, and its behaviour; may be empty
   QString runtime;   ///< who runs, where somebody has chosen
   std::array<Lamp, lampCount> lamps;

@@ -68,6 +68,7 @@ class RobotsDock : public QScrollArea {
   void showCards(const std::vector<CardState>& states);
   RobotCard* makeCard();
   void rename(const std::vector<Renaming>& renamings);
+  RobotOrder order(const RobotKey& robot) const;
   void arrange();
   void unfloat(RobotKey id);
   void follow(RobotCard* card, const QPoint& globalPosition);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Blackboards of this computer that a person asked to look at beside those of the match: only read,
-// each at its own rate. They are taken along from match to match. UI thread only.
+// The blackboards of this computer that a person attached: one list for every source, kept in the
+// settings. Live shows them as robots, and a simulated match has their variables beside those of
+// its robots; they are only read. The list is LiveOptions::boards. UI thread only.
 
-#include <QHash>
 #include <QObject>
 #include <QTimer>
 #include <memory>
@@ -12,34 +12,40 @@
 
 #include <robotlink/live/attached_robots.h>
 
+class QSettings;
+
 namespace pitchboard::ui {
 
+class LiveController;
 class MatchController;
+class SourceSwitch;
 
 class AttachedBoards : public QObject {
  public:
-  explicit AttachedBoards(MatchController* controller, QObject* parent = nullptr);
+  /// All of them outlive this; without `settings` nothing is kept.
+  AttachedBoards(MatchController* match, LiveController* live, SourceSwitch* source,
+                 QSettings* settings, QObject* parent = nullptr);
   ~AttachedBoards() override;
 
-  /// Samples this System V key from now on; a key that is attached already gets the new rate. Fails
-  /// with the reason and leaves everything as it was.
-  Result<void> attach(int key, double rate);
+  const std::vector<link::AttachedBoard>& list() const;
+  /// Adds it, in place of an attached one with its key. Fails where it is not valid, which changes
+  /// nothing, and where its segment cannot be read now: then it is attached once it can be.
+  Result<void> attach(const link::AttachedBoard& board);
   void detach(int key);
-  bool contains(int key) const;
-  /// Of every attached board. One that waits for a match or for its segment says so.
+  /// Of every board in the list, in the source that is shown.
   std::vector<link::AttachedStatus> status() const;
-  /// Of its rows, in the match that there is; also once it is detached.
-  QString groupName(int key) const { return m_names.value(key); }
 
  private:
-  void follow();
-  void set();
+  void use(const std::vector<link::AttachedBoard>& boards);
+  void followMatch();
+  void setBesideMatch();
 
-  MatchController* m_controller;
-  std::vector<link::AttachedBoard> m_boards;
-  QHash<int, QString> m_names;                     // by key
-  std::unique_ptr<link::BoardRowKeeper> m_rows;    // of the match that there is
-  std::unique_ptr<link::AttachedRobots> m_robots;  // null without a match
+  MatchController* m_match;
+  LiveController* m_live;
+  SourceSwitch* m_source;
+  QSettings* m_settings;
+  std::unique_ptr<link::BoardRowKeeper> m_rows;    // of the open match
+  std::unique_ptr<link::AttachedRobots> m_robots;  // beside it; null without a match
   QTimer m_take;
 };
 

@@ -57,6 +57,8 @@ class FrameSource : public QObject {
   void eventsRecorded(const std::vector<pitchboard::link::MatchEvent>& events);
   /// Another match or session, or none: what was remembered of the old one is void.
   void restarted();
+  /// Rows of a recording that were asked for are in memory now: the same range looks different.
+  void rowsCame();
   /// The source goes on from this moment (s) of its past. Its rows later than that are gone, and
   /// whatever else was remembered of later times must go as well: it has not happened.
   void rewound(double time);

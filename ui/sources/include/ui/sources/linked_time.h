@@ -14,12 +14,15 @@
 namespace pitchboard::ui {
 
 enum class TimeMark { A, B };
+using TimeMarks = std::array<std::optional<double>, 2>;  ///< s; A, B
 
 class LinkedTime : public QObject {
   Q_OBJECT
  public:
   static constexpr double minimumSpan = 1e-3;    ///< s; less cannot be told apart on an axis
   static constexpr double defaultWindow = 15.0;  ///< s
+  /// s; of robots that send less often than a match has ticks, and of what was recorded.
+  static constexpr double longWindow = 60.0;
   /// Windows offered for following, s.
   static constexpr std::array<double, 7> windows{5, 15, 30, 60, 120, 300, 600};
 
@@ -50,8 +53,9 @@ class LinkedTime : public QObject {
   std::optional<double> moment() const { return m_moment; }
   /// Where the line of the moment shown stands; nothing while there are no rows.
   std::optional<double> playhead() const;
-  /// Where values are read: under the pointer, else at the moment shown. Nothing: the newest.
-  std::optional<double> readAt() const { return m_cursor ? m_cursor : m_moment; }
+  /// Where values are read: under the pointer, else at the moment shown, which is the newest one
+  /// while the source goes on. Nothing while there are no rows.
+  std::optional<double> readAt() const { return m_cursor ? m_cursor : playhead(); }
 
   /// Zooms by `factor` (< 1: closer) so that `anchor` stays where it is. While the newest moment is
   /// followed it stays at the right edge and the window changes.
@@ -63,6 +67,8 @@ class LinkedTime : public QObject {
   void setCursor(std::optional<double> time);
   std::optional<double> mark(TimeMark mark) const { return m_marks[index(mark)]; }
   void setMark(TimeMark mark, std::optional<double> time);
+  const TimeMarks& marks() const { return m_marks; }
+  void setMarks(const TimeMarks& marks);
   bool hasMarks() const { return m_marks[0] && m_marks[1]; }
   /// Puts A and B into the visible range, or takes both away.
   void showMarks(bool on);
@@ -78,6 +84,8 @@ class LinkedTime : public QObject {
   void windowChanged(double seconds);
   void cursorChanged();
   void marksChanged();
+  /// Somebody moved them; before they were there.
+  void marksMoved(const pitchboard::ui::TimeMarks& before);
   void momentChanged();
   void momentRequested(double time);
   void nowRequested();
@@ -94,7 +102,7 @@ class LinkedTime : public QObject {
   double m_window = defaultWindow;
   bool m_following = true;
   std::optional<double> m_cursor, m_moment;
-  std::array<std::optional<double>, 2> m_marks;
+  TimeMarks m_marks;
 };
 
 }  // namespace pitchboard::ui

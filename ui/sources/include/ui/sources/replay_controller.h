@@ -64,6 +64,7 @@ class ReplayController : public FrameSource {
  private:
   struct File;  // what is open
   void take(std::shared_ptr<File> file);
+  void dropPages();
   void wantMoment(double time);
   void readMoment();
   void load();

@@ -15,7 +15,8 @@ class MatchController;
 class ReplayController;
 class SourceSwitch;
 
-/// Nothing for live robots, and for a session without one.
+/// Nothing for live robots, and for a session without one. Its game is that of the moment that is
+/// shown; none where that is not kept to the tick.
 std::optional<link::Scenario> scenarioBehind(const SourceSwitch& source,
                                              const MatchController& match,
                                              const ReplayController& replay);

@@ -31,6 +31,8 @@ class Timeline : public QObject {
 
   /// Remembers events of this source also while another one is shown.
   void watch(FrameSource* source);
+  /// The newest one of the source that is shown; null when it has none.
+  FramePtr frame() const;
   /// Of the source that is shown; another list after sourceChanged().
   EventList* events() const;
 
@@ -56,7 +58,6 @@ class Timeline : public QObject {
   void goLive();
   /// One tick back or on; from now it starts to look back.
   void step(int ticks);
-  void togglePlay();
   /// Of the events that the filter shows. While it plays, going back again soon after an event was
   /// reached means the one before.
   bool goToNextEvent();

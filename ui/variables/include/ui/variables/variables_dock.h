@@ -4,11 +4,14 @@
 // Every variable of every robot with its newest value; see docs/STUDIO.md, "Variables". UI thread
 // only.
 
+#include <functional>
+
 class QSettings;
 class QWidget;
 
 namespace pitchboard::ui {
 
+class AttachedBoards;
 class MatchController;
 class PlotTarget;
 class RobotSelection;
@@ -23,6 +26,8 @@ struct VariablesContext {
   PlotTarget* plots = nullptr;          ///< where variables can be sent to be plotted; may be null
   QSettings* settings = nullptr;        ///< the user's; may be null
   RobotSelection* selection = nullptr;  ///< who asks for a robot's blackboard; may be null
+  AttachedBoards* boards = nullptr;     ///< blackboards of this computer; may be null
+  std::function<void()> attachBoard{};  ///< opens the dialog that attaches one; may be empty
 };
 
 QWidget* makeVariablesDock(const VariablesContext& context, QWidget* parent);

@@ -7,13 +7,13 @@
 
 #include <QAction>
 #include <QMainWindow>
+#include <memory>
 #include <vector>
 
 #include <ui/base/theme.h>
 #include <ui/sources/frame_source.h>
 
 class QSettings;
-class QUndoGroup;
 
 namespace pitchboard::link {
 struct MatchFrame;
@@ -23,9 +23,11 @@ struct Scenario;
 namespace pitchboard::ui {
 
 class Alarms;
+class AttachedBoards;
 class ComparedSession;
 class FieldOnly;
 class FieldView;
+class KeyMap;
 class LinkedTime;
 class LiveController;
 class LiveOverlay;
@@ -45,6 +47,7 @@ struct StudioParts;
 class Timeline;
 class TimelineActions;
 class TransportBar;
+class UndoHistory;
 
 class MainWindow : public QMainWindow {
   Q_OBJECT
@@ -62,6 +65,7 @@ class MainWindow : public QMainWindow {
   SessionRecording* recording() const { return m_recording; }
   ReplayController* replay() const { return m_replay; }
   LiveController* live() const { return m_live; }
+  AttachedBoards* boards() const { return m_boards; }
   /// A recorded session, in Replay; what is wrong with it is a notice.
   void openSession(const QString& path);
   /// Asks for a scenario or a session.
@@ -96,12 +100,16 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
   void showEvent(QShowEvent* event) override;
   void changeEvent(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  bool event(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   StudioParts parts() const;
   void makeMenus();
+  void makeKeys();
+  void cancelStepByStep();
   void makeDocks();
-  void chooseUndo();
   void showTitles();
   void connectField();
   void shutDown();
@@ -109,13 +117,16 @@ class MainWindow : public QMainWindow {
   void nameForScreenReaders();
   void saveLayout();
   void fitScreen();
+  /// Gives panels the room that is theirs in a window of this size.
+  void shareRoomOut();
   void tellFinished(const link::MatchFrame& frame);
+  void askForSpeed(const QStringList& programs, double wanted);
 
   MatchController* m_controller;
   LiveController* m_live;
   QSettings* m_settings;
   SourceSwitch* m_source;
-  QUndoGroup* m_undo;  // nothing to undo while another source is shown
+  UndoHistory* m_undo;
   RobotSelection* m_selection;
   LinkedTime* m_time;
   PlotTarget* m_plots;
@@ -124,6 +135,7 @@ class MainWindow : public QMainWindow {
   SessionRecording* m_recording;
   SessionFiles* m_sessions;
   TimelineActions* m_timelineActions;
+  AttachedBoards* m_boards;
   FieldView* m_field;
   LiveOverlay* m_overlay;
   ComparedSession* m_compared;
@@ -135,11 +147,13 @@ class MainWindow : public QMainWindow {
   PlotsDock* m_plotsDock = nullptr;
   FieldOnly* m_fieldOnly;
   Alarms* m_alarms;
+  std::unique_ptr<KeyMap> m_keys;
   QByteArray m_savedLayout;
   QSize m_firstSize;  // when it was not kept from the last time
   bool m_wasShown = false;
   bool m_wasActive = false;
   bool m_toldFinished = false;
+  bool m_followsSize = true;          // nobody has given the panels other sizes
   std::vector<QDockWidget*> m_docks;  // order of studioDocks()
 };
 

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How the window shares its room out, in windows of all sizes.
+
+#include <QAbstractScrollArea>
+#include <QDockWidget>
+#include <QTabBar>
+#include <QToolBar>
+#include <QToolButton>
+#include <QtTest>
+
+#include <ui/base/theme.h>
+#include <ui/field/field_view.h>
+#include <ui/plots/plots_dock.h>
+#include <ui/sources/session_recording.h>
+
+#include "geometry.h"
+#include "plot_page.h"
+#include "plot_pane.h"
+#include "scoreboard.h"
+#include "window_rig.h"
+
+namespace tst_geometry {
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+using window_rig::Studio;
+
+class TestGeometry : public QObject {
+  Q_OBJECT
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void theFieldHasItsShare_data() {
+    QTest::addColumn<QSize>("size");
+    QTest::addColumn<double>("share");
+    QTest::newRow("960x540") << QSize(960, 540) << 0.45;
+    QTest::newRow("960x600") << QSize(960, 600) << 0.5;
+    QTest::newRow("1280x800") << QSize(1280, 800) << 0.55;
+    QTest::newRow("1440x900") << QSize(1440, 900) << 0.55;
+    QTest::newRow("1920x1080") << QSize(1920, 1080) << 0.6;
+  }
+  void theFieldHasItsShare() {
+    QFETCH(QSize, size);
+    QFETCH(double, share);
+    Studio s(size);
+    s.play();
+    const auto* canvas = s.window.field()->findChild<QAbstractScrollArea*>();
+    const auto enough = [&] { return canvas->height() >= share * size.height(); };
+    QTRY_VERIFY2(enough(), qPrintable(QString::number(canvas->height())));
+    QCOMPARE(s.window.size(), size);
+    // Wider than the panels beside it together.
+    QVERIFY2(canvas->width() >= 0.45 * size.width(), qPrintable(QString::number(canvas->width())));
+  }
+
+  void theRoomFollowsTheWindow() {
+    Studio s({1440, 900});
+    s.play();
+    const auto* robots = s.find<QDockWidget>("robots");
+    QTRY_COMPARE(robots->width(), extentsFor({1440, 900}).left);
+    s.window.resize(960, 600);
+    QTRY_COMPARE(robots->width(), extentsFor({960, 600}).left);
+    s.window.resize(1440, 900);
+    QTRY_COMPARE(robots->width(), extentsFor({1440, 900}).left);
+    // Until somebody drags an edge.
+    const QPoint edge = robots->mapTo(&s.window, QPoint(robots->width() + 1, 100));
+    QTest::mousePress(&s.window, Qt::LeftButton, {}, edge);
+    const QPointF to = edge + QPoint(40, 0);
+    QMouseEvent move(QEvent::MouseMove, to, s.window.mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
+                     {});
+    QApplication::sendEvent(&s.window, &move);
+    QTRY_VERIFY(robots->width() > extentsFor({1440, 900}).left + 20);
+    QTest::mouseRelease(&s.window, Qt::LeftButton, {}, to.toPoint());
+    const int chosen = robots->width();
+    s.window.resize(1300, 820);
+    QCoreApplication::processEvents();
+    QCOMPARE(robots->width(), chosen);
+  }
+
+  void aLowWindowHasOneRowThatGrows() {
+    Studio s({1280, 800});
+    s.play();
+    const auto* page = s.window.findChild<PlotsDock*>()->currentPage();
+    QCOMPARE(page->panes().size(), 2);
+    const PlotPane* lane = page->panes()[1];
+    QTRY_VERIFY(!lane->isVisible() && page->panes()[0]->isVisible());
+    auto* dock = s.find<QDockWidget>("plots");
+    s.window.resizeDocks({dock}, {300}, Qt::Vertical);
+    QTRY_VERIFY(lane->isVisible());
+    Studio high({1440, 900});
+    high.play();
+    QTRY_VERIFY(high.window.findChild<PlotsDock*>()->currentPage()->panes()[1]->isVisible());
+  }
+
+  void nothingGrowsTheWindow_data() {
+    QTest::addColumn<QSize>("size");
+    for (const QSize size : {QSize(960, 540), QSize(960, 600), QSize(1280, 800)}) {
+      QTest::newRow(qPrintable(QString::number(size.height()))) << size;
+    }
+  }
+  void nothingGrowsTheWindow() {
+    QFETCH(QSize, size);
+    Studio s(size);
+    s.play();
+    const auto same = [&](const char* what) {
+      for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
+      QVERIFY2(s.window.size() == size, qPrintable(QStringLiteral("%1: %2×%3")
+                                                       .arg(QString::fromUtf8(what))
+                                                       .arg(s.window.width())
+                                                       .arg(s.window.height())));
+    };
+    for (auto* dock : s.window.findChildren<QDockWidget*>()) {
+      if (dock->isHidden()) dock->toggleViewAction()->trigger();
+      same(qPrintable(dock->objectName()));
+    }
+    s.menuAction(QStringLiteral("Reset layout"))->trigger();
+    same("reset");
+    for (const SourceKind kind : {SourceKind::Live, SourceKind::Replay, SourceKind::Simulate}) {
+      s.window.showSource(kind);
+      same("source");
+    }
+  }
+
+  // Whatever the match, the referee and the recording say, nothing in the tool bar moves.
+  void barsStandStill_data() {
+    QTest::addColumn<QSize>("size");
+    QTest::newRow("960") << QSize(960, 600);
+    QTest::newRow("1280") << QSize(1280, 800);
+  }
+  void barsStandStill() {
+    QFETCH(QSize, size);
+    Studio s(size);
+    s.play();
+    auto* bar = s.find<QToolBar>("transportBar");
+    auto* score = s.window.findChild<Scoreboard*>();
+    const auto places = [&] {
+      QList<QRect> all{score->geometry()};
+      for (const QWidget* each : bar->findChildren<QWidget*>(Qt::FindDirectChildrenOnly)) {
+        if (each->isVisible() && each != score) all << each->geometry();
+      }
+      return all;
+    };
+    QTRY_VERIFY(s.find<QToolButton>("record")->isVisible());
+    const QList<QRect> before = places();
+    ScoreboardState wordy;
+    wordy.leftName = QStringLiteral("A TEAM WITH A VERY LONG NAME");
+    wordy.rightName = QStringLiteral("ANOTHER ONE");
+    wordy.left = 10;
+    wordy.state = QStringLiteral("PLAYING · corner kick 12 · 44 s");
+    wordy.penalties = QStringLiteral("B1 20 · B2 30 · R3 5");
+    score->setState(wordy);
+    QCoreApplication::processEvents();
+    QCOMPARE(score->geometry(), before.front());
+    s.window.recording()->start();
+    QVERIFY(s.window.recording()->isRecording());
+    QCoreApplication::processEvents();
+    QCOMPARE(places(), before);
+    for (const QRect& place : before) QVERIFY(bar->rect().contains(place));
+  }
+
+  void theBarOfReplayOffersItsActions() {
+    Studio s({1280, 800});
+    const auto shown = [&s](const char* id) {
+      for (const auto* button : s.find<QToolBar>("transportBar")->findChildren<QToolButton*>()) {
+        if (button->defaultAction() == s.find<QAction>(id)) return button->isVisible();
+      }
+      return false;
+    };
+    for (const char* id :
+         {"openSession", "compareSession", "exportSession", "previousEvent", "nextEvent"}) {
+      QVERIFY2(!shown(id), id);
+    }
+    s.window.showSource(SourceKind::Replay);
+    for (const char* id :
+         {"openSession", "compareSession", "exportSession", "previousEvent", "nextEvent"}) {
+      QTRY_VERIFY2(shown(id), id);
+    }
+  }
+};
+
+PITCHBOARD_GUI_TEST(TestGeometry)
+
+}  // namespace tst_geometry
+
+#include "tst_geometry.moc"

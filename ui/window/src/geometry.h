@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How a window shares its room out at first: the field gets more than half of the height, panels
+// what they need. Pure; any thread.
+
+#include <QSize>
+
+namespace pitchboard::ui {
+
+/// Widths of the panels at the left and the right, height of those below the field. All in pixels
+/// of the mock.
+struct Extents {
+  int left, right, bottom;
+};
+
+/// The smallest window, in pixels of the mock. Panels are cut before it grows.
+constexpr QSize leastWindow{640, 400};
+
+constexpr Extents extentsFor(QSize window) {
+  const int wide = window.width(), high = window.height();
+  Extents extents{};
+  extents.left = wide < 1100 ? 208 : wide < 1400 ? 232 : 256;
+  extents.right = wide < 1100 ? 280 : wide < 1400 ? 336 : 416;
+  // Below 900 a single row of curves; it grows by a drag.
+  extents.bottom = high < 560 ? 86 : high < 700 ? 96 : high < 900 ? 120 : 200;
+  return extents;
+}
+
+}  // namespace pitchboard::ui
