@@ -65,7 +65,7 @@ class Rig {
   }
   /// Until every variable is known: two seconds of them.
   void begin(int robot, const std::string& fields, std::uint64_t ms = 1000) {
-    for (std::uint32_t i = 0; i <= 20; ++i) send(robot, i, ms + 100 * i, fields);
+    for (std::uint32_t i = 0; i <= 20; ++i) send(robot, i, ms + 101 * i, fields);
   }
   MatchFrame frame(double time) { return pipeline.frame(seconds(time)); }
 
@@ -384,6 +384,50 @@ class TestSentBoards : public QObject {
     const MatchFrame frame = rig.frame(3.1);
     QCOMPARE(frame.robots.size(), std::size_t(2));
     QCOMPARE(frame.robots[1].name, std::string("B3 (2)"));
+  }
+
+  /// The one that also sends messages has the name; what each of them sent stays its own.
+  void twoOfOneNumberExchangeTheirNames() {
+    Rig rig;
+    for (std::uint32_t i = 0; i <= 20; ++i) {
+      const double time = 1.0 + 0.1 * i;
+      rig.sendAt(Rig::seconds(time), 3, i, 1000 + 100 * i, "VOLTAGE=1", 8);
+      rig.sendAt(Rig::seconds(time), 3, i, 1000 + 100 * i, "HEAD=2 VOLTAGE=2", 9);
+    }
+    rig.frame(3.1);
+    QCOMPARE(rig.value("B3", "VOLTAGE"), 1.0);
+    QCOMPARE(rig.value("B3 (2)", "VOLTAGE"), 2.0);
+    rig.say(3, 3.2, 9);
+    for (std::uint32_t i = 21; i <= 23; ++i) {
+      const double time = 1.2 + 0.1 * i;
+      rig.sendAt(Rig::seconds(time), 3, i, 1000 + 100 * i, "VOLTAGE=1", 8);
+      rig.sendAt(Rig::seconds(time), 3, i, 1000 + 100 * i, "VOLTAGE=2", 9);
+      rig.frame(time);
+    }
+    QCOMPARE(rig.value("B3", "VOLTAGE"), 2.0);
+    QCOMPARE(rig.value("B3", "HEAD"), 2.0);
+    QCOMPARE(rig.value("B3 (2)", "VOLTAGE"), 1.0);
+    QCOMPARE(rig.view("B3")->rows(), std::size_t(4));
+    QCOMPARE(rig.view("B3 (2)")->rows(), std::size_t(4));
+    QCOMPARE(rig.store->refusedRows(), 0U);
+  }
+
+  /// It is the same robot with the same rows.
+  void anAddressThatChanges() {
+    Rig rig;
+    rig.begin(3, "VOLTAGE=150");
+    rig.frame(3.1);
+    const std::size_t rows = rig.view("B3")->rows();
+    rig.sendAt(Rig::seconds(20.0), 3, 21, 20'000, "VOLTAGE=151", 99);
+    const MatchFrame frame = rig.frame(20.1);
+    QCOMPARE(frame.robots.size(), std::size_t(1));
+    QCOMPARE(rig.view("B3")->rows(), rows + 1);
+    QCOMPARE(rig.view("B3")->info().attributes.at("sent"), std::string("10.0.0.99"));
+    // Forgotten, it goes on with its curves when it is received again.
+    rig.pipeline.forget(frame.robots[0].key, Rig::seconds(20.2));
+    rig.begin(3, "VOLTAGE=152", 30'000);
+    rig.frame(33.0);
+    QVERIFY(rig.view("B3")->rows() > rows + 1);
   }
 
   /// Before anybody says the colour it is "Robot 3"; then rows go on under the other name.

@@ -96,6 +96,7 @@ class AttachedRobots::Reader {
     buildRobot(m_meanings.reader(m_newest), field, false, robot);
     robot.action = robot.decided.value_or(0);
     robot.board = m_meanings.contents(m_newest);
+    robot.name = m_group.name;
     return robot;
   }
 
@@ -249,18 +250,39 @@ std::vector<AttachedStatus> AttachedRobots::status() const {
   return all;
 }
 
+void BoardRowKeeper::describe(Known& known, const Name& name) {
+  const std::string before = known.info.name;
+  known.name = name;
+  known.info.name = name.name;
+  for (const auto& [key, value] : name.attributes) known.info.attributes[key] = value;
+  known.id = m_sink->renameGroup(before, known.info);
+}
+
 void BoardRowKeeper::take(const std::string& board, const telemetry::GroupInfo& group,
                           const Name& name, std::span<const BoardRow> rows) {
   const auto [known, isNew] = m_groups.try_emplace(board);
   Known& now = known->second;
-  if (isNew || now.name != name || now.columns != group.columns.size()) {
-    telemetry::GroupInfo info = group;
-    info.name = name.name;
-    for (const auto& [key, value] : name.attributes) info.attributes[key] = value;
-    const std::string before = isNew ? info.name : now.name.name;
-    now = {m_sink->renameGroup(before, info), name, group.columns.size()};
+  if (isNew || now.name != name || now.info.columns.size() != group.columns.size()) {
+    const std::string before = isNew ? name.name : now.info.name;
+    now.info = group;
+    now.info.name = before;
+    describe(now, name);
   }
   for (const BoardRow& row : rows) m_sink->append(now.id, {row.time, row.words, row.values});
+}
+
+void BoardRowKeeper::giveWay(const std::map<std::string, Name>& names) {
+  std::erase_if(m_groups, [&names](const auto& known) { return !names.contains(known.first); });
+  for (auto& [board, known] : m_groups) {
+    if (known.info.name == names.at(board).name) continue;
+    describe(known, {known.info.name + " (before " + board + ")", known.name.attributes});
+  }
+}
+
+void BoardRowKeeper::rename(const std::map<std::string, Name>& names) {
+  for (auto& [board, known] : m_groups) {
+    if (known.name != names.at(board)) describe(known, names.at(board));
+  }
 }
 
 }  // namespace pitchboard::link

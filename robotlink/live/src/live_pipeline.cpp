@@ -267,45 +267,41 @@ void LivePipeline::addBoards(MatchFrame& frame, AttachedRobots* attached, WallTi
     robot.ownName = ownNameOf(m_options, robot.key);
     boards.push_back(std::move(robot));
   }
-  // A blackboard of this computer is known by its key, one that is sent by address and number.
   std::vector<std::string> known;
   std::vector<SentKey> senders;
   for (const RobotFrame& board : boards) {
-    const telemetry::Address address = board.link->sender.address;
-    senders.emplace_back(address, board.key.number);
-    known.push_back(board.boardKey ? std::to_string(*board.boardKey)
-                                   : address.text() + " " + std::to_string(board.key.number));
+    known.push_back(board.name);
+    senders.emplace_back(board.link->sender.address, board.key.number);
   }
   const std::vector<RobotKey> keys = joinBoards(frame, std::move(boards));
-  std::map<RobotKey, std::string> names;
+  std::map<RobotKey, std::string> robots;
+  std::map<std::string, BoardRowKeeper::Name> names;
   m_sentRobots.clear();
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    names[keys[i]] = frame.robot(keys[i])->name;
+    const RobotFrame& robot = *frame.robot(keys[i]);
+    robots[keys[i]] = robot.name;
     m_sentRobots[senders[i]] = keys[i];
+    BoardRowKeeper::Name& name = names[known[i]];
+    GroupInfo listed;
+    telemetry::setOrder(listed, orderOf(keys[i], frame.teams));
+    name = {robot.name, std::move(listed.attributes)};
+    name.attributes["team"] = info(robot.identity.team).name;
+    if (!robot.ownName.empty()) name.attributes["name"] = robot.ownName;
+    if (senders[i].first == telemetry::Address{}) continue;
+    name.attributes["place"] = std::to_string(keys[i].team);
+    name.attributes["sent"] = senders[i].first.text();
   }
-  // Messages leave the name to the variables before these use it.
-  if (names != m_boardNames) {
-    m_boardNames = std::move(names);
+  // Messages and variables may exchange their names.
+  m_boardRows.giveWay(names);
+  if (robots != m_boardNames) {
+    m_boardNames = std::move(robots);
     noteTeams({});
   }
+  m_boardRows.rename(names);
   if (m_fan->isEmpty()) return;
   for (const Taken& one : taken) {
-    const auto& attributes = one.group->attributes;
-    const auto sent = attributes.find("sent");
-    const std::string board = sent == attributes.end()
-                                  ? attributes.at("key")
-                                  : sent->second + " " + attributes.at("number");
-    const auto place = std::ranges::find(known, board);
-    if (place == known.end()) continue;
-    const RobotKey& key = keys[static_cast<std::size_t>(place - known.begin())];
-    const RobotFrame& robot = *frame.robot(key);
-    BoardRowKeeper::Name name{robot.name, {{"team", std::string(info(robot.identity.team).name)}}};
-    GroupInfo listed;
-    telemetry::setOrder(listed, orderOf(key, m_teams));
-    name.attributes.merge(listed.attributes);
-    if (sent != attributes.end()) name.attributes["place"] = std::to_string(key.team);
-    if (!robot.ownName.empty()) name.attributes["name"] = robot.ownName;
-    m_boardRows.take(board, *one.group, name, one.rows);
+    const auto name = names.find(one.group->name);
+    if (name != names.end()) m_boardRows.take(name->first, *one.group, name->second, one.rows);
   }
 }
 
@@ -314,7 +310,17 @@ void LivePipeline::reportSent(WallTime now) {
   static const GroupInfo group = sentHealthGroup();
   m_nextSentReport = seconds(now) + sentReportPeriod;
   if (m_fan->isEmpty()) return;
-  for (const SentStatus& sent : details(now).sent) {
+  const std::vector<SentStatus> all = details(now).sent;
+  const auto boardOf = [](const SentStatus& sent) {
+    return sent.link.sender.address.text() + " " + std::to_string(sent.robot.number);
+  };
+  std::map<std::string, BoardRowKeeper::Name> names;
+  for (const SentStatus& sent : all) {
+    names[boardOf(sent)] = {sent.name + " agent", {{"link", sent.name}}};
+  }
+  m_sentHealth.giveWay(names);
+  m_sentHealth.rename(names);
+  for (const SentStatus& sent : all) {
     const telemetry::LinkHealth& link = sent.link;
     if (link.age >= m_options.team.timeout) continue;
     const auto said = [](const std::optional<std::int64_t>& value) {
@@ -326,8 +332,7 @@ void LivePipeline::reportSent(WallTime now) {
                   static_cast<double>(link.lost), static_cast<double>(link.duplicates),
                   static_cast<double>(link.late), sent.clockOffset,
                   said(sent.refresh_ms),          said(sent.waiting)};
-    m_sentHealth.take(link.sender.address.text() + " " + std::to_string(sent.robot.number), group,
-                      {sent.name + " agent", {{"link", sent.name}}}, {&row, 1});
+    m_sentHealth.take(boardOf(sent), group, names.at(boardOf(sent)), {&row, 1});
   }
 }
 

@@ -53,6 +53,7 @@ struct SentBoards::Robot {
   using Values = std::map<std::string, Value, std::less<>>;
 
   int number = 0, place = 0;
+  std::string name;  // of the group
   telemetry::Sender sender;
   SequenceStats sequence{32};
   telemetry::ArrivalStats arrivals;
@@ -126,6 +127,7 @@ SentBoards::Robot* SentBoards::robotOf(int number, const telemetry::Sender& send
     moved = oldest;
   }
   if (moved == nullptr) return nullptr;
+  if (moved->name.empty()) moved->name = "sent " + std::to_string(++m_made);
   moved->number = number;
   moved->sender = sender;
   if (moved->isDescribed()) moved->group.attributes["sent"] = sender.address.text();
@@ -154,7 +156,7 @@ void SentBoards::describe(Robot& robot) const {
   }
   robot.columns.emplace(known);
   robot.group.columns = robot.columns->columns();
-  robot.group.name = std::to_string(robot.number);
+  robot.group.name = robot.name;
   robot.group.attributes = {{"sent", robot.sender.address.text()},
                             {"robot", std::to_string(robot.number)},
                             {"number", std::to_string(robot.number)},
@@ -290,6 +292,7 @@ std::vector<RobotFrame> SentBoards::robots(WallTime now, const sim::FieldSpec& f
     if (!robot->isDescribed()) continue;
     RobotFrame& out = all.emplace_back();
     out.key = {robot->place, robot->number, 0};
+    out.name = robot->name;
     out.identity.id = {};
     out.identity.number = robot->number;
     out.link = linkOf(*robot, now);

@@ -83,7 +83,7 @@ class AttachedRobots {
   /// Attaches these and no others; a board that stays as it is goes on. They must be valid.
   /// `taken`: names that their groups must not have.
   void set(const std::vector<AttachedBoard>& boards, const std::vector<std::string>& taken = {});
-  /// Each board that was ever attached as a robot, for joinBoards().
+  /// Each board that was ever attached as a robot, for joinBoards(), with the name of its group.
   std::vector<RobotFrame> robots(const sim::FieldSpec& field) const;
   /// The rows since the last call.
   void takeRows(const BoardRowsTaker& take);
@@ -113,13 +113,19 @@ class BoardRowKeeper {
   /// Of the board that is always called `board`.
   void take(const std::string& board, const telemetry::GroupInfo& group, const Name& name,
             std::span<const BoardRow> rows);
+  /// Forgets boards that are not among these; a new one may go on with their groups. The groups of
+  /// those that are called otherwise from now on give their names back...
+  void giveWay(const std::map<std::string, Name>& names);
+  /// ...and get the new ones.
+  void rename(const std::map<std::string, Name>& names);
 
  private:
   struct Known {
     telemetry::GroupId id = 0;
     Name name;
-    std::size_t columns = 0;
+    telemetry::GroupInfo info;
   };
+  void describe(Known& known, const Name& name);
   std::shared_ptr<telemetry::RowSink> m_sink;
   std::map<std::string, Known> m_groups;
 };

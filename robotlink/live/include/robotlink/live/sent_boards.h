@@ -65,10 +65,12 @@ class SentBoards {
   Verdict take(const telemetry::Pb2Message& message, const telemetry::DatagramView& datagram,
                int place, double arrival);
 
-  /// Calls `take` with the rows since the last call. Their group is named by the robot's number
-  /// only; "sent" is its address. Rows begin once every variable that is sent was received.
+  /// Calls `take` with the rows since the last call. The name of their group is not for people; it
+  /// stays the same whatever address the robot has, which is "sent". Rows begin once every variable
+  /// that is sent was received.
   void takeRows(const BoardRowsTaker& take);
-  /// The robots, for joinBoards(): with the place as team, without a colour. `now`: of arrival.
+  /// The robots, for joinBoards(): with the place as team, the name of their group, and without a
+  /// colour. `now`: of arrival.
   std::vector<RobotFrame> robots(telemetry::WallTime now, const sim::FieldSpec& field) const;
   /// In the same order as robots(), without keys and names.
   std::vector<SentStatus> status(telemetry::WallTime now) const;
@@ -87,6 +89,7 @@ class SentBoards {
   std::vector<NamedCatalog> m_catalogs;
   telemetry::Duration m_timeout = std::chrono::seconds(10);
   std::vector<std::unique_ptr<Robot>> m_robots;
+  std::uint64_t m_made = 0;  // robots, ever
 };
 
 }  // namespace pitchboard::link
