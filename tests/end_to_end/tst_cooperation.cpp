@@ -6,6 +6,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include <robotlink/blackboard/system_v.h>
 #include <robotlink/match/simulated_match.h>
 
 #include "../support/program_run.h"
@@ -87,6 +88,17 @@ class TestCooperation : public QObject {
       hashes << out["state_hash"].toString();
     }
     QCOMPARE(hashes.size(), 1);
+  }
+
+  // A segment that was there, with the last word of another match.
+  void whatAnEarlierProgramLeftIsForgotten() {
+    auto board = SystemVSegments::open(m_base + 100, AttachMode::AttachOrCreate).value();
+    board.write(IntVar{447}, -100'000);
+    const ProgramRun run = play(
+        profileOf({QCoreApplication::applicationDirPath() + "/cycle_robot", "${key}"}), "max", "4");
+    QVERIFY2(resultOf(run)["repeatable"].toBool(), run.err.constData());
+    QVERIFY(resultOf(run)["robots"].toArray()[0].toObject()["distance_m"].toDouble() > 0.1);
+    QCOMPARE(board.read(IntVar{447}), -240);
   }
 
   void aLateOneIsNamed_data() {

@@ -432,6 +432,11 @@ Result<void> RobotSlots::start(RobotSlot& slot, SlotProcess& process) {
   managed.silentAfter = RestartRule::Seconds(profile.silentAfter);
   TRY(profile.isReference() ? describeReference(slot, process, managed)
                             : describeForeign(slot, profile, managed));
+  if (!profile.isReference() && slot.cycle.index >= 0) {
+    slot.board.write(slot.cycle, 0);  // what an earlier program left
+    slot.cooperates = slot.hasMissedCycle = false;
+    slot.awaitedSince.reset();
+  }
   process.id = TRY(m_processes->add(managed, slot.board, SteadyClock::now()));
   return {};
 }
