@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <base/try.h>
 #include <simcore/world/referee_parameters.h>
 
 #include "referee_table.h"
@@ -161,7 +162,10 @@ bool isPlausible(const GameState& game, std::size_t robots) {
 
 Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCall& call,
                          Placements& placements, std::vector<Event>& events) {
-  return RefereeTable(world, now, placements, events).call(call);
+  RefereeTable table(world, now, placements, events);
+  TRY(checkCall(*world.game, *world.settings.referee, world.robots, call));
+  table.carryOut(call);
+  return {};
 }
 
 void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& way,

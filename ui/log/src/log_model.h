@@ -36,6 +36,8 @@ class LogModel : public QAbstractTableModel {
   int rowAtMoment() const;
   /// Times as time of day, where the lines' source has one.
   void setTimesOfDay(bool on);
+  /// Lines so far that tell of this decision by hand were undone.
+  void strike(SourceKind of, std::uint32_t cause);
   void clear();
   /// Removes this source's lines that are later than `time` (s): the source goes on from there.
   void rewind(SourceKind of, double time);
@@ -53,6 +55,7 @@ class LogModel : public QAbstractTableModel {
   struct Line : LogLine {
     std::optional<QDateTime> clock;
     std::optional<SourceKind> of;
+    bool undone = false;
   };
   bool isLater(const Line& line) const {
     return m_moment && line.of == m_shown && line.time > *m_moment;

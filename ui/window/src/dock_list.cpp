@@ -3,12 +3,11 @@
 
 #include <ui/experiments/experiments_dock.h>
 #include <ui/live/bad_messages_dock.h>
-#include <ui/live/referee_dock.h>
 #include <ui/log/log_dock.h>
 #include <ui/noise/noise_dock.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/processes/processes_dock.h>
-#include <ui/referee/refereeing_dock.h>
+#include <ui/referee/referee_panel.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/timeline/timeline_dock.h>
 #include <ui/variables/variables_dock.h>
@@ -38,10 +37,10 @@ QWidget* variables(const StudioParts& s, QWidget* parent) {
                            parent);
 }
 QWidget* noise(const StudioParts& s, QWidget* parent) {
-  return makeNoiseDock(s.controller, s.selection, parent);
+  return makeNoiseDock(s.controller, s.selection, s.source, parent);
 }
-QWidget* refereeing(const StudioParts& s, QWidget* parent) {
-  return makeRefereeingDock(s.controller, s.source, parent);
+QWidget* referee(const StudioParts& s, QWidget* parent) {
+  return makeRefereePanel({s.controller, s.source, s.timeline, s.selection}, parent);
 }
 QWidget* plots(const StudioParts& s, QWidget* parent) {
   return makePlotsDock(
@@ -49,9 +48,6 @@ QWidget* plots(const StudioParts& s, QWidget* parent) {
 }
 QWidget* processes(const StudioParts& s, QWidget* parent) {
   return makeProcessesDock(s.controller, s.source, parent);
-}
-QWidget* referee(const StudioParts& s, QWidget* parent) {
-  return makeRefereeDock(s.source, parent);
 }
 QWidget* badMessages(const StudioParts& s, QWidget* parent) {
   return makeBadMessagesDock(s.live, parent);
@@ -73,10 +69,9 @@ std::span<const DockInfo> studioDocks() {
       {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, robots},
       {"variables", "Variables", Qt::RightDockWidgetArea, true, 416, variables},
       {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 416, noise},
-      {"refereeing", "Refereeing", Qt::RightDockWidgetArea, false, 416, refereeing},
+      {"referee", "Referee", Qt::RightDockWidgetArea, false, 416, referee},
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, plots},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, processes},
-      {"referee", "Referee", Qt::RightDockWidgetArea, false, 416, referee},
       {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, badMessages},
       {"log", "Log", Qt::BottomDockWidgetArea, true, 180, log},
       {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, 280, experiments},

@@ -376,7 +376,10 @@ void MainWindow::connectField() {
     link::Scenario again = m_controller->beginning();
     again.score = {};
     again.clock = 0.0;
-    m_controller->edits()->load(again, QStringLiteral("Start the match again"));
+    if (!m_controller->edits()->allowsChange()) return;
+    m_controller->edits()->replaceMatch(again, QStringLiteral("Start the match again"),
+                                        QStringLiteral("Match restarted"),
+                                        m_controller->isPaused());
   });
   connect(m_field, &FieldView::clearRequested, m_controller, [this] {
     std::vector<RobotId> all;
@@ -397,7 +400,7 @@ void MainWindow::connectNotices() {
                        live = QStringLiteral("live"), recording = QStringLiteral("recording"),
                        refused = QStringLiteral("refused"), locked = QStringLiteral("locked"),
                        finished = QStringLiteral("finished"), compared = QStringLiteral("compared"),
-                       test = QStringLiteral("test");
+                       test = QStringLiteral("test"), replaced = QStringLiteral("replaced");
   const auto tell = [this](const QString& topic) {
     return [this, topic](const QString& sentence) { m_notices->show({topic}, sentence); };
   };
@@ -428,6 +431,15 @@ void MainWindow::connectNotices() {
     for (const QString& topic : {match, refused, finished}) m_notices->settle(topic);
     m_toldFinished = false;
   });
+  connect(m_controller->edits(), &MatchEdits::replaced, m_notices, [this](const QString& done) {
+    QUndoStack* stack = m_controller->edits()->undoStack();
+    m_notices->show(
+        {replaced, NoticeTone::Success},
+        QStringLiteral("%1. Ctrl+Z brings the match back.").arg(done),
+        {{QStringLiteral("Undo"), [stack] { stack->undo(); }}, {QStringLiteral("Close"), {}}});
+  });
+  connect(m_controller->edits()->undoStack(), &QUndoStack::indexChanged, m_notices,
+          [this] { m_notices->settle(replaced); });
   connect(m_controller->edits(), &MatchEdits::lockedChanged, m_notices,
           [this] { m_notices->settle(locked); });
   connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices, tell(match));
