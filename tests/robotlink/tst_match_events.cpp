@@ -71,6 +71,19 @@ class TestMatchEvents : public QObject {
     QVERIFY(!matchEventKind("of tomorrow"));
   }
 
+  void whatWasUndoneIsDropped() {
+    MatchEvent kick, goal, state, undone;
+    kick.kind = Kind::Kick;
+    goal.kind = Kind::Goal;
+    state.kind = Kind::GameState;
+    undone.kind = Kind::Undone;
+    goal.cause = state.cause = undone.cause = 4;
+    // The goal was given again after the undo.
+    std::vector<MatchEvent> events{kick, goal, state, undone, kick, goal};
+    dropUndone(events);
+    QCOMPARE(events, (std::vector<MatchEvent>{kick, kick, goal}));
+  }
+
   void theDocumentNamesEveryKind() {
     QFile file(QStringLiteral(PITCHBOARD_SOURCE_DIR "/docs/SESSIONS.md"));
     QVERIFY(file.open(QIODevice::ReadOnly));
@@ -188,7 +201,9 @@ class TestMatchEvents : public QObject {
     QVERIFY(writer);
     std::vector<MatchEvent> all;
     for (std::size_t i = 0; i < matchEventKindCount; ++i) {
+      if (static_cast<Kind>(i) == Kind::Undone) continue;  // is not given back
       all.push_back(full(static_cast<Kind>(i)));
+      all.back().cause = static_cast<std::uint32_t>(i);
       all.back().time += static_cast<double>(i);
       MatchEvent bare;
       bare.kind = static_cast<Kind>(i);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The referee's machine of states against the worked match of two controllers, field by field, and
 // what the automatic referee decides.
+#include <simcore/rules/check_call.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
 
 #include <functional>
@@ -86,7 +87,69 @@ bool down(Game& g) {
 
 class TestReferee : public QObject {
   Q_OBJECT
+
+  /// Every call there is, of these teams and robots.
+  static std::vector<sim::RefereeCall> allCalls() {
+    std::vector<sim::RefereeCall> calls;
+    for (int kind = 0; kind <= static_cast<int>(CallKind::Automatic); ++kind) {
+      for (int team = sim::GameState::nobody; team < 2; ++team) {
+        for (const int value : {-1, 0, 1}) {
+          for (int state = 0; state <= static_cast<int>(lastOf(PlayState{})); ++state) {
+            calls.push_back({.kind = static_cast<CallKind>(kind),
+                             .state = static_cast<PlayState>(state),
+                             .team = team,
+                             .robot = RobotId{value + 2},
+                             .setPlay = static_cast<SetPlay>(value + 1),
+                             .penalty = static_cast<sim::PenaltyKind>(value + 1),
+                             .value = value});
+          }
+        }
+      }
+    }
+    return calls;
+  }
+
  private slots:
+  // In every state that a match comes to: what checkCall() refuses changes nothing, and the match
+  // says the same.
+  void checkSaysWhatTheCallWouldSay() {
+    const std::vector<std::function<bool(Game&)>> way{
+        to(PlayState::Ready),
+        to(PlayState::Set),
+        to(PlayState::Playing),
+        setPlay(SetPlay::CornerKick, 0),
+        next,
+        [](Game& g) { return g.call({.kind = CallKind::Stop}); },
+        [](Game& g) { return g.call({.kind = CallKind::GoOn}); },
+        down,
+        goalOfTeam1,
+        to(PlayState::Set),
+        to(PlayState::Playing),
+        to(PlayState::Finished),
+        [](Game& g) { return g.call({.kind = CallKind::NextHalf}); }};
+    Game game("humanoid-2021");
+    int refused = 0, allowed = 0;
+    for (std::size_t step = 0; step <= way.size(); ++step) {
+      for (const sim::RefereeCall& call : allCalls()) {
+        sim::Simulation& simulation = *game.simulation;
+        const sim::WorldState before = simulation.state();
+        const auto checked =
+            sim::checkCall(*before.game, *before.settings.referee, before.robots, call);
+        const auto done = simulation.call(call);
+        QCOMPARE(done.has_value(), checked.has_value());
+        if (!done) {
+          QCOMPARE(QString::fromStdString(done.error().message),
+                   QString::fromStdString(checked.error().message));
+          QVERIFY(*simulation.state().game == *before.game);
+        }
+        ++(done ? allowed : refused);
+        QVERIFY(simulation.restore(before));
+      }
+      if (step < way.size()) QVERIFY2(way[step](game), qPrintable(QString::number(step)));
+    }
+    QVERIFY(refused > 1000 && allowed > 500);
+  }
+
   void workedMatchOf2024() {
     Game game("humanoid-2021");
     play(game, {

@@ -287,7 +287,24 @@ class TestScenario : public QObject {
     QFETCH(QString, error);
     const auto scenario = read(text.toStdString());
     QVERIFY(!scenario);
-    QCOMPARE(QString::fromStdString(scenario.error().text()), error);
+    // What follows from the first error is said behind it.
+    QCOMPARE(QString::fromStdString(scenario.error().text()).section('\n', 0, 0), error);
+  }
+
+  void everyErrorIsSaid() {
+    const auto scenario = read(R"({"version": 1, "tick_rate": 0,
+"robots": [{"team": "blu", "number": 1, "x": 0, "y": 0},
+{"team": "red", "number": 0, "x": 0, "y": 0},
+{"team": "red", "number": 1, "x": 0, "y": 0}],
+"writes": [{"variable": "NONSENSE", "value": 1}, {"variable": "COM_REFEREE", "value": 2}]})");
+    QVERIFY(!scenario);
+    const QStringList said = QString::fromStdString(scenario.error().text()).split('\n');
+    QVERIFY2(said.size() == 4, scenario.error().text().c_str());
+    for (int i = 0; i < said.size(); ++i) {
+      const QString place[] = {"my.json:1: tick_rate", "my.json:2: robots[0].team",
+                               "my.json:3: robots[1].number", "my.json:5: writes[0].variable"};
+      QVERIFY2(said[i].startsWith(place[i]), qPrintable(said[i]));
+    }
   }
 
   void whatIsNotJsonIsRefusedWithItsLine_data() {

@@ -68,6 +68,7 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
      Shape::Warning, 5, false, true, ""},
     {Kind::PortLost, "port-lost", "cannot be received", Shape::None, 0, false, true, "network"},
     {Kind::PortBack, "port-back", "is received now", Shape::None, 0, false, false, "network"},
+    {Kind::Undone, "undone", "decision undone", Shape::None, 0, false, false, "referee"},
     {Kind::Bookmark, "bookmark", "bookmark", Shape::Bookmark, 10, true, false, "studio"},
     {Kind::Other, "warning", "warning", Shape::Warning, 5, false, true, "session"},
 }};
@@ -235,8 +236,8 @@ constexpr std::array kindOfSimulated{
     Kind::Goal,          Kind::BallOut,        Kind::Kick,      Kind::Fall,        Kind::GotUp,
     Kind::UnknownAction, Kind::ScoreCorrected, Kind::GameState, Kind::Half,        Kind::GamePhase,
     Kind::SetPlay,       Kind::SetPlay,        Kind::SetPlay,   Kind::PlayStopped, Kind::PlayGoesOn,
-    Kind::Penalised,     Kind::PenaltyOver,    Kind::GamePhase};
-static_assert(kindOfSimulated.size() == static_cast<std::size_t>(sim::EventKind::FinalWhistle) + 1);
+    Kind::Penalised,     Kind::PenaltyOver,    Kind::GamePhase, Kind::Undone};
+static_assert(kindOfSimulated.size() == static_cast<std::size_t>(sim::EventKind::Undone) + 1);
 
 }  // namespace
 
@@ -247,6 +248,7 @@ MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state) {
   const double time = static_cast<double>(event.tick) / state.settings.tickRate;
   if (robot != state.robots.end()) out = eventOf(Kind::Other, time, keyOf(*robot), robot->name());
   out.time = time;
+  out.cause = event.cause;
   out.kind = kindOfSimulated[static_cast<std::size_t>(event.kind)];
   switch (event.kind) {
     case sim::EventKind::Goal:
@@ -288,6 +290,21 @@ MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state) {
   return out;
 }
 
+void dropUndone(std::vector<MatchEvent>& events) {
+  std::vector<MatchEvent> kept;
+  kept.reserve(events.size());
+  for (MatchEvent& event : events) {
+    if (event.kind != Kind::Undone) {
+      kept.push_back(std::move(event));
+      continue;
+    }
+    std::erase_if(kept, [&event](const MatchEvent& before) {
+      return before.cause != 0 && before.cause == event.cause;
+    });
+  }
+  events = std::move(kept);
+}
+
 std::string sentenceOf(const MatchEvent& event) {
   const std::string subject = subjectOf(event);
   return subject.empty() ? predicateOf(event) : subject + ' ' + predicateOf(event);
@@ -313,7 +330,7 @@ LogLine logLineOf(const MatchEvent& event) {
   const std::string subject = subjectOf(event);
   const MatchEventInfo& kind = info(event.kind);
   return {event.time, subject.empty() ? std::string(kind.origin) : subject, predicateOf(event),
-          logLevel(kind.warning)};
+          logLevel(kind.warning), event.cause};
 }
 
 }  // namespace pitchboard::link

@@ -94,9 +94,9 @@ std::shared_ptr<const FrameSettings> FrameBuilder::settingsOf(const sim::WorldSt
   const sim::SimulationSettings& now = state.settings;
   const FrameSettings& kept = *m_settings;
   if (kept.field != now.field || kept.noise != now.noise || kept.physics != now.physics ||
-      kept.seed != now.seed || kept.tickRate != now.tickRate) {
+      kept.seed != now.seed || kept.tickRate != now.tickRate || kept.rigidBody != now.rigidBody) {
     m_settings = std::make_shared<const FrameSettings>(
-        FrameSettings{now.field, now.noise, now.physics, now.seed, now.tickRate});
+        FrameSettings{now.field, now.noise, now.physics, now.seed, now.tickRate, now.rigidBody});
   }
   return m_settings;
 }

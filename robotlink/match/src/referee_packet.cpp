@@ -223,17 +223,19 @@ telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNu
 
 void showReferee(const sim::WorldState& world, MatchFrame& frame) {
   frame.referee.reset();
+  frame.desk.reset();
   for (RobotFrame& robot : frame.robots) robot.penalty.reset();
   if (!world.game) return;
   const GameState& game = *world.game;
   const telemetry::RefereeState packet = refereePacket(world, 0, true);
-  frame.refereeAutomatic = world.settings.referee->automatic;
+  const sim::RefereeRules& rules = *world.settings.referee;
+  frame.desk = std::make_shared<const RefereeDesk>(game, rules);
   for (const sim::GameTeam& team : game.teams) {
     frame.teams[static_cast<std::size_t>(team.colour) + 1].number = team.number;
   }
   RefereeView& view = frame.referee.emplace(viewOf(packet, frame.teams));
   view.stopped = game.stopped;  // which version 12 does not send, and who referees has to see
-  view.sender = frame.refereeAutomatic ? "the simulated referee" : "a person";
+  view.sender = rules.automatic ? "the simulated referee" : "a person";
   for (std::size_t side = 0; side < 2; ++side) {
     const auto& shirts = game.teams[side == 0 ? game.leftTeam() : 1 - game.leftTeam()].shirts;
     for (RefereePlayerView& player : view.teams[side].players) {

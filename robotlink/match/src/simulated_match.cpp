@@ -185,6 +185,7 @@ void SimulatedMatch::Parts::advance(bool again) {
   base.simulation.step(base.commands, base.percepts);
   if (!again) events.stepped(base.simulation);
   for (const sim::Event& event : base.simulation.events()) {
+    if (event.kind == sim::EventKind::Undone) goalSeen = false;
     goalSeen = goalSeen || event.kind == sim::EventKind::Goal;
     outSeen = outSeen || event.kind == sim::EventKind::BallOut;
   }

@@ -194,7 +194,7 @@ class Reader {
 
   void readRobots() {
     const auto* items = m_root.array("robots", sim::Simulation::maxRobots);
-    for (std::size_t i = 0; items && i < items->size() && !m_report.failed(); ++i) {
+    for (std::size_t i = 0; items && i < items->size(); ++i) {
       readRobot((*items)[i], i);
     }
   }
@@ -253,6 +253,7 @@ class Reader {
 
   void readRobot(const JsonNode& node, std::size_t index) {
     const std::string path = "robots[" + std::to_string(index) + "]";
+    const std::size_t before = m_report.errors();
     const JsonObject object(
         m_report, node, path,
         {"team", "number", "x", "y", "heading", "behaviour", "id", "imu_starts_at_180",
@@ -283,7 +284,10 @@ class Reader {
     }
     robot.runtime = readRuntime(object, "runtime");
     readBelief(object, robot);
-    for (std::size_t other = 0; other < m_scenario.robots.size(); ++other) {
+    // What is not known cannot be compared.
+    const bool read = m_report.errors() == before;
+    if (!read) robot.identity.number = 0;
+    for (std::size_t other = 0; read && other < m_scenario.robots.size(); ++other) {
       const sim::RobotIdentity& taken = m_scenario.robots[other].identity;
       const std::string where = "robots[" + std::to_string(other) + "]";
       if (taken.id == robot.identity.id) {
@@ -314,7 +318,7 @@ class Reader {
 
   void readBlackboard(const JsonObject& robot, RobotId id) {
     const JsonNode* node = robot.find("blackboard");
-    if (!node || m_report.failed()) return;
+    if (!node) return;
     std::vector<std::string_view> names;
     for (const auto& [name, value] : node->members) names.push_back(name);
     const JsonObject object(m_report, *node, robot.pathOf("blackboard"), names);
@@ -328,7 +332,8 @@ class Reader {
 
   void readWrites() {
     const auto* items = m_root.array("writes", mostWrites);
-    for (std::size_t i = 0; items && i < items->size() && !m_report.failed(); ++i) {
+    for (std::size_t i = 0; items && i < items->size(); ++i) {
+      const std::size_t before = m_report.errors();
       const JsonObject object(m_report, (*items)[i], "writes[" + std::to_string(i) + "]",
                               {"time", "robot", "variable", "value"});
       for (const std::string_view key : {"variable", "value"}) object.require(key);
@@ -344,7 +349,7 @@ class Reader {
         }
       }
       write.variable = object.text("variable", "", 200);
-      if (m_report.failed()) return;
+      if (m_report.errors() != before) continue;
       if (const Variable* variable = findVariable(object, "variable", write.variable)) {
         write.value = readValue(object, "value", *variable);
       }
@@ -354,7 +359,6 @@ class Reader {
 
   const Variable* findVariable(const JsonObject& object, std::string_view key,
                                std::string_view name) const {
-    if (m_report.failed()) return nullptr;
     if (const Variable* variable = m_catalog.find(name)) return variable;
     std::vector<std::string_view> known;
     for (const Variable& variable : m_catalog.variables()) known.push_back(variable.name);
@@ -420,9 +424,9 @@ Result<Scenario> scenarioFromJson(std::string_view text, std::string_view source
                                   const VariableCatalog& catalog) {
   JsonReport report(source);
   const auto root = parseJson(text, report);
-  if (report.failed()) return tl::unexpected(report.error());
+  if (report.failed()) return tl::unexpected(report.allErrors());
   Scenario scenario = Reader(*root, report, catalog).read();
-  if (report.failed()) return tl::unexpected(report.error());
+  if (report.failed()) return tl::unexpected(report.allErrors());
   return scenario;
 }
 

@@ -56,6 +56,22 @@ std::vector<BoardWord> boardWords(const telemetry::GroupInfo& group,
   return out;
 }
 
+Moment presentMoment(const SimulatedMatch& match, const StateArchive& archive) {
+  const sim::WorldState& state = match.simulation().state();
+  Moment moment{state, {}, archive.past(state.tick)};
+  for (const auto& slot : match.robots().all()) {
+    MomentRobot& robot = moment.robots.emplace_back(MomentRobot{slot->id, slot->behaviour, {}});
+    for (const Variable& variable : match.catalog().variables()) {
+      const bool isInt = variable.type == VariableType::Int;
+      const auto bits =
+          isInt ? std::bit_cast<std::uint32_t>(slot->board.read(IntVar{variable.index}))
+                : std::bit_cast<std::uint32_t>(slot->board.read(FloatVar{variable.index}));
+      robot.words.push_back({(isInt ? 0 : Blackboard::floatOffset) + variable.index, bits});
+    }
+  }
+  return moment;
+}
+
 Result<Moment> momentFromMemory(const StateArchive& archive, const telemetry::SeriesStore& rows,
                                 std::uint64_t tick, const VariableCatalog& catalog) {
   auto state = TRY(archive.restore(tick));

@@ -34,7 +34,7 @@ FrameSettings backdropOf(const telemetry::SessionReader& session) {
   if (const auto text = session.attachment("scenario.json")) {
     if (const auto scenario = scenarioFromJson(*text, "scenario.json")) {
       const sim::SimulationSettings& said = scenario->settings;
-      out = {said.field, said.noise, said.physics, said.seed, said.tickRate};
+      out = {said.field, said.noise, said.physics, said.seed, said.tickRate, said.rigidBody};
     }
   }
   return out;

@@ -47,6 +47,7 @@ telemetry::SessionEvent sessionEvent(const MatchEvent& event) {
   if (event.score) facts.score.emplace(event.score->left, event.score->right);
   facts.process = event.process;
   facts.detail = event.detail;
+  facts.cause = static_cast<int>(event.cause);
   return out;
 }
 
@@ -61,6 +62,7 @@ MatchEvent matchEvent(const telemetry::SessionEvent& event) {
   out.value = facts.value;
   if (facts.score) out.score = sim::Score{facts.score->first, facts.score->second};
   out.process = facts.process;
+  out.cause = static_cast<std::uint32_t>(facts.cause);
   if (matchEventKind(event.kind)) out.detail = facts.detail;
   return out;
 }
@@ -86,6 +88,7 @@ std::vector<MatchEvent> eventsOf(const telemetry::SessionReader& session) {
       made.robot = keyOfOldId(event.facts->robot, hasTeams);
     }
   }
+  dropUndone(events);
   return events;
 }
 

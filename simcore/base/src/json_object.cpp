@@ -121,12 +121,12 @@ void JsonObject::fail(std::string_view key, const std::string& text) const {
 }
 
 void JsonObject::require(std::string_view key) const {
-  if (!find(key)) fail(key, "is missing");
+  if (m_node->kind == JsonNode::Kind::Object && !find(key)) fail(key, "is missing");
 }
 
 double JsonObject::number(std::string_view key, double fallback, const NumberRange& range) const {
   const JsonNode* value = find(key);
-  if (!value || m_report->failed()) return fallback;
+  if (!value) return fallback;
   const std::string unit(range.unit);
   if (value->kind != JsonNode::Kind::Number) {
     fail(key, unit.empty() ? "must be a number" : "must be a number in " + unit);
@@ -142,7 +142,7 @@ double JsonObject::number(std::string_view key, double fallback, const NumberRan
 
 int JsonObject::integer(std::string_view key, int fallback, int least, int most) const {
   const JsonNode* value = find(key);
-  if (!value || m_report->failed()) return fallback;
+  if (!value) return fallback;
   const bool whole =
       value->kind == JsonNode::Kind::Number && value->number == std::trunc(value->number);
   if (!whole || value->number < least || value->number > most) {
@@ -155,7 +155,7 @@ int JsonObject::integer(std::string_view key, int fallback, int least, int most)
 
 std::uint64_t JsonObject::unsignedInteger(std::string_view key, std::uint64_t fallback) const {
   const JsonNode* value = find(key);
-  if (!value || m_report->failed()) return fallback;
+  if (!value) return fallback;
   if (!value->whole) {
     fail(key, "must be a whole number from 0 to 18446744073709551615");
     return fallback;
@@ -165,7 +165,7 @@ std::uint64_t JsonObject::unsignedInteger(std::string_view key, std::uint64_t fa
 
 bool JsonObject::boolean(std::string_view key, bool fallback) const {
   const JsonNode* value = find(key);
-  if (!value || m_report->failed()) return fallback;
+  if (!value) return fallback;
   if (value->kind != JsonNode::Kind::Boolean) {
     fail(key, "must be true or false");
     return fallback;
@@ -176,7 +176,7 @@ bool JsonObject::boolean(std::string_view key, bool fallback) const {
 std::string JsonObject::text(std::string_view key, std::string fallback,
                              std::size_t longest) const {
   const JsonNode* value = find(key);
-  if (!value || m_report->failed()) return fallback;
+  if (!value) return fallback;
   if (value->kind != JsonNode::Kind::Text) {
     fail(key, "must be text in quotes");
     return fallback;
@@ -192,7 +192,7 @@ std::optional<std::size_t> JsonObject::choice(std::string_view key,
                                               std::span<const std::string_view> known,
                                               std::string_view what) const {
   const JsonNode* value = find(key);
-  if (!value || m_report->failed()) return {};
+  if (!value) return {};
   if (value->kind != JsonNode::Kind::Text) {
     fail(key, "must be the name of a " + std::string(what) + ", in quotes");
     return {};
@@ -207,7 +207,7 @@ std::optional<std::size_t> JsonObject::choice(std::string_view key,
 
 const std::vector<JsonNode>* JsonObject::array(std::string_view key, std::size_t most) const {
   const JsonNode* value = find(key);
-  if (!value || m_report->failed()) return nullptr;
+  if (!value) return nullptr;
   if (value->kind != JsonNode::Kind::Array) {
     fail(key, "must be a list in square brackets");
     return nullptr;

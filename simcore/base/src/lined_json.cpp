@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <base/lined_json.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -194,9 +195,21 @@ const JsonNode* JsonNode::find(std::string_view key) const {
 }
 
 void JsonReport::fail(int line, const std::string& path, const std::string& text, ErrorCode code) {
-  if (m_error) return;
-  m_error =
-      Error{code, path.empty() ? text : path + ": " + text, m_source + ':' + std::to_string(line)};
+  constexpr std::size_t most = 20;
+  if (m_errors.size() >= most) return;
+  const std::string place = m_source + ':' + std::to_string(line);
+  const std::string message = path.empty() ? text : path + ": " + text;
+  const auto known = [&](const Error& one) {
+    return one.context == place && one.message.starts_with(path + ": ");
+  };
+  if (std::ranges::any_of(m_errors, known)) return;
+  m_errors.push_back({code, message, place});
+}
+
+Error JsonReport::allErrors() const {
+  Error all = m_errors.front();
+  for (std::size_t i = 1; i < m_errors.size(); ++i) all.message += '\n' + m_errors[i].text();
+  return all;
 }
 
 std::optional<JsonNode> parseJson(std::string_view text, JsonReport& report,

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include <base/try.h>
 #include <simcore/world/referee_parameters.h>
 
 #include "referee_table.h"
@@ -166,11 +167,11 @@ bool isPlausible(const GameState& game, std::size_t robots) {
 
 Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCall& call,
                          Placements& placements, std::vector<Event>& events) {
-  // Whoever calls has the game, until a GameController's next packet.
-  const bool obeyed = std::exchange(world.game->obeyed, false);
-  auto done = RefereeTable(world, now, placements, events).call(call);
-  if (!done) world.game->obeyed = obeyed;
-  return done;
+  RefereeTable table(world, now, placements, events);
+  TRY(checkCall(*world.game, *world.settings.referee, world.robots, call));
+  world.game->obeyed = false;  // whoever calls has the game, until a GameController's next packet
+  table.carryOut(call);
+  return {};
 }
 
 void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& way,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <bit>
 
 #include "referee_table.h"
 
@@ -222,20 +221,6 @@ void RefereeTable::beginShot() {
 void RefereeTable::endShot() {
   enter(PlayState::Finished);
   m_game.restart = {};
-}
-
-bool RefereeTable::shootOutDecided() const {
-  const auto scored = [this](std::size_t team) {
-    return std::popcount(static_cast<unsigned>(m_game.teams[team].singleShots));
-  };
-  const int shots = m_rules.shots;
-  const int taken0 = m_game.teams[0].penaltyShots, taken1 = m_game.teams[1].penaltyShots;
-  const int lead = scored(0) - scored(1);
-  if (taken0 < shots || taken1 < shots) {
-    return lead > std::max(0, shots - taken1) || -lead > std::max(0, shots - taken0);
-  }
-  // As many each and one is ahead; without end it is a draw after fifteen each, as bits go.
-  return taken0 == taken1 && (lead != 0 || taken0 >= 15);
 }
 
 }  // namespace pitchboard::sim

@@ -236,7 +236,7 @@ void RefereeTable::whistle() {
 void RefereeTable::afterFinished() {
   const bool tie = m_game.teams[0].score == m_game.teams[1].score;
   if (m_game.phase == GamePhase::ShootOut) {
-    if (shootOutDecided()) {
+    if (shootOutDecided(m_game, m_rules)) {
       m_game.over = true;
     } else if (m_game.stateTicks >= ticks(betweenShots)) {
       beginShot();

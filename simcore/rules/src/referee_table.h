@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include <simcore/rules/check_call.h>
 #include <simcore/rules/game_start.h>
 #include <simcore/rules/referee.h>
 #include <simcore/world/world_state.h>
@@ -32,14 +33,15 @@ class RefereeTable {
     giveSlots(world.robots, m_game);
   }
 
-  Result<void> call(const RefereeCall& call);
+  /// One that checkCall() allows.
+  void carryOut(const RefereeCall& call);
   void tick(const BallSweep& way);
   /// game_start.cpp
   Result<void> start(const GameStart& start);
 
  private:
   // States.
-  Result<void> callState(PlayState state);
+  void carryOut(PlayState state);
   void enter(PlayState state);
   void beginReady(int kickOff);
   void beginPlaying();
@@ -65,7 +67,6 @@ class RefereeTable {
   Point placeOf(SetPlay play, int team, const Point& where) const;
   void beginShot();
   void endShot();
-  bool shootOutDecided() const;
   void freeBall(const Point& place);
 
   // Penalties.
@@ -99,7 +100,7 @@ class RefereeTable {
     return static_cast<int>(std::lround(seconds * m_world.settings.tickRate));
   }
   void report(EventKind kind, int value = 0, RobotId robot = {}) {
-    m_events.push_back({kind, m_world.tick, robot, value});
+    m_events.push_back({kind, m_world.tick, robot, value, m_cause});
   }
   bool plays(std::size_t robot) const;  ///< belongs to one of the two teams, is not penalised
   /// m; the published physics knows one robot only, that of the field.
@@ -130,6 +131,7 @@ class RefereeTable {
   const Snapshot& m_now;
   Placements& m_placements;
   std::vector<Event>& m_events;
+  std::uint32_t m_cause = 0;  // of the call that is carried out
 };
 
 /// Whether a robot with this penalty waits on the field.

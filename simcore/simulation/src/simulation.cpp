@@ -123,6 +123,10 @@ Result<void> Simulation::call(const RefereeCall& call) {
   return {};
 }
 
+void Simulation::reportUndone(std::uint32_t cause) {
+  m_called.push_back({EventKind::Undone, m_state.tick, {}, static_cast<int>(cause), cause});
+}
+
 Result<void> Simulation::setReferee(const std::optional<RefereeRules>& rules) {
   if (rules) {
     TRY(sim::validate(*rules));

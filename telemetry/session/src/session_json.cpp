@@ -255,6 +255,7 @@ std::string toJson(const SessionEvent& event) {
   if (facts.value) json["value"] = *facts.value;
   if (facts.score) json["score"] = {facts.score->first, facts.score->second};
   if (!facts.process.empty()) json["process"] = facts.process;
+  if (facts.cause != 0) json["cause"] = facts.cause;
   json[typedEventKey] = facts.detail;
   return dump(json);
 }
@@ -302,6 +303,7 @@ std::optional<SessionEvent> eventFromJson(std::string_view json) {
   }
   facts.process = text(*object, "process");
   facts.detail = text(*object, typedEventKey);
+  facts.cause = wholeNumber(*object, "cause").value_or(0);
   return event;
 }
 

@@ -41,6 +41,11 @@ class Dock {
     find<QPlainTextEdit>("experimentText")
         ->setPlainText(QString::fromLatin1(text).replace(QStringLiteral("SECONDS"),
                                                          QString::fromLatin1(seconds)));
+    // The form takes over what was written.
+    auto* tabs = find<QTabWidget>("experimentTabs");
+    tabs->setCurrentIndex(tabs->count() - 1);
+    find<QPlainTextEdit>("experimentText")->document()->setModified(true);
+    tabs->setCurrentIndex(0);
     find<QSpinBox>("experimentRuns")->setValue(runs);
   }
   void press() const { QTest::mouseClick(find<QPushButton>("experimentStart"), Qt::LeftButton); }
@@ -67,7 +72,31 @@ class TestExperimentsDock : public QObject {
   void playsAndShowsResults();
   void errorIsSaidWhereTheFileIs();
   void cancelKeepsWhatIsThere();
+  void opensOnAForm();
 };
+
+void TestExperimentsDock::opensOnAForm() {
+  Dock dock;
+  auto* tabs = dock.find<QTabWidget>("experimentTabs");
+  QCOMPARE(tabs->currentWidget(), dock.find<QScrollArea>("experimentForm"));
+  QVERIFY(tabs->tabText(tabs->count() - 1).contains(QStringLiteral("JSON")));
+  dock.write("2", 60);
+  auto* conditions = dock.find<QTableWidget>("experimentConditions");
+  QCOMPARE(conditions->rowCount(), 2);
+  QCOMPARE(conditions->item(1, 0)->text(), QStringLiteral("noisy"));
+  QVERIFY(conditions->item(1, 1)->text().startsWith(QStringLiteral("noise = ")));
+  QCOMPARE(dock.find<QLabel>("experimentAllRuns")->text(),
+           QStringLiteral("per condition, 120 in all"));
+  // Start and Report stay where they are while it plays.
+  auto* start = dock.find<QPushButton>("experimentStart");
+  const int x = start->mapTo(tabs->parentWidget(), QPoint()).x();
+  dock.press();
+  QTRY_COMPARE(dock.start(), QStringLiteral("Cancel"));
+  QTest::qWait(50);
+  QCOMPARE(start->mapTo(tabs->parentWidget(), QPoint()).x(), x);
+  dock.press();
+  QTRY_COMPARE_WITH_TIMEOUT(dock.start(), QStringLiteral("Start"), 60000);
+}
 
 void TestExperimentsDock::playsAndShowsResults() {
   Dock dock;
@@ -122,6 +151,8 @@ void TestExperimentsDock::cancelKeepsWhatIsThere() {
   QVERIFY2(dock.words().startsWith(QStringLiteral("Cancelled: ")), qPrintable(dock.words()));
   const int runs = dock.table("experimentTable")->rowCount();
   QVERIFY(runs > 0 && runs < 200000);
+  // Conditions take turns.
+  if (runs > 20) QVERIFY(!dock.words().contains(QStringLiteral("Not played")));
 }
 
 PITCHBOARD_GUI_TEST(TestExperimentsDock)

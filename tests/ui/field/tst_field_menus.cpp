@@ -14,6 +14,7 @@
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/referee_calls.h>
 
 #include "../support/robot_keys.h"
 #include "field_rig.h"
@@ -63,6 +64,42 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(7));
     QCOMPARE(int(m_controller->frame()->robots.back().identity.team), int(TeamColor::Red));
     QCOMPARE(m_controller->edits()->undoStack()->count(), 2);
+  }
+
+  void theRefereeIsInTheMenus() {
+    const auto penalty = [this](std::size_t robot) {
+      const auto& is = m_controller->frame()->robots[robot].penalty;
+      return is ? QString::fromStdString(is->words) : QString();
+    };
+    QVERIFY(!trigger(pose(1).position, "Pardon"));  // this match has no referee
+    chooseReferee(m_controller->edits(), "humanoid-2021", "rules");
+    QTRY_VERIFY(m_controller->frame()->desk);
+    // What is not allowed is grey and says why.
+    const auto why = [this](const Point& place, const char* text) {
+      auto* menu = menuAt(place);
+      const QAction* found = menu_entry::called(menu->findChildren<QAction*>(), text);
+      const QString tip = found != nullptr && !found->isEnabled() ? found->toolTip() : QString();
+      menu->close();
+      return tip;
+    };
+    QCOMPARE(why(pose(2).position, "Pardon"), QString("B2 is not penalised."));
+    QCOMPARE(why({1.0, 2.0}, "Goal for BLUE"),
+             QString("A goal counts only in PLAYING or FINISHED."));
+    QVERIFY(trigger(pose(2).position, "Pickup or incapable"));
+    QTRY_COMPARE(penalty(1), QString("pickup or incapable"));
+    QVERIFY(trigger(pose(2).position, "Pardon"));
+    QTRY_COMPARE(penalty(1), QString());
+    QVERIFY(trigger(pose(3).position, "Red card"));
+    QTRY_COMPARE(penalty(2), QString("sent off"));
+    for (const auto state : {sim::PlayState::Ready, sim::PlayState::Set, sim::PlayState::Playing}) {
+      callReferee(m_controller->edits(), {.kind = sim::CallKind::State, .state = state}, "state");
+    }
+    QTRY_COMPARE(m_controller->frame()->referee->state, std::string("PLAYING"));
+    QVERIFY(trigger({1.0, 2.0}, "Left penalty mark"));
+    QTRY_VERIFY(m_controller->frame()->snapshot.ball.x < -1.0);
+    QVERIFY(trigger({1.0, 2.0}, "Goal for RED"));
+    QTRY_COMPARE(m_controller->frame()->snapshot.score.right, 1);
+    QTRY_COMPARE(m_controller->edits()->undoStack()->undoText(), QString("Goal for RED"));
   }
 
   void menuOfARobotChangesItsBehaviour() {

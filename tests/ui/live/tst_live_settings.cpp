@@ -4,12 +4,14 @@
 #include <QAbstractItemModelTester>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QGroupBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QSpinBox>
+#include <QTabWidget>
 #include <QTableWidget>
 #include <QTemporaryDir>
 #include <QtTest>
@@ -18,6 +20,7 @@
 #include <sys/shm.h>
 #include <unistd.h>
 
+#include <ui/base/theme.h>
 #include <ui/live/attach_dialog.h>
 #include <ui/live/live_settings_dialog.h>
 #include <ui/sources/attached_boards.h>
@@ -90,6 +93,21 @@ class TestLiveSettings : public QObject {
     chooser.showPopup();
     QCOMPARE(chooser.address(), QStringLiteral("no address"));
     chooser.hidePopup();
+  }
+
+  void aPageWithoutHoles() {
+    Dialog d;
+    QVERIFY(QTest::qWaitForWindowExposed(d.dialog));
+    auto* tabs = d.box<QTabWidget>("liveTabs");
+    QCOMPARE(tabs->count(), 2);
+    QTRY_VERIFY(tabs->widget(0)->height() > 200);
+    int lowest = 0;
+    const auto groups = tabs->widget(0)->findChildren<QGroupBox*>();
+    QCOMPARE(groups.size(), 4);
+    for (const QGroupBox* group : groups) lowest = std::max(lowest, group->geometry().bottom());
+    const int page = tabs->widget(0)->height();
+    QVERIFY2(page - lowest < scaled(nullptr, 60),
+             qPrintable(QStringLiteral("%1 of %2").arg(lowest).arg(page)));
   }
 
   void theInterfacesOfThisComputerAreOffered() {

@@ -56,6 +56,36 @@ class TestLog : public QObject {
   };
 
  private slots:
+  void whatWasUndoneIsStruckThrough() {
+    LogModel model;
+    const QAbstractItemModelTester tester(&model, Mode::QtTest);
+    std::vector<LogLine> said = lines(3);
+    said[1].cause = 7;
+    model.append(said, {}, SourceKind::Simulate);
+    const auto struck = [&model](int row) {
+      return model.index(row, LogModel::Text).data(Qt::FontRole).value<QFont>().strikeOut();
+    };
+    model.strike(SourceKind::Live, 7);
+    QVERIFY(!struck(1));
+    model.strike(SourceKind::Simulate, 7);
+    QVERIFY(!struck(0) && struck(1) && !struck(2));
+    // Done again it counts: later lines of the same decision are plain.
+    model.append({said[1]}, {}, SourceKind::Simulate);
+    QVERIFY(struck(1) && !struck(3));
+  }
+
+  void anUndoneGoalIsStruckThroughInTheLog() {
+    Panel p;
+    link::MatchEvent goal, undone;
+    goal.kind = link::MatchEventKind::Goal;
+    goal.cause = undone.cause = 3;
+    undone.kind = link::MatchEventKind::Undone;
+    emit p.controller.eventsReceived({goal, undone});
+    const auto* model = p.dock->findChild<LogModel*>();
+    QCOMPARE(model->rowCount(), 1);
+    QVERIFY(model->index(0, LogModel::Text).data(Qt::FontRole).value<QFont>().strikeOut());
+  }
+
   void initTestCase() { QApplication::setAttribute(Qt::AA_DontUseNativeDialogs); }
 
   void chosenLinesAreCopied() {

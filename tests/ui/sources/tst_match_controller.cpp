@@ -141,7 +141,8 @@ class TestMatchController : public QObject {
     QTRY_COMPARE(xOf(c, id.value), 1.5);
     c.edits()->setPhysics(QStringLiteral("published"));
     QTRY_VERIFY(c.frame() && c.frame()->settings->physics == "published");
-    c.edits()->load(link::loadScenario("one-robot").value(), QStringLiteral("Load it"));
+    c.edits()->replaceMatch(link::loadScenario("one-robot").value(), QStringLiteral("Open it"),
+                            QStringLiteral("Opened"), true);
     QTRY_VERIFY(c.frame() && c.frame()->robots.size() == 1);
     QCOMPARE(stack->count(), 3);
     stack->undo();
@@ -214,7 +215,8 @@ class TestMatchController : public QObject {
     QTRY_COMPARE(tickOf(c), std::uint64_t(600));
     const double x = xOf(c, 1);
     QVERIFY(std::abs(x - scenario.robots[0].pose.position.x) > 0.01);
-    c.edits()->load(link::loadScenario("one-robot").value(), QStringLiteral("Load it"));
+    c.edits()->replaceMatch(link::loadScenario("one-robot").value(), QStringLiteral("Open it"),
+                            QStringLiteral("Opened"), true);
     QTRY_COMPARE(count(c), std::size_t(1));
     c.edits()->undoStack()->undo();
     QTRY_VERIFY(std::abs(xOf(c, 1) - x) < 1e-6);
@@ -246,14 +248,17 @@ class TestMatchController : public QObject {
       c.edits()->setRuntime(RobotId{1}, {});
       c.edits()->previewBall({2, 2});
       c.edits()->previewRobots({{RobotId{1}, {}, {{1, 2}, 0}}});
-      c.edits()->performTogether(QStringLiteral("Two"), [&] { c.edits()->moveBall({}, {1, 1}); });
+      const auto place = [](link::SimulatedMatch& match) {
+        return match.simulation().placeBall({1, 1});
+      };
+      c.edits()->performOrder(QStringLiteral("Two"), QStringLiteral("Failed"),
+                              {{place, place}, {place, place}});
       c.edits()->resetScore();
       c.edits()->setClockRunning(false);
       c.edits()->setTeam({RobotId{1}}, TeamColor::Black);
     };
     c.edits()->setLocked(true);
     change();
-    c.edits()->load(link::loadScenario("empty").value(), QStringLiteral("Load it"));
     c.restart();
     QVERIFY(c.isOpen());
     QCOMPARE(c.stateHash(), hash);
@@ -265,7 +270,40 @@ class TestMatchController : public QObject {
     change();
     QVERIFY(c.stateHash() != hash);
     QCOMPARE(ordered->load(), 2);
-    QCOMPARE(c.edits()->undoStack()->count(), known + 4);
+    QTRY_COMPARE(c.edits()->undoStack()->count(), known + 7);
+  }
+
+  // All steps or none; a refused order is no step of undo.
+  void stepsAreCarriedOutTogether() {
+    MatchController c(inside());
+    QSignalSpy errors(&c, &MatchController::errorOccurred);
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame());
+    QUndoStack* stack = c.edits()->undoStack();
+    const std::uint64_t hash = c.stateHash();
+    const auto score = [](int goals) {
+      return [goals](link::SimulatedMatch& match) -> Result<void> {
+        match.simulation().setScore({goals, 0});
+        return {};
+      };
+    };
+    const auto refuse = [](link::SimulatedMatch&) -> Result<void> {
+      return failure(ErrorCode::Conflict, "not now");
+    };
+    c.edits()->performOrder(QStringLiteral("Two"), QStringLiteral("Failed"),
+                            {{score(1), score(0)}, {refuse, score(7)}});
+    QTRY_COMPARE(errors.count(), 1);
+    QCOMPARE(errors[0][0].toString(), QStringLiteral("Failed: not now"));
+    QCOMPARE(c.stateHash(), hash);
+    QCOMPARE(stack->count(), 0);
+    c.edits()->performOrder(QStringLiteral("Two"), QStringLiteral("Failed"),
+                            {{score(1), score(0)}, {score(2), score(1)}});
+    QTRY_COMPARE(stack->count(), 1);
+    QTRY_COMPARE(c.frame()->snapshot.score.left, 2);
+    stack->undo();
+    QTRY_COMPARE(c.frame()->snapshot.score.left, 0);
+    stack->redo();
+    QTRY_COMPARE(c.frame()->snapshot.score.left, 2);
   }
 
   void aNumberThatIsTakenIsRefused() {

@@ -12,16 +12,18 @@
 #include <QScrollBar>
 #include <QSlider>
 #include <QTabBar>
-#include <QTableWidget>
+#include <QTableView>
 #include <QTimer>
 #include <QUndoStack>
 #include <QtTest>
 
+#include <robotlink/models/robot_models.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_keys.h>
 #include <ui/field/field_view.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/source_switch.h>
 
 #include "../support/menu_entry.h"
 #include "../support/mouse_wheel.h"
@@ -87,13 +89,14 @@ void whenMenuOpens(Answer answer) {
 class TestSafeHands : public QObject {
   Q_OBJECT
 
-  /// A match of two seconds in INITIAL and three in READY, paused, with the dock Refereeing.
+  /// A match of two seconds in INITIAL and three in READY, paused, with the panel Referee.
   static void playRefereed(Studio& s) {
     s.controller.open(link::loadScenario("match").value(), true);
-    s.find<QDockWidget>("refereeing")->show();
-    s.find<QDockWidget>("refereeing")->raise();
+    s.find<QDockWidget>("referee")->show();
+    s.find<QDockWidget>("referee")->raise();
     s.controller.runTo(120);
     QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 120);
+    QTRY_VERIFY(s.find<QPushButton>("referee READY"));
     QTest::mouseClick(s.find<QPushButton>("referee READY"), Qt::LeftButton);
     QTRY_COMPARE(s.controller.frame()->referee->state, std::string("READY"));
     s.controller.runTo(300);
@@ -158,10 +161,10 @@ class TestSafeHands : public QObject {
     QCOMPARE(QApplication::focusWidget(), field);
     for (QWidget* control : {static_cast<QWidget*>(area->findChild<QAbstractSpinBox*>()),
                              static_cast<QWidget*>(slider),
-                             static_cast<QWidget*>(s.find<QComboBox>("refereePenalty"))}) {
+                             static_cast<QWidget*>(s.find<QComboBox>("refereeRules"))}) {
       if (qobject_cast<QComboBox*>(control) != nullptr) {
-        s.find<QDockWidget>("refereeing")->show();
-        s.find<QDockWidget>("refereeing")->raise();
+        s.find<QDockWidget>("referee")->show();
+        s.find<QDockWidget>("referee")->raise();
         QTRY_VERIFY(control->isVisible());
       }
       QVERIFY(control->focusPolicy() != Qt::WheelFocus);
@@ -176,10 +179,132 @@ class TestSafeHands : public QObject {
     }
   }
 
+  // Undo brings the match back with its game, its rows and its events, and it can be left again.
+  void whatEndsAMatchIsUndone_data() {
+    QTest::addColumn<QString>("how");
+    for (const char* how : {"restart", "play again", "open", "simulate from here"}) {
+      QTest::newRow(how) << QString(how);
+    }
+  }
+  void whatEndsAMatchIsUndone() {
+    QFETCH(QString, how);
+    Studio s;
+    playRefereed(s);
+    const bool over = how == "play again";
+    if (over) {
+      s.controller.post([](link::SimulatedMatch& match) {
+        match.simulation().editState().game->over = true;
+        return link::Changed::Yes;
+      });
+      QTRY_VERIFY(s.controller.frame()->finished);
+    }
+    s.controller.settle();
+    const std::uint64_t hash = s.controller.stateHash();
+    const auto events = s.timeline()->events()->events();
+    QVERIFY(events.size() > 1);
+    const auto rows = s.controller.series();
+    const auto range = rows->range();
+    QUndoStack* stack = s.controller.edits()->undoStack();
+    QTRY_COMPARE(stack->count(), 1);  // READY
+    if (how == "restart")
+      s.find<QAction>("restart")->trigger();
+    else if (over)
+      s.find<QAction>("play")->trigger();
+    else if (how == "open")
+      s.window.files()->open(QStringLiteral("match-3v3"));
+    else
+      s.menuAction(QStringLiteral("Simulate from here"))->trigger();
+    QTRY_COMPARE(stack->count(), 2);
+    QTRY_VERIFY(s.controller.isOpen() && s.controller.frame());
+    QVERIFY(s.controller.series() != rows);
+    QVERIFY2(s.window.notices()->text().contains("Ctrl+Z brings the match back"),
+             qPrintable(s.window.notices()->text()));
+    QCOMPARE(s.window.notices()->tone(), NoticeTone::Success);
+
+    s.window.field()->setFocus();
+    s.menuAction(QStringLiteral("Undo"))->trigger();
+    QTRY_VERIFY(s.controller.isOpen() && s.controller.frame());
+    QTRY_COMPARE(s.controller.stateHash(), hash);
+    QCOMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(300));
+    QCOMPARE(s.controller.frame()->referee->state, std::string("READY"));
+    QCOMPARE(s.controller.series(), rows);
+    QCOMPARE(rows->range()->begin, range->begin);
+    QCOMPARE(rows->range()->end, range->end);
+    QVERIFY(std::ranges::equal(s.timeline()->events()->events(), events));
+    QVERIFY(!s.window.notices()->text().contains("Ctrl+Z brings the match back"));
+    // The past can be looked at, and the game goes on from where it was.
+    s.timeline()->seek(1.0);
+    QCOMPARE(s.window.findChild<SourceSwitch*>()->frame()->referee->state, std::string("INITIAL"));
+    s.timeline()->goLive();
+    s.controller.stepOnce();
+    QTRY_COMPARE(s.controller.frame()->snapshot.tick, over ? std::uint64_t(300) : 301);
+    // What was done before can be undone, too, and everything is done again.
+    stack->undo();
+    QTRY_COMPARE(s.controller.frame()->referee->state, std::string("INITIAL"));
+    stack->redo();
+    stack->redo();
+    QTRY_VERIFY(s.controller.isOpen() && s.controller.frame());
+    QTRY_VERIFY(s.controller.frame()->snapshot.tick < 300 || how == "simulate from here");
+    QVERIFY(s.controller.series() != rows);
+  }
+
+  // Noise, constants, the clock and the score are undone, and the panel shows what the moment that
+  // is shown was played with.
+  void noiseIsUndoneAndThePastHasItsOwn() {
+    Studio s;
+    s.play();
+    s.find<QDockWidget>("noise")->show();
+    auto* preset = s.find<QComboBox>("noisePreset");
+    const QString before = preset->currentText();
+    const sim::NoiseParameters noise = s.controller.frame()->settings->noise;
+    QUndoStack* stack = s.controller.edits()->undoStack();
+    s.controller.edits()->setNoise(link::noisePreset("none").value());
+    QTRY_COMPARE(preset->currentText(), QStringLiteral("none"));
+    QTRY_COMPARE(stack->count(), 1);
+    QCOMPARE(stack->undoText(), QStringLiteral("Change the noise"));
+    s.controller.runTo(360);
+    QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(360));
+    s.timeline()->seek(1.0);
+    QCOMPARE(preset->currentText(), before);
+    s.timeline()->goLive();
+    QCOMPARE(preset->currentText(), QStringLiteral("none"));
+    stack->undo();
+    QTRY_VERIFY(s.controller.frame()->settings->noise == noise);
+    QTRY_COMPARE(preset->currentText(), before);
+
+    sim::RigidBodySettings heavy = s.controller.frame()->settings->rigidBody;
+    const double usual = heavy.ballMass;
+    heavy.ballMass = 0.4;
+    s.controller.edits()->setRigidBody(heavy);
+    QTRY_COMPARE(s.controller.frame()->settings->rigidBody.ballMass, 0.4);
+    QTRY_COMPARE(stack->count(), 1);
+    stack->undo();
+    QTRY_COMPARE(s.controller.frame()->settings->rigidBody.ballMass, usual);
+    // What the match refuses is no step.
+    heavy.ballMass = -1.0;
+    s.controller.edits()->setRigidBody(heavy);
+    QTRY_VERIFY2(s.window.notices()->text().contains("The physics stays as it was"),
+                 qPrintable(s.window.notices()->text()));
+    QCOMPARE(stack->index(), 0);
+
+    const bool running = s.controller.frame()->snapshot.clockRunning;
+    s.controller.edits()->setClockRunning(!running);
+    QTRY_COMPARE(s.controller.frame()->snapshot.clockRunning, !running);
+    QTRY_COMPARE(stack->count(), 1);
+    stack->undo();
+    QTRY_COMPARE(s.controller.frame()->snapshot.clockRunning, running);
+    const double clock = s.controller.frame()->snapshot.clock;
+    s.controller.edits()->resetScore();
+    QTRY_COMPARE(s.controller.frame()->snapshot.clock, 0.0);
+    QTRY_COMPARE(stack->count(), 1);
+    stack->undo();
+    QTRY_COMPARE(s.controller.frame()->snapshot.clock, clock);
+  }
+
   void nothingActsOnTheMatchWhileThePastIsShown() {
     Studio s;
     playRefereed(s);
-    for (const char* dock : {"noise", "refereeing"}) {
+    for (const char* dock : {"noise", "referee"}) {
       s.find<QDockWidget>(dock)->show();
       s.find<QDockWidget>(dock)->raise();
     }
@@ -187,7 +312,7 @@ class TestSafeHands : public QObject {
     const QUndoStack* stack = s.controller.edits()->undoStack();
     const int steps = stack->count();
     auto* state =
-        s.find<QDockWidget>("refereeing")->findChild<QLabel*>(QStringLiteral("refereeState"));
+        s.find<QDockWidget>("referee")->findChild<QLabel*>(QStringLiteral("refereeState"));
     QTRY_VERIFY2(state->text().startsWith(QStringLiteral("READY")), qPrintable(state->text()));
 
     const auto lookBack = [&s] {
@@ -197,12 +322,14 @@ class TestSafeHands : public QObject {
     QVERIFY(s.controller.edits()->isLocked());
     // The panel shows the moment that everything else shows, and says why it is grey.
     QVERIFY2(state->text().startsWith(QStringLiteral("INITIAL")), qPrintable(state->text()));
-    QVERIFY(state->text().contains(MatchEdits::lockedText()));
+    auto* detail =
+        s.find<QDockWidget>("referee")->findChild<QLabel*>(QStringLiteral("refereeSetPlay"));
+    QVERIFY(detail->text().contains(MatchEdits::lockedText()));
     QCOMPARE(s.find<QComboBox>("refereeRules")->currentData().toString(),
              QStringLiteral("humanoid-2021"));
 
-    auto* refereeing = s.find<QDockWidget>("refereeing");
-    s.find<QTableWidget>("refereeRobots")->selectRow(0);
+    auto* refereeing = s.find<QDockWidget>("referee");
+    s.find<QTableView>("refereeLeftPlayers")->selectRow(0);
     for (auto* button : refereeing->findChildren<QPushButton*>()) {
       QVERIFY2(!button->isEnabled(), qPrintable(button->text()));
       QTest::mouseClick(button, Qt::LeftButton);
@@ -262,10 +389,11 @@ class TestSafeHands : public QObject {
     // At now the same controls work.
     s.timeline()->goLive();
     QVERIFY2(state->text().startsWith(QStringLiteral("READY")), qPrintable(state->text()));
-    QVERIFY(!state->text().contains(MatchEdits::lockedText()));
+    QVERIFY(!detail->text().contains(MatchEdits::lockedText()));
+    QTRY_VERIFY(s.find<QPushButton>("referee SET"));
     QTest::mouseClick(s.find<QPushButton>("referee SET"), Qt::LeftButton);
     QTRY_VERIFY(state->text().startsWith(QStringLiteral("SET")));
-    QCOMPARE(stack->count(), steps + 1);
+    QTRY_COMPARE(stack->count(), steps + 1);
     QVERIFY(s.menuAction(QStringLiteral("Reset score"))->isEnabled());
     s.window.field()->select({blue(1)});
     const std::size_t robots = s.controller.frame()->robots.size();

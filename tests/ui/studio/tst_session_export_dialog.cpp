@@ -6,6 +6,7 @@
 #include <QDesktopServices>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QLayout>
 #include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
@@ -352,6 +353,30 @@ class TestSessionExportDialog : public QObject {
     ExportDialog without({}, {0.0, 1.0}, nullptr, nullptr);
     without.show();
     QVERIFY(!without.findChild<QDateTimeEdit*>(QStringLiteral("exportBeginClock"))->isVisible());
+  }
+
+  // For every format the dialog is as high as what it asks for.
+  void nothingIsEmpty() {
+    Studio s(60);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(60), 20'000);
+    ExportDialog* dialog = openExport(s);
+    QVERIFY(dialog != nullptr);
+    dialog->show();
+    auto* format = dialog->findChild<QComboBox*>(QStringLiteral("exportFormat"));
+    int lowest = 10'000, highest = 0;
+    for (int i = 0; i < format->count(); ++i) {
+      format->setCurrentIndex(i);
+      const int wanted = dialog->layout()->sizeHint().height();
+      QTRY_VERIFY2(std::abs(dialog->height() - wanted) < scaled(dialog, 24),
+                   qPrintable(QStringLiteral("%1: %2 instead of %3")
+                                  .arg(format->currentText())
+                                  .arg(dialog->height())
+                                  .arg(wanted)));
+      lowest = std::min(lowest, dialog->height());
+      highest = std::max(highest, dialog->height());
+    }
+    QVERIFY(lowest < highest);
+    QVERIFY2(highest < scaled(dialog, 520), qPrintable(QString::number(highest)));
   }
 
   void robotsAndVariablesAreTicked() {

@@ -206,7 +206,7 @@ class TestWindowLayout : public QObject {
     s.find<QDockWidget>("log")->toggleViewAction()->trigger();
     QTRY_VERIFY(s.find<QDockWidget>("log")->isHidden());
     QVERIFY(!s.find<QDockWidget>("log")->toggleViewAction()->isChecked());
-    for (const char* name : {"refereeing", "referee"}) {
+    for (const char* name : {"noise", "referee"}) {
       s.find<QDockWidget>(name)->toggleViewAction()->trigger();
       QTRY_VERIFY2(inFront(name), name);
       QVERIFY2(!inFront("variables"), name);

@@ -105,7 +105,7 @@ class TestStudioWork : public QObject {
     QTRY_VERIFY(s.controller.frame());
     // The worker stands until we let it go on; the window lives meanwhile.
     QSemaphore gate;
-    s.controller.restartAfter([&gate] { gate.acquire(); });
+    s.controller.restart([&gate] { gate.acquire(); });
     QVERIFY(!s.controller.frame());
     QVERIFY(s.controller.isOpening());
     auto* label = s.window.findChild<QLabel*>(QStringLiteral("openingLabel"));
@@ -128,7 +128,7 @@ class TestStudioWork : public QObject {
     QSignalSpy opened(&c, &MatchController::opened);
     QSemaphore gate;
     c.open(match(), true);
-    c.restartAfter([&gate] { gate.acquire(); });
+    c.restart([&gate] { gate.acquire(); });
     link::Scenario bad = match();
     bad.settings.physics = "no-such-model";
     c.open(bad, true);

@@ -2,6 +2,7 @@
 #include "experiment_play.h"
 
 #include <QDir>
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -61,6 +62,10 @@ void ExperimentPlay::play(const link::Experiment& experiment, const QString& fol
   if (!results) return fail(results.error());
   std::vector<std::size_t> numbers(experiment.allRuns());
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i + 1;
+  // In turn, so that a cancelled experiment has runs of every condition.
+  std::ranges::stable_sort(numbers, {}, [&experiment](std::size_t number) {
+    return link::placeOf(experiment, number).index;
+  });
   link::PlaySettings settings = settingsWith(m_cancelled);
   settings.folder = folder.toStdString();
   settings.program = "pitchboard";

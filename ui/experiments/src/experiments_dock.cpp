@@ -10,7 +10,6 @@
 #include <QPlainTextEdit>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QSpinBox>
 #include <QStandardPaths>
 #include <QToolButton>
 #include <QUrl>
@@ -23,14 +22,13 @@
 #include <ui/sources/compared_session.h>
 #include <ui/sources/replay_controller.h>
 
+#include "experiment_form.h"
 #include "experiment_play.h"
 #include "one_line.h"
 #include "results_tabs.h"
 
 namespace pitchboard::ui {
 namespace {
-
-constexpr int mostRuns = 1'000'000;
 
 QString folderOfExperiments() {
   return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
@@ -44,12 +42,12 @@ class ExperimentsDock : public QWidget {
         m_parts(parts),
         m_play(new ExperimentPlay(this)),
         m_choice(new QComboBox(this)),
-        m_runs(new QSpinBox(this)),
         m_start(new QPushButton(QStringLiteral("Start"), this)),
         m_report(new QPushButton(QStringLiteral("Report"), this)),
         m_progress(new QProgressBar(this)),
         m_words(new OneLine(this)),
         m_tabs(new ResultsTabs(parts.compared != nullptr, this)),
+        m_form(new ExperimentForm(this)),
         m_text(new QPlainTextEdit(this)) {
     makeBar();
     makeTabs();
@@ -88,11 +86,6 @@ class ExperimentsDock : public QWidget {
     save->setIcon(themedIcon(QStringLiteral("document-save-as")));
     save->setToolTip(QStringLiteral("Save the edited file…"));
     connect(save, &QToolButton::clicked, this, [this] { askAndSave(); });
-    m_runs->setObjectName(QStringLiteral("experimentRuns"));
-    m_runs->setRange(1, mostRuns);
-    m_runs->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    m_runs->setSuffix(QStringLiteral(" runs"));
-    m_runs->setToolTip(QStringLiteral("Runs of each condition"));
     m_start->setObjectName(QStringLiteral("experimentStart"));
     connect(m_start, &QPushButton::clicked, this, [this] { startOrCancel(); });
     m_report->setToolTip(QStringLiteral("Open the report in a browser"));
@@ -111,8 +104,8 @@ class ExperimentsDock : public QWidget {
     row->setSpacing(gap);
     row->addWidget(m_choice, 1);
     for (QWidget* one : {static_cast<QWidget*>(open), static_cast<QWidget*>(save),
-                         static_cast<QWidget*>(m_runs), static_cast<QWidget*>(m_start),
-                         static_cast<QWidget*>(m_report), static_cast<QWidget*>(m_progress)}) {
+                         static_cast<QWidget*>(m_progress), static_cast<QWidget*>(m_start),
+                         static_cast<QWidget*>(m_report)}) {
       row->addWidget(one);
     }
     auto* layout = new QVBoxLayout(this);
@@ -129,8 +122,13 @@ class ExperimentsDock : public QWidget {
     m_text->setObjectName(QStringLiteral("experimentText"));
     m_text->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
     m_text->setLineWrapMode(QPlainTextEdit::NoWrap);
-    m_tabs->addTab(m_text, QStringLiteral("File"));
+    m_tabs->addTab(m_form, QStringLiteral("Form"));
     m_tabs->addTabs();
+    m_tabs->addTab(m_text, QStringLiteral("File (JSON)"));
+    // The form says what the file says.
+    connect(m_tabs, &QTabWidget::currentChanged, this, [this] {
+      if (m_tabs->currentWidget() == m_form && m_text->document()->isModified()) showForm();
+    });
     connect(m_tabs, &ResultsTabs::asked, this, &ExperimentsDock::see);
   }
 
@@ -170,8 +168,19 @@ class ExperimentsDock : public QWidget {
     const auto loaded = link::loadExperiment(m_choice->currentData().toString().toStdString());
     if (!loaded) return say(QString::fromStdString(loaded.error().text()), true);
     m_text->setPlainText(QString::fromStdString(loaded->text));
-    m_runs->setValue(static_cast<int>(loaded->runs));
+    m_form->show(*loaded);
+    m_text->document()->setModified(false);
     say(QString::fromStdString(loaded->description));
+  }
+
+  void showForm() {
+    const auto edited =
+        link::experimentFromJson(m_text->toPlainText().toStdString(), "File", {}, {});
+    if (edited)
+      m_form->show(*edited);
+    else
+      m_form->showError(QString::fromStdString(edited.error().text()));
+    m_text->document()->setModified(false);
   }
 
   void askAndOpen() {
@@ -196,7 +205,7 @@ class ExperimentsDock : public QWidget {
     } else {
       m_choice->setCurrentIndex(index);
     }
-    m_tabs->setCurrentWidget(m_text);
+    m_tabs->setCurrentWidget(m_form);
     if (play) startOrCancel();
   }
 
@@ -217,7 +226,7 @@ class ExperimentsDock : public QWidget {
       return;
     }
     auto experiment = link::experimentFromJson(m_text->toPlainText().toStdString(), "File", {},
-                                               {{}, static_cast<std::size_t>(m_runs->value())});
+                                               {{}, static_cast<std::size_t>(m_form->runs())});
     if (!experiment) {
       m_tabs->setCurrentWidget(m_text);
       return say(QString::fromStdString(experiment.error().text()), true);
@@ -233,7 +242,7 @@ class ExperimentsDock : public QWidget {
     m_progress->setVisible(on);
     m_progress->setRange(0, 0);
     m_choice->setEnabled(!on);
-    m_runs->setEnabled(!on);
+    m_form->setEditable(!on);
     m_text->setReadOnly(on);
     m_tabs->showPlaying(on);
   }
@@ -256,7 +265,13 @@ class ExperimentsDock : public QWidget {
     m_shown = played;
     m_tabs->showResults(played);
     std::size_t runs = 0;
-    for (const auto& condition : played->summary.conditions) runs += condition.runs;
+    QStringList notPlayed;
+    for (const auto& condition : played->summary.conditions) {
+      runs += condition.runs;
+      if (condition.runs == 0) {
+        notPlayed << QStringLiteral("“%1”").arg(QString::fromStdString(condition.name));
+      }
+    }
     const bool complete = runs == played->experiment.allRuns();
     m_report->setEnabled(complete);
     const auto& checks = played->summary.assertions;
@@ -266,24 +281,28 @@ class ExperimentsDock : public QWidget {
                              : QStringLiteral("Cancelled: %1 of %2 runs")
                                    .arg(runs)
                                    .arg(played->experiment.allRuns());
-    if (!checks.empty()) {
+    if (!notPlayed.isEmpty()) {
+      words += QStringLiteral(". Not played: ") + notPlayed.join(QStringLiteral(", "));
+    } else if (!checks.empty()) {
       words += failed == 0
                    ? QStringLiteral("; all assertions hold")
                    : QStringLiteral("; %1 of %2 assertions fail").arg(failed).arg(checks.size());
     }
-    say(words + QStringLiteral(". Results: ") + played->folder, failed > 0);
-    if (m_tabs->currentWidget() == m_text) m_tabs->setCurrentIndex(1);
+    say(words + QStringLiteral(". Results: ") + played->folder, notPlayed.isEmpty() && failed > 0);
+    if (m_tabs->currentWidget() == m_form || m_tabs->currentWidget() == m_text) {
+      m_tabs->setCurrentIndex(1);
+    }
   }
 
   ExperimentsDockParts m_parts;
   ExperimentPlay* m_play;
   QComboBox* m_choice;
-  QSpinBox* m_runs;
   QPushButton* m_start;
   QPushButton* m_report;
   QProgressBar* m_progress;
   QLabel* m_words;
   ResultsTabs* m_tabs;
+  ExperimentForm* m_form;
   QPlainTextEdit* m_text;
   PlayedPtr m_shown;
 };

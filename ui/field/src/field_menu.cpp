@@ -9,6 +9,7 @@
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/referee_calls.h>
 #include <ui/sources/robot_menus.h>
 
 namespace pitchboard::ui {
@@ -129,6 +130,8 @@ void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
     });
   }
   if (editable) {
+    const bool ground = hit.kind == FieldHit::Kind::Nothing || hit.kind == FieldHit::Kind::Ball;
+    if (ground) addRefereeGround(menu, controller, fromScene(metres));
     menu->addSeparator();
     menu->addAction(themedIcon(QStringLiteral("document-save")),
                     QStringLiteral("Save this moment as a scenario…"), menu,

@@ -7,6 +7,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
+#include <QGroupBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -30,8 +31,8 @@
 namespace pitchboard::ui {
 namespace {
 
-QFormLayout* page(QWidget* widget) {
-  auto* form = new QFormLayout(widget);
+QFormLayout* formOf(QGroupBox* group) {
+  auto* form = new QFormLayout(group);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   return form;
 }
@@ -45,12 +46,9 @@ LiveSettingsDialog::LiveSettingsDialog(LiveController* live, QSettings* settings
   setAttribute(Qt::WA_DeleteOnClose);
   auto* tabs = new QTabWidget(this);
   tabs->setObjectName(QStringLiteral("liveTabs"));
-  tabs->addTab(makeNetwork(), QStringLiteral("Network"));
+  tabs->addTab(makeGeneral(), QStringLiteral("General"));
   m_teams = new TeamsPage(live, this);
   tabs->addTab(m_teams, QStringLiteral("Teams"));
-  tabs->addTab(makeRobots(), QStringLiteral("Robots"));
-  tabs->addTab(makeReferee(), QStringLiteral("Referee"));
-  tabs->addTab(makeMessages(), QStringLiteral("Messages"));
   // On a small screen the pages scroll, and the buttons stay in sight.
   auto* pages = new QScrollArea(this);
   pages->setFrameShape(QFrame::NoFrame);
@@ -72,7 +70,7 @@ LiveSettingsDialog::LiveSettingsDialog(LiveController* live, QSettings* settings
   column->addWidget(pages, 1);
   column->addWidget(m_problem);
   column->addWidget(buttons);
-  resize(dialogSize(this, 760, 580));
+  resize(dialogSize(this, 760, 500));
   adopt();
 }
 
@@ -100,9 +98,25 @@ NumberBox* LiveSettingsDialog::addReal(QFormLayout* form, const char* name, cons
   return box;
 }
 
-QWidget* LiveSettingsDialog::makeNetwork() {
+// Two columns of about the same height.
+QWidget* LiveSettingsDialog::makeGeneral() {
   auto* widget = new QWidget(this);
-  QFormLayout* form = page(widget);
+  auto* columns = new QHBoxLayout(widget);
+  const auto add = [columns](QWidget* upper, QWidget* lower) {
+    auto* column = new QVBoxLayout;
+    column->addWidget(upper);
+    column->addWidget(lower);
+    column->addStretch(1);
+    columns->addLayout(column, 1);
+  };
+  add(makeNetwork(), makeRobots());
+  add(makeReferee(), makeMessages());
+  return widget;
+}
+
+QWidget* LiveSettingsDialog::makeNetwork() {
+  auto* widget = new QGroupBox(QStringLiteral("Network"), this);
+  QFormLayout* form = formOf(widget);
   m_bind = new NetworkChooser(widget);
   m_bind->setObjectName(QStringLiteral("bind"));
   m_bind->setToolTip(QStringLiteral(
@@ -132,8 +146,8 @@ QWidget* LiveSettingsDialog::makeNetwork() {
 }
 
 QWidget* LiveSettingsDialog::makeRobots() {
-  auto* widget = new QWidget(this);
-  QFormLayout* form = page(widget);
+  auto* widget = new QGroupBox(QStringLiteral("Robots"), this);
+  QFormLayout* form = formOf(widget);
   m_timeout =
       addReal(form, "timeout", QStringLiteral("Timeout after"), 0.1, 3600, 1, QStringLiteral(" s"),
               QStringLiteral("A robot that is silent for so long is greyed"));
@@ -163,8 +177,8 @@ QWidget* LiveSettingsDialog::makeRobots() {
 }
 
 QWidget* LiveSettingsDialog::makeReferee() {
-  auto* widget = new QWidget(this);
-  QFormLayout* form = page(widget);
+  auto* widget = new QGroupBox(QStringLiteral("Referee"), this);
+  QFormLayout* form = formOf(widget);
   m_refereePort = addNumber(form, "refereePort", QStringLiteral("Port"), 1, 65535,
                             QStringLiteral("3838 for every controller so far"));
   m_refereeVersion = new QComboBox(widget);
@@ -207,8 +221,8 @@ QWidget* LiveSettingsDialog::makeReferee() {
 }
 
 QWidget* LiveSettingsDialog::makeMessages() {
-  auto* widget = new QWidget(this);
-  QFormLayout* form = page(widget);
+  auto* widget = new QGroupBox(QStringLiteral("Messages"), this);
+  QFormLayout* form = formOf(widget);
   m_profileName = new QLabel(widget);
   m_profileName->setObjectName(QStringLiteral("profileName"));
   m_profileName->setWordWrap(true);

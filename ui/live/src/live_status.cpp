@@ -30,7 +30,12 @@ QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* fram
     if (robot.link->conflict) {
       return QStringLiteral("Number %1 is sent by two programs").arg(robot.identity.number);
     }
-    if (robot.timedOut()) {
+    // Another program that sends the same number is enough.
+    const bool stillReceived = std::ranges::any_of(frame->robots, [&robot](const auto& other) {
+      return other.link && !other.timedOut() && other.key.team == robot.key.team &&
+             other.key.number == robot.key.number;
+    });
+    if (robot.timedOut() && !stillReceived) {
       return QStringLiteral("%1 has not been heard for %2. Its card comes back by itself.")
           .arg(robotName(robot), durationText(telemetry::secondsOf(robot.link->age)));
     }
@@ -61,35 +66,40 @@ QString sentText(const link::SentStatus& sent) {
 
 }  // namespace
 
+double RateWindow::look(double seconds, quint64 count) {
+  constexpr double window = 5.0;  // s
+  if (!m_looks.empty() && (count < m_looks.back().second || seconds < m_looks.back().first)) {
+    m_looks.clear();  // counted anew
+  }
+  m_looks.emplace_back(seconds, count);
+  while (m_looks.size() > 2 && seconds - m_looks[1].first >= window) m_looks.pop_front();
+  const auto& [began, first] = m_looks.front();
+  return seconds > began ? static_cast<double>(count - first) / (seconds - began) : 0.0;
+}
+
 LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::MatchFrame* frame,
                                   double seconds) {
   const quint64 referee = details.referee.shown + details.referee.compatibility +
                           details.referee.otherSenders + details.referee.trueData;
   quint64 datagrams = details.team.datagrams;
   for (const link::SentStatus& sent : details.sent) datagrams += sent.link.messages;
-  if (seconds - m_before.seconds >= 1.0 || datagrams < m_before.datagrams) {
-    m_before = m_now;
-    m_now = {seconds, datagrams, referee};
-    const double passed = m_now.seconds - m_before.seconds;
-    const auto rate = [passed](quint64 now, quint64 before) {
-      return passed > 0.0 && now >= before ? static_cast<double>(now - before) / passed : 0.0;
-    };
-    m_rate = rate(m_now.datagrams, m_before.datagrams);
-    m_refereeRate = rate(m_now.referee, m_before.referee);
-  }
+  const double rate = m_robots.look(seconds, datagrams);
+  const double refereeRate = m_referee.look(seconds, referee);
   LiveStatusText text;
   quint64 lost = details.network.kernelDrops() + details.network.queueDrops;
   for (const telemetry::RobotStatus& robot : details.team.robots) lost += robot.lost;
   for (const link::SentStatus& sent : details.sent) lost += sent.link.lost;
   text.network = QStringLiteral("UDP %1/s, %2 lost, %3 bad")
-                     .arg(countText(static_cast<qulonglong>(std::llround(m_rate))), countText(lost),
+                     .arg(rate < 9.95 ? numberText(rate, 1)
+                                      : countText(static_cast<qulonglong>(std::llround(rate))),
+                          countText(lost),
                           countText(details.team.errors.messages() + details.unknownReferee +
                                     details.badVariables));
   text.referee = frame == nullptr || !frame->referee ? QStringLiteral("No referee heard")
                                                      : QStringLiteral("%1Referee: version %2, %3/s")
                                                            .arg(teamsText(*frame))
                                                            .arg(frame->referee->version)
-                                                           .arg(numberText(m_refereeRate, 0));
+                                                           .arg(numberText(refereeRate, 1));
   text.trouble = troubleOf(details, frame);
   const quint64 refused = details.team.refusedByFilter + details.refusedVariables +
                           details.refusedReferees + details.team.refusedRobots;

@@ -217,6 +217,11 @@ class LogDock : public QWidget {
                     const std::optional<QDateTime>& clock, SourceKind of) {
     std::vector<LogLine> lines;
     for (const link::MatchEvent& event : events) {
+      if (event.kind == link::MatchEventKind::Undone) {
+        append(std::exchange(lines, {}), clock, of);
+        m_model->strike(of, event.cause);
+        continue;
+      }
       lines.push_back(logLineOf(event));
       if (event.kind == link::MatchEventKind::ProcessStarted) lines.back().level = LogLevel::Debug;
     }

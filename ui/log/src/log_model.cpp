@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "log_model.h"
 
+#include <QFont>
 #include <algorithm>
+#include <utility>
 
 #include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
@@ -120,6 +122,14 @@ int LogModel::rowAtMoment() const {
   return -1;
 }
 
+void LogModel::strike(SourceKind of, std::uint32_t cause) {
+  for (int row = rowCount() - 1; row >= 0; --row) {
+    Line& line = m_lines[static_cast<std::size_t>(row)];
+    if (line.of != of || line.cause != cause || std::exchange(line.undone, true)) continue;
+    emit dataChanged(index(row, 0), index(row, columns - 1), {Qt::FontRole, Qt::ForegroundRole});
+  }
+}
+
 void LogModel::clear() {
   beginResetModel();
   m_lines.clear();
@@ -169,8 +179,13 @@ QVariant LogModel::data(const QModelIndex& index, int role) const {
   if (role == shownRole) return line.of == m_shown;
   if (role == levelRole) return static_cast<int>(line.level);
   if (role == Qt::ToolTipRole && index.column() == Text) return QString::fromStdString(line.text);
+  if (role == Qt::FontRole && line.undone && index.column() == Text) {
+    QFont struck = themeFont(TypeRole::Body);
+    struck.setStrikeOut(true);
+    return struck;
+  }
   if (role == Qt::ForegroundRole) {
-    if (isLater(line)) return theme().disabledText;
+    if (isLater(line) || line.undone) return theme().disabledText;
     if (line.isWarning() && index.column() == Text) return theme().warningText;
     if (index.column() != Text) return theme().secondaryText;
   }

@@ -43,6 +43,8 @@ class LogModel : public QAbstractTableModel {
   int rowAtMoment() const;
   /// Times as time of day, where the lines' source has one.
   void setTimesOfDay(bool on);
+  /// Lines so far that tell of this decision by hand were undone.
+  void strike(SourceKind of, std::uint32_t cause);
   void clear();
   /// Removes this source's lines that are later than `time` (s): the source goes on from there.
   void rewind(SourceKind of, double time);
@@ -60,7 +62,7 @@ class LogModel : public QAbstractTableModel {
   struct Line : LogLine {
     std::optional<QDateTime> clock;
     std::optional<SourceKind> of;
-    bool isEvent = false, isDivider = false;
+    bool isEvent = false, isDivider = false, undone = false;
   };
   static const std::string& partOf(const Line& line);
   void insert(std::vector<Line> lines);

@@ -16,6 +16,7 @@
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/robot_selection.h>
+#include <ui/sources/source_switch.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -32,8 +33,9 @@ QLabel* partTitle(const QString& text, QWidget* parent) {
 
 class NoiseDock : public QScrollArea {
  public:
-  NoiseDock(MatchController* controller, RobotSelection* selection, QWidget* parent)
-      : QScrollArea(parent), m_controller(controller), m_selection(selection) {
+  NoiseDock(MatchController* controller, RobotSelection* selection, const SourceSwitch* source,
+            QWidget* parent)
+      : QScrollArea(parent), m_controller(controller), m_selection(selection), m_source(source) {
     setFrameShape(QFrame::NoFrame);
     setWidgetResizable(true);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -49,12 +51,14 @@ class NoiseDock : public QScrollArea {
     setWidget(form);
     setMinimumWidth(form->minimumSizeHint().width() + scaled(this, 14));
     connect(m_controller, &MatchController::scenarioChanged, this, [this] { adopt(); });
-    connect(m_controller, &MatchController::frameReceived, this,
-            [this](const FramePtr& frame) { follow(*frame); });
+    connect(m_source, &FrameSource::frameReceived, this, [this] { follow(); });
     connect(m_controller->edits(), &MatchEdits::robotsChanged, this, [this] { showRobots(); });
-    connect(m_controller->edits(), &MatchEdits::physicsChanged, this, [this] { showPhysics(); });
-    connect(m_controller->edits(), &MatchEdits::lockedChanged, form,
-            [form](bool locked) { form->setEnabled(!locked); });
+    connect(m_controller->edits(), &MatchEdits::physicsChanged, this,
+            [this] { showPhysics(m_controller->edits()->physics()); });
+    connect(m_controller->edits(), &MatchEdits::lockedChanged, form, [this, form](bool locked) {
+      form->setEnabled(!locked);
+      follow();
+    });
     connect(m_selection, &RobotSelection::changed, this, [this] { showRobots(); });
     adopt();
   }
@@ -261,38 +265,53 @@ class NoiseDock : public QScrollArea {
 
   void adopt() {
     const sim::SimulationSettings& settings = m_controller->scenario().settings;
-    m_noise = m_shown = settings.noise;
-    m_constants = settings.rigidBody;
+    m_noise = m_shown.noise = settings.noise;
+    m_shown.rigidBody = settings.rigidBody;
+    m_shown.physics = settings.physics;
     showNoise();
-    showRows(m_bodyRows, sim::rigidBodyParameters, m_constants);
-    const QSignalBlocker quiet(m_falls);
-    m_falls->setChecked(m_constants.falls);
-    showPhysics();
+    showConstants(settings.rigidBody);
+    showPhysics(m_controller->edits()->physics());
   }
 
-  void showPhysics() {
-    const std::string& model = m_controller->edits()->physics();
+  void showPhysics(const std::string& model) {
     m_model->setCurrentIndex(m_model->findData(QString::fromStdString(model)));
     m_exact->setVisible(model == "published");
     m_body->setVisible(model != "published");
     showRobots();
   }
 
-  // The noise may have been changed elsewhere; our own changes arrive here a moment later.
-  void follow(const link::MatchFrame& frame) {
-    if (frame.settings->noise == m_shown) return;
-    m_shown = m_noise = frame.settings->noise;
-    showNoise();
+  /// What the match is played with at the moment that is shown. It may have been changed elsewhere;
+  /// our own changes arrive here a moment later.
+  void follow() {
+    const FramePtr frame = m_source->frame();
+    if (!frame || m_source->kind() != SourceKind::Simulate) return;
+    const link::FrameSettings& now = *frame->settings;
+    if (now.noise != m_shown.noise) {
+      m_noise = now.noise;
+      showNoise();
+    }
+    if (now.rigidBody != m_shown.rigidBody) showConstants(now.rigidBody);
+    if (now.physics != m_shown.physics) showPhysics(now.physics);
+    m_shown = now;
+  }
+
+  void showConstants(const Body& constants) {
+    m_constants = constants;
+    showRows(m_bodyRows, sim::rigidBodyParameters, m_constants);
+    const QSignalBlocker quiet(m_falls);
+    m_falls->setChecked(m_constants.falls);
   }
 
   MatchController* m_controller;
   RobotSelection* m_selection;
+  const SourceSwitch* m_source;
   QLabel* m_whose = nullptr;
   QWidget* m_robots = nullptr;
   QComboBox* m_kind = nullptr;
   QComboBox* m_kick = nullptr;
   sim::RobotModel m_robot;
-  Noise m_noise, m_shown;
+  Noise m_noise;
+  link::FrameSettings m_shown;
   Body m_constants;
   QComboBox* m_preset = nullptr;
   QComboBox* m_model = nullptr;
@@ -304,8 +323,9 @@ class NoiseDock : public QScrollArea {
 
 }  // namespace
 
-QWidget* makeNoiseDock(MatchController* controller, RobotSelection* selection, QWidget* parent) {
-  return new NoiseDock(controller, selection, parent);
+QWidget* makeNoiseDock(MatchController* controller, RobotSelection* selection,
+                       const SourceSwitch* source, QWidget* parent) {
+  return new NoiseDock(controller, selection, source, parent);
 }
 
 }  // namespace pitchboard::ui

@@ -35,7 +35,7 @@ void showOrphanNotice(NoticeBar* notices, MatchController* controller) {
   notices->show({QStringLiteral("orphans")}, sentence,
                 {{QStringLiteral("Remove"),
                   [controller, keys] {
-                    controller->restartAfter([keys] {
+                    controller->restart([keys] {
                       for (const int key : keys) {
                         const auto segment = link::SystemVSegments::info(key);
                         // Somebody else may have come to use it meanwhile.

@@ -84,6 +84,7 @@ FormationPlaces placesOf(std::size_t index, const link::MatchFrame& frame, bool 
   const sim::FieldSpec& field = frame.settings->field;
   std::vector<sim::RobotIdentity> robots;
   for (const link::RobotFrame& robot : frame.robots) robots.push_back(robot.identity);
+  const auto staysOff = [&frame](RobotId id) { return frame.robot(id)->penalty.has_value(); };
   FormationPlaces places;
   const double turn = leftAttacks ? 1.0 : -1.0;
   const Point ball = ballOf(kind, field);
@@ -94,7 +95,7 @@ FormationPlaces placesOf(std::size_t index, const link::MatchFrame& frame, bool 
     const TeamColor team = link::teamOn(side, robots);
     std::vector<sim::RobotIdentity> own;
     for (const sim::RobotIdentity& robot : robots) {
-      if (robot.team == team) own.push_back(robot);
+      if (robot.team == team && !staysOff(robot.id)) own.push_back(robot);
     }
     std::sort(own.begin(), own.end(),
               [](const auto& a, const auto& b) { return a.number < b.number; });

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "referee_log.h"
 
-#include <QScrollBar>
+#include <QSortFilterProxyModel>
 
-#include <robotlink/frame/match_event.h>
-#include <ui/base/robot_words.h>
-#include <ui/base/theme.h>
-#include <ui/sources/match_controller.h>
+#include <ui/base/table_style.h>
+#include <ui/sources/event_list.h>
+#include <ui/sources/timeline.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -33,35 +32,70 @@ bool isOfReferee(link::MatchEventKind kind) {
   }
 }
 
+/// Those of the referee, up to the moment that is shown.
+class RefereeEvents : public QSortFilterProxyModel {
+ public:
+  RefereeEvents(Timeline* timeline, QObject* parent)
+      : QSortFilterProxyModel(parent), m_timeline(timeline) {
+    connect(timeline, &Timeline::sourceChanged, this, &RefereeEvents::follow);
+    connect(timeline, &Timeline::moved, this, &RefereeEvents::look);
+    connect(timeline, &Timeline::lookingBackChanged, this, &RefereeEvents::look);
+    follow();
+  }
+  double timeOf(int row) const { return event(mapToSource(index(row, 0)).row()).time; }
+
+ protected:
+  bool filterAcceptsRow(int row, const QModelIndex& /*parent*/) const override {
+    const link::MatchEvent& one = event(row);
+    return isOfReferee(one.kind) && (!m_until || one.time <= *m_until);
+  }
+
+ private:
+  const EventList* list() const { return static_cast<const EventList*>(sourceModel()); }
+  const link::MatchEvent& event(int row) const { return list()->event(row); }
+  void follow() {
+    setSourceModel(m_timeline->events());
+    look();
+  }
+  void look() {
+    constexpr double halfATick = 0.005;  // s
+    const bool past = m_timeline->isLookingBack() || m_timeline->isRecording();
+    const auto until = past ? std::optional(m_timeline->shownTime() + halfATick) : std::nullopt;
+    if (until == m_until) return;
+    const auto shown = [this](std::optional<double> time) {
+      if (!time) return list()->rowCount();
+      return list()->next(*time).value_or(list()->rowCount());
+    };
+    const bool same = shown(until) == shown(m_until);
+    m_until = until;
+    if (!same) invalidateFilter();
+  }
+
+  Timeline* m_timeline;
+  std::optional<double> m_until;
+};
+
 }  // namespace
 
-RefereeLog::RefereeLog(MatchController* match, QWidget* parent) : QPlainTextEdit(parent) {
-  constexpr int mostLines = 2000;
+RefereeLog::RefereeLog(Timeline* timeline, QWidget* parent) : QTableView(parent) {
   setObjectName(QStringLiteral("refereeLog"));
-  setReadOnly(true);
-  setMaximumBlockCount(mostLines);
-  setMinimumHeight(scaled(this, 90));
-  connect(match, &MatchController::scenarioChanged, this, [this] {
-    m_lines.clear();
-    clear();
+  auto* events = new RefereeEvents(timeline, this);
+  setModel(events);
+  styleTable(this);
+  horizontalHeader()->hide();
+  setColumnHidden(EventList::Note, true);
+  setColumnWidth(EventList::Time, scaled(this, 84));
+  horizontalHeader()->setSectionResizeMode(EventList::What, QHeaderView::Stretch);
+  setMinimumHeight(scaled(this, 84));
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored);  // what is left, at least that
+  setToolTip(QStringLiteral("Click a line to show its moment."));
+  connect(this, &QTableView::clicked, this, [timeline, events](const QModelIndex& index) {
+    timeline->seek(events->timeOf(index.row()));
   });
-  connect(match, &MatchController::eventsReceived, this,
-          [this](const std::vector<link::MatchEvent>& events) {
-            for (const link::MatchEvent& event : events) {
-              if (!isOfReferee(event.kind)) continue;
-              m_lines.push_back({event.time, clockText(event.time) + QStringLiteral("  ") +
-                                                 QString::fromStdString(sentenceOf(event))});
-              if (m_lines.size() > mostLines) m_lines.pop_front();
-              appendPlainText(m_lines.back().text);
-            }
-          });
-  connect(match, &MatchController::rewound, this, [this](double time) {
-    if (std::erase_if(m_lines, [time](const Line& line) { return line.time > time; }) == 0) return;
-    QStringList texts;
-    for (const Line& line : m_lines) texts << line.text;
-    setPlainText(texts.join(QLatin1Char('\n')));
-    verticalScrollBar()->setValue(verticalScrollBar()->maximum());
-  });
+  for (const auto change : {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved}) {
+    connect(events, change, this, &QTableView::scrollToBottom, Qt::QueuedConnection);
+  }
+  connect(events, &QAbstractItemModel::modelReset, this, &QTableView::scrollToBottom);
 }
 
 }  // namespace pitchboard::ui

@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The referee's log: what it has said of the match being simulated, a line each, newest last. UI
-// thread only; the match must outlive it.
+// What the referee said up to the moment that is shown, newest last. A view of the timeline's
+// events, so that undo, looking back and another source need nothing of their own. UI thread.
 
-#include <QPlainTextEdit>
-#include <deque>
+#include <QTableView>
 
 namespace pitchboard::ui {
 
-class MatchController;
+class Timeline;
 
-class RefereeLog : public QPlainTextEdit {
+class RefereeLog : public QTableView {
  public:
-  RefereeLog(MatchController* match, QWidget* parent);
-
- private:
-  struct Line {
-    double time;  // s of the match
-    QString text;
-  };
-  std::deque<Line> m_lines;
+  RefereeLog(Timeline* timeline, QWidget* parent);
 };
 
 }  // namespace pitchboard::ui

@@ -6,13 +6,14 @@
 #include <QListWidget>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
 namespace {
 
-constexpr int listHeight = 92;  // px of the mock, at least
+constexpr int fewest = 2, most = 5;  // rows that are seen; more are scrolled to
 
 }  // namespace
 
@@ -25,8 +26,10 @@ CheckList::CheckList(const QStringList& names, const QString& placeholder, QWidg
     item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
     item->setCheckState(Qt::Checked);
   }
-  m_list->setMinimumHeight(scaled(this, listHeight));
   m_list->setUniformItemSizes(true);
+  const int rows = std::clamp(m_list->count(), fewest, most);
+  const int rowHeight = m_list->count() > 0 ? m_list->sizeHintForRow(0) : scaled(this, 18);
+  m_list->setFixedHeight(rows * rowHeight + 2 * m_list->frameWidth());
   auto* row = new QHBoxLayout;
   row->addWidget(m_filter, 1);
   for (const bool on : {true, false}) {
@@ -57,6 +60,10 @@ QStringList CheckList::checked() const {
 
 bool CheckList::isAllChecked() const {
   return checked().size() == m_list->count();
+}
+
+bool CheckList::isEmpty() const {
+  return m_list->count() == 0;
 }
 
 void CheckList::setChecked(const QStringList& names) {

@@ -19,6 +19,7 @@ class CheckList : public QWidget {
 
   QStringList checked() const;
   bool isAllChecked() const;
+  bool isEmpty() const;
   /// Only these.
   void setChecked(const QStringList& names);
 

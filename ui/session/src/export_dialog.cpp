@@ -103,7 +103,7 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   m_message->setForegroundRole(QPalette::PlaceholderText);
   m_progress->setRange(0, 1000);
   m_progress->hide();
-  m_rows->addRow(QStringLiteral("Form"), m_format);
+  m_rows->addRow(QStringLiteral("Format"), m_format);
   m_rows->addRow(QStringLiteral("From"), m_begin);
   m_rows->addRow(QStringLiteral("To"), m_end);
   m_rows->addRow(QStringLiteral("Time of day"), m_when);
@@ -127,8 +127,7 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   after->addStretch(1);
   column->addLayout(after);
   column->addWidget(buttons);
-  const QSize wanted = dialogSize(this, 420, 4000);
-  resize(wanted.width(), std::min(wanted.height(), sizeHint().height()));
+  resize(dialogSize(this, 420, 100));
   connect(m_format, &QComboBox::currentIndexChanged, this, &ExportDialog::showRows);
   showRows();
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
@@ -163,13 +162,17 @@ void ExportDialog::showRows() {
                      form().format != telemetry::ExportFormat::JsonLines;
   const bool even = numbers && form().format == telemetry::ExportFormat::CsvEven;
   m_rows->setRowVisible(m_when, !picture && m_source.clock.has_value());
-  m_rows->setRowVisible(m_robots, !picture);
-  m_rows->setRowVisible(m_variables, numbers);
+  m_rows->setRowVisible(m_robots, !picture && !m_robots->isEmpty());
+  m_rows->setRowVisible(m_variables, numbers && !m_variables->isEmpty());
   m_rows->setRowVisible(m_lines, even);
   m_rows->setRowVisible(m_between, even);
   m_rows->setRowVisible(m_clock, table && m_source.clock.has_value());
   m_rows->setRowVisible(m_size, picture || kind == ExportKind::Video);
   m_rows->setRowVisible(m_rate, kind == ExportKind::Video);
+  // As high as its rows.
+  layout()->activate();
+  resize(width(), std::min(dialogSize(this, 420, 4000).height(),
+                           std::max(sizeHint().height(), layout()->heightForWidth(width()))));
 }
 
 void ExportDialog::ask() {

@@ -8,7 +8,9 @@
 
 #include <telemetry/session/session_repair.h>
 #include <ui/base/notice_bar.h>
+#include <ui/base/robot_words.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/scenario_behind.h>
@@ -191,7 +193,9 @@ void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
   const link::MomentScenario moment = link::scenarioFromMoment(*frame, options);
   m_timeline->goLive();
   m_source->choose(m_controller);
-  m_controller->open(moment.scenario);
+  const QString when = clockText(frame->snapshot.time);
+  m_controller->edits()->replaceMatch(moment.scenario, QStringLiteral("Simulate from %1").arg(when),
+                                      QStringLiteral("Simulating from %1").arg(when), false);
   QStringList notes;
   for (const std::string& note : moment.notes) notes << QString::fromStdString(note);
   m_notices->settle(simulateTopic);

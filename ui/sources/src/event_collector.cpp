@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "event_collector.h"
 
+#include <ui/sources/match_controller.h>
+#include <ui/sources/retired_match.h>
+
 namespace pitchboard::ui {
 namespace {
 
@@ -20,6 +23,11 @@ EventCollector::EventCollector(FrameSource* source) : QObject(source), m_list(ne
           });
   connect(source, &FrameSource::eventsRecorded, this,
           [this](const std::vector<link::MatchEvent>& events) { m_list->add(events); });
+  if (auto* match = qobject_cast<MatchController*>(source)) {
+    connect(match, &MatchController::retiring, this, [this](RetiredMatch& retired) {
+      retired.events.assign(m_list->events().begin(), m_list->events().end());
+    });
+  }
   connect(source, &FrameSource::restarted, m_list, &EventList::clear);
   connect(source, &FrameSource::rewound, m_list, &EventList::rewind);
 }

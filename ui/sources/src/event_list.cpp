@@ -47,6 +47,10 @@ void EventList::makeRoom() {
 
 int EventList::add(link::MatchEvent event) {
   if (!std::isfinite(event.time)) return -1;
+  if (event.kind == link::MatchEventKind::Undone) {
+    removeCause(event.cause);
+    return -1;
+  }
   shorten(event);
   makeRoom();
   const auto place = std::upper_bound(m_events.begin(), m_events.end(), event, earlier);
@@ -67,6 +71,12 @@ void EventList::add(std::vector<link::MatchEvent> events) {
   }
   beginResetModel();
   for (link::MatchEvent& event : events) {
+    if (event.kind == link::MatchEventKind::Undone) {
+      std::erase_if(m_events, [&event](const auto& before) {
+        return before.cause != 0 && before.cause == event.cause;
+      });
+      continue;
+    }
     shorten(event);
     m_events.push_back(std::move(event));
   }
@@ -109,6 +119,12 @@ void EventList::removeEvent(int row) {
   m_events.erase(m_events.begin() + row);
   endRemoveRows();
   touch();
+}
+
+void EventList::removeCause(std::uint32_t cause) {
+  for (int row = rowCount() - 1; row >= 0; --row) {
+    if (cause != 0 && event(row).cause == cause) removeEvent(row);
+  }
 }
 
 void EventList::setNote(int row, const QString& note) {

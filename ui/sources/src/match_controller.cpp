@@ -6,9 +6,12 @@
 #include <map>
 
 #include <robotlink/processes/process_manager.h>
+#include <robotlink/session/moment_reader.h>
+#include <robotlink/session/state_archive.h>
 #include <ui/base/robot_words.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
+#include <ui/sources/retired_match.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -61,6 +64,10 @@ struct MatchController::Opening {
   /// `observers` see the match from its first tick.
   void start(const link::Scenario& scenario, const link::MatchOptions& options, bool paused,
              CatalogPtr catalog, const std::vector<std::shared_ptr<link::TickObserver>>& observers);
+  /// The same from a moment of it, paused; `observers` do not see the beginning again.
+  void resume(const link::Moment& moment, const link::Scenario& scenario,
+              const link::MatchOptions& options, CatalogPtr catalog,
+              const std::vector<std::shared_ptr<link::TickObserver>>& observers);
 };
 
 void MatchController::Opening::start(
@@ -88,6 +95,21 @@ void MatchController::Opening::start(
     runner = holding(std::move(catalog), std::move(*made));
   else
     error = QStringLiteral("The match cannot be played: %1").arg(words(made.error()));
+}
+
+void MatchController::Opening::resume(
+    const link::Moment& moment, const link::Scenario& scenario, const link::MatchOptions& options,
+    CatalogPtr catalog, const std::vector<std::shared_ptr<link::TickObserver>>& observers) {
+  start(scenario, options, true, std::move(catalog), {});
+  if (!runner) return;
+  runner->execute([&](link::SimulatedMatch& match) {
+    if (const auto restored = match.restore(moment); !restored) {
+      error = QStringLiteral("The match cannot go on where it was: %1")
+                  .arg(QString::fromStdString(restored.error().text()));
+    }
+    return link::Changed::Yes;
+  });
+  for (const auto& observer : observers) runner->observe(observer);
 }
 
 std::shared_ptr<const telemetry::SeriesStore> MatchController::series() const {
@@ -138,12 +160,7 @@ void MatchController::close() {
 }
 
 void MatchController::open(const link::Scenario& scenario, bool paused) {
-  openAfter(scenario, scenario, paused, {});
-}
-
-void MatchController::openMoment(const link::Scenario& moment, const link::Scenario& beginning,
-                                 bool paused) {
-  openAfter(moment, beginning, paused, {});
+  openAfter(scenario, paused, {});
 }
 
 link::Scenario MatchController::beginning() const {
@@ -152,34 +169,83 @@ link::Scenario MatchController::beginning() const {
   return scenario;
 }
 
-void MatchController::restart() {
-  restartAfter({});
-}
-
-void MatchController::restartAfter(std::function<void()> between) {
+void MatchController::restart(std::function<void()> between) {
   if (!m_edits->allowsChange()) return;
-  const link::Scenario scenario = beginning();
-  openAfter(scenario, scenario, m_paused, std::move(between));
+  const bool over = m_frame && m_frame->finished;
+  m_edits->replaceMatch(
+      beginning(),
+      over ? QStringLiteral("Play the match again") : QStringLiteral("Restart the match"),
+      over ? QStringLiteral("The match begins again") : QStringLiteral("Match restarted"), m_paused,
+      std::move(between));
 }
 
-void MatchController::openAfter(const link::Scenario& scenario, const link::Scenario& beginning,
-                                bool paused, std::function<void()> between) {
+std::shared_ptr<RetiredMatch> MatchController::remember() {
+  auto retired = std::make_shared<RetiredMatch>();
+  retired->scenario = m_scenario;
+  retired->beginning = beginning();
+  retired->options = m_openedWith;
+  retired->catalog = m_catalog;
+  retired->paused = m_paused || (m_frame && m_frame->finished);
+  if (m_runner) {
+    m_runner->setPaused(true);
+    m_runner->read([&](const link::SimulatedMatch& match) {
+      retired->scenario = match.toScenario();
+      retired->moment = link::presentMoment(match, *m_memory->archive());
+    });
+    poll();
+  }
+  retired->memory = m_memory->kept();
+  emit retiring(*retired);
+  // The rows of one match that is not played are enough.
+  if (m_lastRetired) m_lastRetired->memory = {};
+  m_lastRetired = retired;
+  return retired;
+}
+
+std::shared_ptr<RetiredMatch> MatchController::replace(const link::Scenario& scenario, bool paused,
+                                                       std::function<void()> between) {
+  auto retired = remember();
+  openAfter(scenario, paused, std::move(between));
+  return retired;
+}
+
+std::shared_ptr<RetiredMatch> MatchController::bringBack(
+    const std::shared_ptr<RetiredMatch>& retired) {
+  const RetiredMatch back = *retired;  // remember() takes its rows
+  auto replaced = remember();
+  const bool hadRows = back.memory.rows != nullptr;
+  m_options.cognition = back.options.cognition;
+  m_options.match = back.options.match;
+  m_nextCatalog = back.catalog;
+  openAfter(back.scenario, back.paused, {}, std::make_shared<RetiredMatch>(back));
+  if (hadRows) emit eventsRecorded(back.events);
+  if (back.moment) m_memory->tellWhatIsLost(*back.moment, m_options.cognition);
+  return replaced;
+}
+
+void MatchController::openAfter(const link::Scenario& scenario, bool paused,
+                                std::function<void()> between,
+                                const std::shared_ptr<RetiredMatch>& from) {
   auto old = retire();
   m_scenario = scenario;
-  m_beginning = beginning;
+  m_beginning = from ? from->beginning : scenario;
   m_paused = paused;
   m_opening = true;
   m_catalog = m_nextCatalog;
-  m_memory->begin();
+  m_memory->begin(from ? from->memory : MatchMemory::Kept{});
   m_options.speed = m_speed;
-  m_worker.start([this, old = std::move(old), between = std::move(between), scenario, paused,
+  m_openedWith = m_options;
+  m_worker.start([this, old = std::move(old), between = std::move(between), scenario, paused, from,
                   options = m_options, catalog = m_catalog, observers = m_memory->observers(),
                   generation = m_generation.load()]() mutable {
     old.reset();
     if (between) between();
     if (generation != m_generation) return;
     const auto opening = std::make_shared<Opening>();
-    opening->start(scenario, options, paused, catalog, observers);
+    if (from && from->moment)
+      opening->resume(*from->moment, scenario, options, catalog, observers);
+    else
+      opening->start(scenario, options, paused, catalog, observers);
     m_toUi.post([this, opening, generation] {
       if (generation == m_generation)
         take(*opening);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <ui/base/robot_words.h>
+#include <ui/sources/retired_match.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -59,7 +60,7 @@ MatchEdits::MatchEdits(MatchController* match)
   constexpr int undoLimit = 1000;
   m_undoStack->setUndoLimit(undoLimit);
   connect(match, &MatchController::scenarioChanged, this, [this] {
-    if (!m_reopening) m_undoStack->clear();
+    if (!m_replacing) m_undoStack->clear();
     const link::Scenario scenario = m_match->isOpening() ? m_match->scenario() : link::Scenario{};
     m_robots.clear();
     for (const link::ScenarioRobot& entry : scenario.robots) {
@@ -94,11 +95,39 @@ void MatchEdits::perform(Edit edit) {
   if (m_match->isOpen() && allowsChange()) m_undoStack->push(new EditCommand(std::move(edit)));
 }
 
-void MatchEdits::performTogether(const QString& words, const std::function<void()>& steps) {
-  if (!m_match->isOpen() || !allowsChange()) return;
-  m_undoStack->beginMacro(words);
-  steps();
-  m_undoStack->endMacro();
+void MatchEdits::performOrder(const QString& text, const QString& whatFailed,
+                              std::vector<EditStep> steps, const QString& mergeKey) {
+  if (!(m_match->isOpen() || m_match->isOpening()) || !allowsChange()) return;
+  struct Order {
+    std::vector<EditStep> steps;
+    bool carriedOut = false;  // the match's thread; a redo may be refused
+  };
+  const auto all = std::make_shared<Order>(Order{std::move(steps)});
+  MatchOrder redo{whatFailed, [all](link::SimulatedMatch& match) -> Result<void> {
+                    all->carriedOut = false;
+                    for (auto step = all->steps.begin(); step != all->steps.end(); ++step) {
+                      const auto done = step->redo(match);
+                      if (done) continue;
+                      while (step != all->steps.begin()) (void)(--step)->undo(match);
+                      return done;
+                    }
+                    all->carriedOut = true;
+                    return {};
+                  }};
+  const MatchOrder undo{QStringLiteral("Could not undo “%1”").arg(text),
+                        [all](link::SimulatedMatch& match) -> Result<void> {
+                          if (!std::exchange(all->carriedOut, false)) return {};
+                          for (auto step = all->steps.rbegin(); step != all->steps.rend(); ++step) {
+                            if (auto undone = step->undo(match); !undone) return undone;
+                          }
+                          return {};
+                        }};
+  const MatchOrder again = redo;
+  redo.onSuccess = [this, text, again, undo, mergeKey] {
+    m_undoStack->push(new EditCommand(
+        {text, [this, again] { order(again); }, [this, undo] { order(undo); }, mergeKey, true}));
+  };
+  m_match->post(std::move(redo));
 }
 
 void MatchEdits::order(MatchOrder change) {
@@ -340,7 +369,7 @@ void MatchEdits::setModel(const std::vector<RobotId>& ids, const sim::RobotModel
 }
 
 void MatchEdits::setRuntime(RobotId id, const link::RuntimeChoice& choice) {
-  if (allowsChange()) set(runtimeField, {{id, choice}});
+  change(runtimeField, {{id, choice}}, QStringLiteral("Change the runtime of %1"));
 }
 
 void MatchEdits::takePhysics(const std::string& name) {
@@ -364,22 +393,23 @@ void MatchEdits::setPhysics(const QString& model) {
            [this, before = m_physics] { switchPhysics(before); }});
 }
 
-void MatchEdits::load(const link::Scenario& scenario, const QString& words) {
-  if (!allowsChange()) return;
+void MatchEdits::replaceMatch(const link::Scenario& scenario, const QString& text,
+                              const QString& done, bool paused, std::function<void()> between) {
   if (!m_match->isOpen()) {
-    m_match->open(scenario, m_match->isPaused());
+    m_match->replace(scenario, paused, std::move(between));
     return;
   }
-  perform({words, [this, scenario] { reopen(scenario, scenario); },
-           [this, before = m_match->currentMoment(), beginning = m_match->beginning()] {
-             reopen(before, beginning);
-           }});
-}
-
-void MatchEdits::reopen(const link::Scenario& scenario, const link::Scenario& beginning) {
-  m_reopening = true;
-  m_match->openMoment(scenario, beginning, m_match->isPaused());
-  m_reopening = false;
+  const auto other = std::make_shared<std::shared_ptr<RetiredMatch>>();  // that is not played
+  m_replacing = true;
+  *other = m_match->replace(scenario, paused, std::move(between));
+  m_replacing = false;
+  const auto swap = [this, other] {
+    m_replacing = true;
+    *other = m_match->bringBack(*other);
+    m_replacing = false;
+  };
+  m_undoStack->push(new EditCommand({text, swap, swap, {}, true}));
+  emit replaced(done);
 }
 
 void MatchEdits::commandAction(RobotId id, int actionA, std::optional<int> actionB) {
@@ -431,15 +461,67 @@ void MatchEdits::writeVariable(RobotId id, const QString& name, double value) {
          link::Changed::No});
 }
 
+namespace {
+
+/// Sets one value of the match; undone, it has the value that it had.
+template <class Value, class Read, class Write>
+EditStep settingStep(Value wanted, Read read, Write write) {
+  const auto before = std::make_shared<Value>(wanted);
+  return {
+      [wanted, before, read, write](link::SimulatedMatch& match) {
+        *before = read(match.simulation().state());
+        return write(match.simulation(), wanted);
+      },
+      [before, write](link::SimulatedMatch& match) { return write(match.simulation(), *before); }};
+}
+
+}  // namespace
+
 void MatchEdits::setNoise(const sim::NoiseParameters& noise) {
-  order({QStringLiteral("The noise stays as it was"),
-         [noise](link::SimulatedMatch& match) { return match.simulation().setNoise(noise); }});
+  performOrder(QStringLiteral("Change the noise"), QStringLiteral("The noise stays as it was"),
+               {settingStep(
+                   noise, [](const sim::WorldState& state) { return state.settings.noise; },
+                   [](sim::Simulation& simulation, const sim::NoiseParameters& value) {
+                     return simulation.setNoise(value);
+                   })},
+               QStringLiteral("noise"));
 }
 
 void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
-  order({QStringLiteral("The physics stays as it was"), [settings](link::SimulatedMatch& match) {
-           return match.simulation().setRigidBody(settings);
-         }});
+  performOrder(QStringLiteral("Change the physics"), QStringLiteral("The physics stays as it was"),
+               {settingStep(
+                   settings, [](const sim::WorldState& state) { return state.settings.rigidBody; },
+                   [](sim::Simulation& simulation, const sim::RigidBodySettings& value) {
+                     return simulation.setRigidBody(value);
+                   })},
+               QStringLiteral("physics"));
+}
+
+void MatchEdits::setClockRunning(bool running) {
+  performOrder(
+      running ? QStringLiteral("Start the game clock") : QStringLiteral("Stop the game clock"),
+      QStringLiteral("The clock stays as it was"),
+      {settingStep(
+          running, [](const sim::WorldState& state) { return state.clockRunning; },
+          [](sim::Simulation& simulation, bool value) -> Result<void> {
+            simulation.setClockRunning(value);
+            return {};
+          })});
+}
+
+void MatchEdits::resetScore() {
+  using ScoreAndClock = std::pair<sim::Score, std::uint64_t>;
+  performOrder(QStringLiteral("Reset score and clock"), QStringLiteral("The score stays as it was"),
+               {settingStep(
+                   ScoreAndClock{},
+                   [](const sim::WorldState& state) {
+                     return ScoreAndClock{state.score, state.clockTicks};
+                   },
+                   [](sim::Simulation& simulation, const ScoreAndClock& value) -> Result<void> {
+                     simulation.setScore(value.first);
+                     simulation.editState().clockTicks = value.second;
+                     return {};
+                   })});
 }
 
 void MatchEdits::orderProcesses(const std::function<void(link::ProcessManager&)>& what) {
@@ -467,21 +549,6 @@ void MatchEdits::restartProcess(int process) {
 
 void MatchEdits::killProcess(int process) {
   orderProcesses([process](link::ProcessManager& all) { all.kill(process); });
-}
-
-void MatchEdits::setClockRunning(bool running) {
-  order([running](link::SimulatedMatch& match) {
-    match.simulation().setClockRunning(running);
-    return link::Changed::Yes;
-  });
-}
-
-void MatchEdits::resetScore() {
-  order([](link::SimulatedMatch& match) {
-    match.simulation().setScore({});
-    match.simulation().editState().clockTicks = 0;
-    return link::Changed::Yes;
-  });
 }
 
 }  // namespace pitchboard::ui

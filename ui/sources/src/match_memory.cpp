@@ -17,53 +17,59 @@ namespace pitchboard::ui {
 MatchMemory::MatchMemory(MatchController* match) : QObject(match), m_match(match) {}
 MatchMemory::~MatchMemory() = default;
 
-void MatchMemory::begin() {
-  m_rows = std::make_shared<MatchRows>(m_budget);
-  m_sampler = std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{m_everyNth});
-  m_archive = std::make_shared<link::StateArchive>();
-  m_drawings = std::make_shared<link::DrawingMemory>();
+void MatchMemory::begin(Kept kept) {
+  m_kept = std::move(kept);
   m_drawn = {};
+  if (m_kept.rows) {
+    m_kept.rows->setMemoryBudget(m_budget);
+    return;
+  }
+  m_kept = {std::make_shared<MatchRows>(m_budget),
+            {},
+            std::make_shared<link::StateArchive>(),
+            std::make_shared<link::DrawingMemory>()};
+  m_kept.sampler =
+      std::make_shared<link::MatchSampler>(m_kept.rows, link::MatchSamplerOptions{m_everyNth});
 }
 
 void MatchMemory::forget() {
-  m_rows.reset();
-  m_sampler.reset();
-  m_archive.reset();
-  m_drawings.reset();
+  m_kept = {};
   m_past.reset();
 }
 
 std::vector<std::shared_ptr<link::TickObserver>> MatchMemory::observers() const {
-  if (!m_sampler) return {};
-  return {m_sampler, m_archive, m_drawings};
+  if (!m_kept.sampler) return {};
+  return {m_kept.sampler, m_kept.archive, m_kept.drawings};
 }
 
 std::shared_ptr<const link::LiveHistory> MatchMemory::drawn() const {
-  return m_drawings;
+  return m_kept.drawings;
 }
 
 void MatchMemory::setMemoryBudget(std::size_t bytes) {
   m_budget = bytes;
-  if (m_rows) m_rows->setMemoryBudget(bytes);
+  if (m_kept.rows) m_kept.rows->setMemoryBudget(bytes);
 }
 
 std::shared_ptr<const telemetry::SeriesStore> MatchMemory::series() const {
-  return m_rows ? std::shared_ptr<const telemetry::SeriesStore>(m_rows, &m_rows->store()) : nullptr;
+  return m_kept.rows
+             ? std::shared_ptr<const telemetry::SeriesStore>(m_kept.rows, &m_kept.rows->store())
+             : nullptr;
 }
 
 std::shared_ptr<telemetry::RowSink> MatchMemory::rowsBeside() const {
-  return m_rows ? MatchRows::beside(m_rows) : nullptr;
+  return m_kept.rows ? MatchRows::beside(m_kept.rows) : nullptr;
 }
 
 std::function<double()> MatchMemory::timeBeside() const {
-  return [rows = m_rows] { return rows ? rows->timeBeside() : 0.0; };
+  return [rows = m_kept.rows] { return rows ? rows->timeBeside() : 0.0; };
 }
 
 void MatchMemory::setSampling(int everyNth) {
   if (everyNth == m_everyNth || everyNth < 1) return;
   m_everyNth = everyNth;
-  if (!m_sampler) return;
-  m_match->post([sampler = m_sampler, everyNth](link::SimulatedMatch&) {
+  if (!m_kept.sampler) return;
+  m_match->post([sampler = m_kept.sampler, everyNth](link::SimulatedMatch&) {
     sampler->setEveryNth(everyNth);
     return link::Changed::No;
   });
@@ -80,19 +86,33 @@ FramePtr MatchMemory::frameAt(double time) const {
   if (past->robots.empty() && !newest->robots.empty() && time < rows->range()->begin) {
     return nullptr;
   }
-  past->drawings = m_drawn.at(*m_drawings, time);
+  past->drawings = m_drawn.at(*m_kept.drawings, time);
   link::keyDrawings(*past);
   // Rows do not tell what was changed by hand while the match ran.
   const auto tick = static_cast<std::uint64_t>(
       std::llround(std::max(past->snapshot.time, 0.0) * past->settings->tickRate));
-  if (const auto settings = m_archive->settings(tick)) {
+  if (const auto settings = m_kept.archive->settings(tick)) {
     auto then = std::make_shared<link::FrameSettings>(*past->settings);
     then->noise = settings->noise;
     then->physics = settings->physics;
+    then->rigidBody = settings->rigidBody;
     past->settings = std::move(then);
     past->refereeRules = settings->referee ? settings->referee->name : std::string();
   }
   return past;
+}
+
+void MatchMemory::tellWhatIsLost(const link::Moment& moment, link::Cognition where) {
+  if (moment.past || where == link::Cognition::None) return;
+  const double time = static_cast<double>(moment.state.tick) / moment.state.settings.tickRate;
+  emit continuedWithout(
+      where == link::Cognition::Separate
+          ? QStringLiteral("Reference processes that run separately begin again with the belief "
+                           "that they had at %1. A team's own programs are not told.")
+                .arg(clockText(time))
+          : QStringLiteral("What the robots' processes remembered at %1 is not kept any more: "
+                           "they begin again with the belief that they had then.")
+                .arg(clockText(time)));
 }
 
 void MatchMemory::continueFrom(double time) {
@@ -102,35 +122,27 @@ void MatchMemory::continueFrom(double time) {
   m_match->settle();
   const auto rows = series();
   const FramePtr newest = m_match->frame();
-  if (!m_match->isOpen() || !m_archive || !rows || !newest) return;
+  if (!m_match->isOpen() || !m_kept.archive || !rows || !newest) return;
   const auto tick =
       static_cast<std::uint64_t>(std::llround(std::max(time, 0.0) * newest->settings->tickRate));
-  auto moment = link::momentFromMemory(*m_archive, *rows, tick, m_match->catalog());
+  auto moment = link::momentFromMemory(*m_kept.archive, *rows, tick, m_match->catalog());
   if (!moment) {
     emit failed(QStringLiteral("The match cannot be continued from this moment: %1")
                     .arg(QString::fromStdString(moment.error().text())));
     return;
   }
   m_match->edits()->adopt(*moment);
-  if (!moment->past && m_match->cognition() != link::Cognition::None) {
-    emit continuedWithout(
-        m_match->cognition() == link::Cognition::Separate
-            ? QStringLiteral("Reference processes that run separately begin again with the belief "
-                             "that they had at %1. A team's own programs are not told.")
-                  .arg(clockText(time))
-            : QStringLiteral("What the robots' processes remembered at %1 is not kept any more: "
-                             "they begin again with the belief that they had then.")
-                  .arg(clockText(time)));
-  }
+  tellWhatIsLost(*moment, m_match->cognition());
   const double from = static_cast<double>(tick) / newest->settings->tickRate;
-  m_match->post({QStringLiteral("The match cannot be continued from this moment"),
-                 [moment = std::move(*moment), rows = m_rows, from](link::SimulatedMatch& match) {
-                   auto entered = match.restore(moment);
-                   if (entered) rows->rewind(from);
-                   return entered;
-                 },
-                 {},
-                 [this, from] { emit m_match->rewound(from); }});
+  m_match->post(
+      {QStringLiteral("The match cannot be continued from this moment"),
+       [moment = std::move(*moment), rows = m_kept.rows, from](link::SimulatedMatch& match) {
+         auto entered = match.restore(moment);
+         if (entered) rows->rewind(from);
+         return entered;
+       },
+       {},
+       [this, from] { emit m_match->rewound(from); }});
 }
 
 }  // namespace pitchboard::ui

@@ -12,6 +12,7 @@
 #include <robotlink/scenario/scenario.h>
 #include <ui/base/robot_words.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/referee_calls.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -36,6 +37,7 @@ QAction* addChoice(QActionGroup* group, QMenu* menu, const QString& text, bool c
 
 void addRobotMenus(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {
   addOrderMenu(menu, controller, ids);
+  addRefereeMenu(menu, controller, ids);
   addBehaviourMenu(menu, controller, ids);
   addRuntimeMenu(menu, controller, ids);
   addTeamMenu(menu, controller, ids);

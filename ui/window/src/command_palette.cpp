@@ -115,8 +115,8 @@ void CommandPalette::changeEvent(QEvent* event) {
   if (event->type() == QEvent::ActivationChange && !isActiveWindow() && isVisible()) close();
 }
 
-// The first that is exactly what was typed, or ends with it: "referee" is meant by "View: Referee"
-// rather than by "View: Refereeing".
+// The first that is exactly what was typed, or ends with it: "log" is meant by "View: Log" rather
+// than by "Save log".
 int CommandPalette::best() const {
   const QString typed = m_words->text().trimmed();
   if (typed.isEmpty()) return 0;

@@ -4,12 +4,11 @@
 #include <ui/experiments/experiments_dock.h>
 #include <ui/live/attach_dialog.h>
 #include <ui/live/bad_messages_dock.h>
-#include <ui/live/referee_dock.h>
 #include <ui/log/log_dock.h>
 #include <ui/noise/noise_dock.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/processes/processes_dock.h>
-#include <ui/referee/refereeing_dock.h>
+#include <ui/referee/referee_panel.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/timeline/timeline_dock.h>
 #include <ui/variables/variables_dock.h>
@@ -41,10 +40,10 @@ QWidget* variables(const StudioParts& s, QWidget* parent) {
       parent);
 }
 QWidget* noise(const StudioParts& s, QWidget* parent) {
-  return makeNoiseDock(s.controller, s.selection, parent);
+  return makeNoiseDock(s.controller, s.selection, s.source, parent);
 }
-QWidget* refereeing(const StudioParts& s, QWidget* parent) {
-  return makeRefereeingDock(s.controller, s.source, parent);
+QWidget* referee(const StudioParts& s, QWidget* parent) {
+  return makeRefereePanel({s.controller, s.source, s.timeline, s.selection}, parent);
 }
 QWidget* plots(const StudioParts& s, QWidget* parent) {
   return makePlotsDock(
@@ -52,9 +51,6 @@ QWidget* plots(const StudioParts& s, QWidget* parent) {
 }
 QWidget* processes(const StudioParts& s, QWidget* parent) {
   return makeProcessesDock(s.controller, s.source, parent);
-}
-QWidget* referee(const StudioParts& s, QWidget* parent) {
-  return makeRefereeDock(s.source, parent);
 }
 QWidget* badMessages(const StudioParts& s, QWidget* parent) {
   return makeBadMessagesDock(s.live, parent);
@@ -76,7 +72,6 @@ std::span<const DockInfo> studioDocks() {
       {"robots", "Robots", Qt::LeftDockWidgetArea, true, robots},
       {"variables", "Variables", Qt::RightDockWidgetArea, true, variables},
       {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, noise},
-      {"refereeing", "Refereeing", Qt::RightDockWidgetArea, false, refereeing},
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, plots},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, processes},
       {"referee", "Referee", Qt::RightDockWidgetArea, false, referee},

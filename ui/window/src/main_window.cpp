@@ -386,7 +386,10 @@ void MainWindow::connectField() {
     link::Scenario again = m_controller->beginning();
     again.score = {};
     again.clock = 0.0;
-    m_controller->edits()->load(again, QStringLiteral("Start the match again"));
+    if (!m_controller->edits()->allowsChange()) return;
+    m_controller->edits()->replaceMatch(again, QStringLiteral("Start the match again"),
+                                        QStringLiteral("Match restarted"),
+                                        m_controller->isPaused());
   });
   connect(m_field, &FieldView::clearRequested, m_controller, [this] {
     std::vector<RobotId> all;
@@ -407,7 +410,8 @@ void MainWindow::connectNotices() {
                        live = QStringLiteral("live"), recording = QStringLiteral("recording"),
                        refused = QStringLiteral("refused"), locked = QStringLiteral("locked"),
                        finished = QStringLiteral("finished"), compared = QStringLiteral("compared"),
-                       test = QStringLiteral("test"), continued = QStringLiteral("continued");
+                       test = QStringLiteral("test"), continued = QStringLiteral("continued"),
+                       replaced = QStringLiteral("replaced");
   const auto settleAll = [this](const QStringList& topics) {
     for (const QString& topic : topics) m_notices->settle(topic);
   };
@@ -449,6 +453,15 @@ void MainWindow::connectNotices() {
   connect(m_controller, &MatchController::transportChanged, m_notices, [this] {
     if (!m_controller->isPaused() && m_controller->speed() == 1.0) m_notices->settle(match);
   });
+  connect(m_controller->edits(), &MatchEdits::replaced, m_notices, [this](const QString& done) {
+    QUndoStack* stack = m_controller->edits()->undoStack();
+    m_notices->show(
+        {replaced, NoticeTone::Success},
+        QStringLiteral("%1. Ctrl+Z brings the match back.").arg(done),
+        {{QStringLiteral("Undo"), [stack] { stack->undo(); }}, {QStringLiteral("Close"), {}}});
+  });
+  connect(m_controller->edits()->undoStack(), &QUndoStack::indexChanged, m_notices,
+          [this] { m_notices->settle(replaced); });
   connect(m_controller->edits(), &MatchEdits::lockedChanged, m_notices,
           [this] { m_notices->settle(locked); });
   connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices, tell(continued));

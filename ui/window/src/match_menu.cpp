@@ -64,7 +64,9 @@ void askForSeed(MatchController* controller, MainWindow* window) {
     return;
   }
   again.settings.seed = wanted;
-  controller->edits()->load(again, QStringLiteral("Play with seed %1").arg(wanted));
+  controller->edits()->replaceMatch(again, QStringLiteral("Play with seed %1").arg(wanted),
+                                    QStringLiteral("Playing with seed %1").arg(wanted),
+                                    controller->isPaused());
 }
 
 void fillWhoDecides(QMenu* menu, MatchController* controller) {

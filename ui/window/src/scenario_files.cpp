@@ -23,24 +23,31 @@ ScenarioFiles::ScenarioFiles(MatchController* controller, FieldView* field,
 
 void ScenarioFiles::open(const QString& nameOrPath) {
   read(nameOrPath, [this](const link::Scenario& scenario) {
-    m_controller->open(scenario, m_controller->isPaused());
+    const QString title =
+        QString::fromStdString(scenario.title.empty() ? scenario.name : scenario.title);
+    m_controller->edits()->replaceMatch(scenario, QStringLiteral("Open “%1”").arg(title),
+                                        QStringLiteral("Opened “%1”").arg(title),
+                                        m_controller->isPaused());
   });
 }
 
 void ScenarioFiles::load(const QString& nameOrPath) {
-  read(nameOrPath, [this](const link::Scenario& scenario) {
-    const std::string& title = scenario.title.empty() ? scenario.name : scenario.title;
-    m_controller->edits()->load(scenario,
-                                QStringLiteral("Load “%1”").arg(QString::fromStdString(title)));
-  });
+  if (m_controller->edits()->allowsChange()) open(nameOrPath);
 }
 
 void ScenarioFiles::read(const QString& nameOrPath,
                          const std::function<void(const link::Scenario&)>& play) {
   const auto scenario = link::loadScenario(nameOrPath.toStdString());
   if (!scenario) {
-    emit failed(QStringLiteral("The scenario was not opened: %1")
-                    .arg(QString::fromStdString(scenario.error().text())));
+    constexpr int most = 3;
+    const QStringList errors =
+        QString::fromStdString(scenario.error().text()).split(QLatin1Char('\n'));
+    QString text = QStringLiteral("The scenario was not opened: %1")
+                       .arg(errors.mid(0, most).join(QLatin1Char('\n')));
+    if (errors.size() > most) {
+      text += QStringLiteral("\nAnd %1 more.").arg(errors.size() - most);
+    }
+    emit failed(text);
     return;
   }
   play(*scenario);

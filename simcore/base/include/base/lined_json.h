@@ -48,15 +48,19 @@ class JsonReport {
  public:
   explicit JsonReport(std::string_view source) : m_source(source) {}
 
-  /// Remembers the first error as "source:line: path: text".
+  /// Remembers an error as "source:line: path: text"; one of each place, at most twenty.
   void fail(int line, const std::string& path, const std::string& text,
             ErrorCode code = ErrorCode::ParseError);
-  bool failed() const { return m_error.has_value(); }
-  const Error& error() const { return *m_error; }
+  bool failed() const { return !m_errors.empty(); }
+  std::size_t errors() const { return m_errors.size(); }
+  /// The first one.
+  const Error& error() const { return m_errors.front(); }
+  /// All of them: the first, and in its message the others, a line each.
+  Error allErrors() const;
 
  private:
   std::string m_source;
-  std::optional<Error> m_error;
+  std::vector<Error> m_errors;
 };
 
 /// Refuses more than `mostBytes`, nesting deeper than 64, a key that occurs twice in an object, and

@@ -16,6 +16,7 @@ struct LogLine {
   std::string origin;  ///< who says it: "simulation", "B1 decision"
   std::string text;
   LogLevel level = LogLevel::Info;
+  std::uint32_t cause = 0;  ///< the decision by hand that it tells of; 0: none
   bool isWarning() const { return level >= LogLevel::Warning; }
   bool operator==(const LogLine&) const = default;
 };

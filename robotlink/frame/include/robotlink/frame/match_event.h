@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <base/log_line.h>
 #include <base/robot_key.h>
@@ -57,10 +58,11 @@ enum class MatchEventKind : std::uint8_t {
   ProcessNotAttached,  ///< robot, process; the match does not wait for it; detail: how long it has
   PortLost,            ///< value: the port; detail: why it cannot be received
   PortBack,            ///< value: the port
+  Undone,              ///< what `cause` had led to before, all of it, was taken back
   Bookmark,            ///< detail: the user's note
   Other                ///< detail: what a later version, or a file of another one, calls it
 };
-inline constexpr std::size_t matchEventKindCount = 39;
+inline constexpr std::size_t matchEventKindCount = 40;
 
 /// Half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };
@@ -75,8 +77,9 @@ struct MatchEvent {
   std::string colour{};        ///< of that team: "blue"; empty or "unknown": not known
   std::optional<int> value{};  ///< see MatchEventKind
   std::optional<sim::Score> score{};
-  std::string process{};  ///< "decision"
-  std::string detail{};   ///< see MatchEventKind
+  std::string process{};    ///< "decision"
+  std::string detail{};     ///< see MatchEventKind
+  std::uint32_t cause = 0;  ///< the decision by hand that it follows from; 0: none
   bool operator==(const MatchEvent&) const = default;
 };
 
@@ -125,6 +128,9 @@ MatchEvent eventOf(MatchEventKind kind, double time, const RobotKey& robot, std:
 TeamColor teamOn(Side side, std::span<const sim::RobotIdentity> robots);
 /// An event of the simulation. `state`: right after the step in which it happened.
 MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state);
+
+/// Removes what an Undone event behind it takes back, and these events themselves.
+void dropUndone(std::vector<MatchEvent>& events);
 
 /// "B1 kicks the ball: kick left", "goal for BLUE, 1 : 0": a line of a list.
 std::string sentenceOf(const MatchEvent& event);

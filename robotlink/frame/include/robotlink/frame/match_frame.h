@@ -16,7 +16,10 @@
 #include <robotlink/frame/robot_frame.h>
 #include <robotlink/frame/teams.h>
 #include <simcore/world/field.h>
+#include <simcore/world/game_state.h>
 #include <simcore/world/noise.h>
+#include <simcore/world/referee_rules.h>
+#include <simcore/world/rigid_body_state.h>
 #include <simcore/world/snapshot.h>
 #include <telemetry/wire/drawing_store.h>
 
@@ -32,7 +35,14 @@ struct FrameSettings {
   std::string physics;
   std::uint64_t seed = 0;
   double tickRate = 60.0;
+  sim::RigidBodySettings rigidBody;
   bool operator==(const FrameSettings&) const = default;
+};
+
+/// What a person who referees a simulated match decides by (sim::checkCall).
+struct RefereeDesk {
+  sim::GameState game;
+  sim::RefereeRules rules;
 };
 
 struct MatchFrame {
@@ -47,12 +57,12 @@ struct MatchFrame {
   std::vector<telemetry::RobotDrawings> drawings;  ///< of the robots' programs (docs/DRAWINGS.md)
   std::string drawingProblem;                      ///< why the last one was not drawn; or empty
   std::optional<RefereeView> referee;              ///< once one was heard
-  std::string refereeRules;         ///< of a simulated match; empty: without a referee
-  bool refereeAutomatic = false;    ///< its referee calls by itself
-  std::vector<TeamBall> teamBalls;  ///< of teams of which at least two robots agree
-  double speed = 0.0;               ///< simulated seconds per second, measured over the last second
-  double ticksPerSecond = 0.0;      ///< measured
-  double tickMicroseconds = 0.0;    ///< mean time of a tick, measured
+  std::string refereeRules;                 ///< of a simulated match; empty: without a referee
+  std::shared_ptr<const RefereeDesk> desk;  ///< null: nobody can call
+  std::vector<TeamBall> teamBalls;          ///< of teams of which at least two robots agree
+  double speed = 0.0;             ///< simulated seconds per second, measured over the last second
+  double ticksPerSecond = 0.0;    ///< measured
+  double tickMicroseconds = 0.0;  ///< mean time of a tick, measured
   bool paused = false;
   bool finished = false;  ///< a stop condition of the scenario is met; it stands still
   std::shared_ptr<const FrameSettings> settings =

@@ -16,12 +16,17 @@
 
 namespace pitchboard::link {
 
+class SimulatedMatch;
 class StateArchive;
 
 /// What rows say of a robot's blackboard: every word of `catalog` that the group has a column for.
 std::vector<BoardWord> boardWords(const telemetry::GroupInfo& group,
                                   std::span<const std::uint32_t> words,
                                   const VariableCatalog& catalog);
+
+/// The present moment of a match, with what its processes remember as far as `archive`, which sees
+/// the match, knows. On the match's thread.
+Moment presentMoment(const SimulatedMatch& match, const StateArchive& archive);
 
 /// The moment at a tick, with the blackboards from the rows at that time. Error NotFound when the
 /// tick is not in the archive; missing rows only leave blackboards out.

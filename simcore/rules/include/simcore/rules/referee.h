@@ -45,6 +45,7 @@ struct RefereeCall {
   PenaltyKind penalty = PenaltyKind::None;
   int value = 0;
   std::optional<Point> place{};
+  std::uint32_t cause = 0;  ///< is told with the events that follow from it at once
   bool operator==(const RefereeCall&) const = default;
 };
 

@@ -84,6 +84,8 @@ class Simulation {
   /// A call of the referee, between two steps. Refused (Conflict) when the state of the game does
   /// not allow it, and when there is no referee. What it does is in events() of the next step.
   Result<void> call(const RefereeCall& call);
+  /// Tells, with the events of the next step, that what follows from this cause was taken back.
+  void reportUndone(std::uint32_t cause);
   /// Puts a referee's rules in, or takes the referee away; the game begins anew, and all robots of
   /// a team are told to attack the same goal. Error InvalidArgument for rules out of their range,
   /// and when more than two teams are on the field; nothing has changed then.

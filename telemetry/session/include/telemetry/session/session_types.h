@@ -55,6 +55,7 @@ struct EventFacts {
   std::optional<std::pair<int, int>> score;  ///< left, right
   std::string process;                       ///< "decision"
   std::string detail;
+  int cause = 0;  ///< the decision by hand that it follows from
   bool operator==(const EventFacts&) const = default;
 };
 

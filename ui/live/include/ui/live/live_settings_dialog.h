@@ -30,6 +30,7 @@ class LiveSettingsDialog : public QDialog {
   bool apply();
 
  private:
+  QWidget* makeGeneral();
   QWidget* makeNetwork();
   QWidget* makeRobots();
   QWidget* makeReferee();

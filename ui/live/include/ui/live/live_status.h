@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the status line says in Live, from two looks at the counters.
+// What the status line says in Live, from looks at the counters.
 
 #include <QString>
+#include <deque>
+#include <utility>
 
 #include <robotlink/live/live_watch.h>
 
@@ -11,9 +13,19 @@ namespace pitchboard::ui {
 
 struct LiveStatusText {
   QString network;  ///< "UDP 24/s, 0 lost, 0 bad"
-  QString referee;  ///< "Referee: version 12, 2/s"
+  QString referee;  ///< "Referee v12, 2.0/s"
   QString trouble;  ///< the most urgent thing, or nothing: shown in red
   QString tip;      ///< every port and what is wrong with it
+};
+
+/// How often a counter grows, over the last five seconds.
+class RateWindow {
+ public:
+  /// `seconds`: any monotonic clock. Returns the rate, 1/s.
+  double look(double seconds, quint64 count);
+
+ private:
+  std::deque<std::pair<double, quint64>> m_looks;
 };
 
 class LiveStatus {
@@ -23,13 +35,7 @@ class LiveStatus {
                         double seconds);
 
  private:
-  struct Look {
-    double seconds = 0.0;
-    quint64 datagrams = 0;
-    quint64 referee = 0;
-  };
-  Look m_before, m_now;
-  double m_rate = 0.0, m_refereeRate = 0.0;
+  RateWindow m_robots, m_referee;
 };
 
 }  // namespace pitchboard::ui

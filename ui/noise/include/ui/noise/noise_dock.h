@@ -10,9 +10,12 @@ namespace pitchboard::ui {
 
 class MatchController;
 class RobotSelection;
+class SourceSwitch;
 
-/// Controller and selection must outlive the dock. The numbers of robots are those of the selected
-/// ones, or of all when none is selected.
-QWidget* makeNoiseDock(MatchController* controller, RobotSelection* selection, QWidget* parent);
+/// Controller, selection and source must outlive the dock. While `source` shows the past of the
+/// match, the dock shows what it was played with then, grey. The numbers of robots are those of the
+/// selected ones, or of all when none is selected.
+QWidget* makeNoiseDock(MatchController* controller, RobotSelection* selection,
+                       const SourceSwitch* source, QWidget* parent);
 
 }  // namespace pitchboard::ui

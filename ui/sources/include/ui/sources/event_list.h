@@ -31,7 +31,7 @@ class EventList : public QAbstractTableModel {
   void writeTimesAnew();
 
   /// In its place by time, behind those of the same time. Returns its row. A time that is not
-  /// finite is not taken: -1.
+  /// finite is not taken: -1. Nor is an Undone: the events before that it takes back leave.
   int add(link::MatchEvent event);
   /// The same for many, with one reset of the model when they are not simply later ones.
   void add(std::vector<link::MatchEvent> events);
@@ -64,6 +64,7 @@ class EventList : public QAbstractTableModel {
 
  private:
   void makeRoom();
+  void removeCause(std::uint32_t cause);
   void touch();
 
   std::deque<link::MatchEvent> m_events;

@@ -27,6 +27,7 @@ namespace pitchboard::ui {
 
 class MatchEdits;
 class MatchMemory;
+struct RetiredMatch;
 
 /// What is carried out on the match's thread between two ticks, and what follows from it in the
 /// window, unless another match was opened meanwhile.
@@ -59,8 +60,14 @@ class MatchController : public FrameSource {
   /// be had (a key is in use), the match plays with inline processes on heap blackboards and
   /// `errorOccurred` says so.
   void open(const link::Scenario& scenario, bool paused = false);
-  /// The same from a moment of a match that began as `beginning`: restart() plays that.
-  void openMoment(const link::Scenario& moment, const link::Scenario& beginning, bool paused);
+  /// The same, for MatchEdits::replaceMatch(): returns the match that was played, as it is now.
+  /// `between` runs on the worker thread when the old match is gone and the new one is not made
+  /// yet. Waits for the tick in progress.
+  std::shared_ptr<RetiredMatch> replace(const link::Scenario& scenario, bool paused,
+                                        std::function<void()> between = {});
+  /// The match goes on where replace() took it, with its rows and events, as long as it is the one
+  /// that was replaced last. Returns the match that was played until now.
+  std::shared_ptr<RetiredMatch> bringBack(const std::shared_ptr<RetiredMatch>& retired);
   /// Ends the match; its processes and blackboards go, on the worker thread. restart() plays it
   /// again.
   void close();
@@ -109,11 +116,9 @@ class MatchController : public FrameSource {
   void setWaitForTeamPrograms(bool on);
   bool waitsForTeamPrograms() const { return m_options.waitForTeamPrograms; }
   bool isPaused() const { return m_paused; }
-  /// Plays beginning(). Refused as an edit is (MatchEdits::allowsChange()).
-  void restart();
-  /// The same; `between` runs on the worker thread when the old match is gone and the new one is
-  /// not made yet.
-  void restartAfter(std::function<void()> between);
+  /// Plays beginning(), which can be undone. Refused as an edit is (MatchEdits::allowsChange()).
+  /// `between`: see replace().
+  void restart(std::function<void()> between = {});
 
   // Orders to the match, or to the one that is being opened. A change by hand goes through
   // MatchEdits::order() instead, which refuses it while the past is shown.
@@ -134,7 +139,9 @@ class MatchController : public FrameSource {
   std::uint64_t stateHash();
 
  signals:
-  void ending();            ///< the match goes now: its observers see it for the last time
+  void ending();  ///< the match goes now: its observers see it for the last time
+  /// It may come back: whoever keeps something of it adds it. Before `ending`.
+  void retiring(pitchboard::ui::RetiredMatch& match);
   void scenarioChanged();   ///< another match is being opened, or none; `restarted` follows
   void opened();            ///< it is there, or failed
   void transportChanged();  ///< paused, speed, or whether there is a match
@@ -146,8 +153,9 @@ class MatchController : public FrameSource {
  private:
   struct Opening;  ///< what the worker made
   void poll();
-  void openAfter(const link::Scenario& scenario, const link::Scenario& beginning, bool paused,
-                 std::function<void()> between);
+  void openAfter(const link::Scenario& scenario, bool paused, std::function<void()> between,
+                 const std::shared_ptr<RetiredMatch>& from = {});
+  std::shared_ptr<RetiredMatch> remember();
   /// Forgets the match; the worker ends it.
   std::shared_ptr<link::MatchRunner> retire();
   void take(Opening& opening);
@@ -158,7 +166,8 @@ class MatchController : public FrameSource {
   void changeSpeed(double timesRealTime);
   void tellWhoKeepsRealTime(std::span<const link::MatchEvent> events);
 
-  link::MatchOptions m_options;
+  link::MatchOptions m_options, m_openedWith;
+  std::shared_ptr<RetiredMatch> m_lastRetired;  // the one that keeps its rows
   link::Cognition m_cognition = link::Cognition::Inline;
   link::Scenario m_scenario, m_beginning;
   std::shared_ptr<const link::VariableCatalog> m_nextCatalog, m_catalog;

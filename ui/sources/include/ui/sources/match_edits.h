@@ -2,8 +2,8 @@
 #pragma once
 
 // Everything that is done by hand to the match being simulated: robots and ball are placed, added,
-// removed, get another behaviour, number or model, the match gets another physics or starts anew,
-// all of which can be undone; processes, noise, constants, words of the blackboards, which cannot.
+// removed, get another behaviour, number or model, the match gets another physics or noise, or is
+// replaced, all of which can be undone; processes and words of the blackboards, which cannot.
 // It is the one gate for all changes by hand: whoever has a change of its own (the referee)
 // performs or orders it here, and nothing passes while the past is shown. Belongs to the
 // MatchController and ends with it. UI thread only; what is ordered is carried out on the match's
@@ -32,6 +32,12 @@ struct RobotPlacement {
   Pose to;
 };
 
+/// A part of an order that can be undone; both on the match's thread. `undo` follows only a `redo`
+/// that succeeded.
+struct EditStep {
+  std::function<Result<void>(link::SimulatedMatch&)> redo, undo;
+};
+
 class MatchEdits : public QObject {
   Q_OBJECT
  public:
@@ -54,8 +60,14 @@ class MatchEdits : public QObject {
   bool allowsChange();
   /// Does the edit and puts it on the undo stack.
   void perform(Edit edit);
-  /// What `steps` performs becomes one command.
-  void performTogether(const QString& words, const std::function<void()>& steps);
+  /// Carried out in one go between two ticks, all of them or none. On the undo stack as one command
+  /// once the match has carried it out, and not when it refused. `whatFailed`: as in MatchOrder;
+  /// `mergeKey`: as in Edit.
+  void performOrder(const QString& text, const QString& whatFailed, std::vector<EditStep> steps,
+                    const QString& mergeKey = {});
+  /// For events that follow from one decision by hand (sim::RefereeCall::cause): another one each
+  /// time.
+  std::uint32_t newCause() { return ++m_lastCause; }
   /// A change that cannot be undone, or a part of an edit. Reaches a match that is being opened,
   /// too.
   void order(MatchOrder change);
@@ -83,14 +95,24 @@ class MatchEdits : public QObject {
   void setModel(const std::vector<RobotId>& ids, const sim::RobotModel& model);
   /// The model of motion and collisions: the match goes on with it (Simulation::setPhysics()).
   void setPhysics(const QString& model);
-  /// Plays another scenario, or this one from its beginning; undone, the match goes on from the
-  /// moment that it had. `words`: what was done.
-  void load(const link::Scenario& scenario, const QString& words);
+  /// Another match in place of this one; undone, this one goes on where it was, with its game, rows
+  /// and events. `text`: what the undo menu calls it; `done`: what `replaced` says; `between`: see
+  /// MatchController::replace(). Also while the past is shown.
+  void replaceMatch(const link::Scenario& scenario, const QString& text, const QString& done,
+                    bool paused, std::function<void()> between = {});
 
   // While a drag is going on the world follows, but only its end is one undoable command:
   /// Shows robots at their `to` pose without an entry on the undo stack.
   void previewRobots(const std::vector<RobotPlacement>& placements);
   void previewBall(Point position);
+
+  // Undoable, too; refused ones leave no step:
+  void setNoise(const sim::NoiseParameters& noise);
+  void setRigidBody(const sim::RigidBodySettings& settings);
+  void setClockRunning(bool running);
+  void resetScore();
+  /// Who runs for the robot; all its processes start anew.
+  void setRuntime(RobotId id, const link::RuntimeChoice& choice);
 
   // Not undoable: actions of the robots themselves.
   /// Writes DECISION_ACTION_A (and B when given) as the decision process would.
@@ -100,21 +122,17 @@ class MatchEdits : public QObject {
   /// converted to the variable's type. `variableWritten` follows, or the
   /// controller's `errorOccurred`.
   void writeVariable(RobotId id, const QString& name, double value);
-  void setNoise(const sim::NoiseParameters& noise);
-  void setRigidBody(const sim::RigidBodySettings& settings);
-  /// Who runs for the robot; all its processes start anew.
-  void setRuntime(RobotId id, const link::RuntimeChoice& choice);
   // One of the separate processes, by ProcessStatus::id.
   void startProcess(int process);
   void stopProcess(int process);
   void restartProcess(int process);
   void killProcess(int process);
-  void setClockRunning(bool running);
-  void resetScore();
 
  signals:
   void failed(const QString& sentence);
   void lockedChanged(bool on);
+  /// Another match is played, and undo brings back the one before: "Match restarted".
+  void replaced(const QString& done);
   /// A robot got another team, number, behaviour, runtime or model: by hand, by undo, or because
   /// the match refused it and it is as before.
   void robotsChanged();
@@ -154,15 +172,14 @@ class MatchEdits : public QObject {
   void placeBall(Point position, Velocity velocity = {});
   void takePhysics(const std::string& name);
   void switchPhysics(const std::string& name);
-  /// `beginning`: how a match began of which `scenario` is a moment.
-  void reopen(const link::Scenario& scenario, const link::Scenario& beginning);
 
   MatchController* m_match;
   QUndoStack* m_undoStack;
   std::map<RobotId, link::ScenarioRobot> m_robots;  // present or about to be
   std::string m_physics;
   bool m_locked = false, m_toldLocked = false;
-  bool m_reopening = false;  // an edit opens a match: what was done before can still be undone
+  bool m_replacing = false;  // an edit opens a match: what was done before can still be undone
+  std::uint32_t m_lastCause = 0;
 };
 
 }  // namespace pitchboard::ui

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include <robotlink/match/moment.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/state_archive.h>
 #include <ui/sources/match_controller.h>
@@ -31,9 +32,22 @@ class MatchMemory : public QObject {
   explicit MatchMemory(MatchController* match);
   ~MatchMemory() override;
 
-  // The controller: another match is being made, or there is none.
-  void begin();
+  /// What of a match can be kept while another one is played.
+  struct Kept {
+    std::shared_ptr<MatchRows> rows;
+    std::shared_ptr<link::MatchSampler> sampler;
+    std::shared_ptr<link::StateArchive> archive;
+    std::shared_ptr<link::DrawingMemory> drawings;
+  };
+
+  // The controller: another match is being made, or one comes back with what was kept of it, or
+  // there is none.
+  void begin(Kept kept);
   void forget();
+  const Kept& kept() const { return m_kept; }
+  /// Emits `continuedWithout` when processes of the robots begin anew at this moment. `where` they
+  /// run.
+  void tellWhatIsLost(const link::Moment& moment, link::Cognition where);
   /// What has to watch the match from its first tick, for its rows and states.
   std::vector<std::shared_ptr<link::TickObserver>> observers() const;
 
@@ -47,7 +61,7 @@ class MatchMemory : public QObject {
   void setSampling(int everyNth);
   int sampling() const { return m_everyNth; }
   /// Of the match that is open: whoever wants its rows is added to it, on the match's thread.
-  std::shared_ptr<link::MatchSampler> sampler() const { return m_sampler; }
+  std::shared_ptr<link::MatchSampler> sampler() const { return m_kept.sampler; }
   /// Where other blackboards of this computer are sampled to: others after the controller's
   /// `restarted`; null while there is no match.
   std::shared_ptr<telemetry::RowSink> rowsBeside() const;
@@ -55,7 +69,7 @@ class MatchMemory : public QObject {
   std::function<double()> timeBeside() const;
   /// The exact states of the recent past; another one after `restarted`, null while there is no
   /// match.
-  std::shared_ptr<const link::StateArchive> archive() const { return m_archive; }
+  std::shared_ptr<const link::StateArchive> archive() const { return m_kept.archive; }
   /// What programs have drawn in the recent past; as archive().
   std::shared_ptr<const link::LiveHistory> drawn() const;
   /// Puts the match back to this moment (s) exactly, with what the processes inside it remembered,
@@ -72,10 +86,7 @@ class MatchMemory : public QObject {
   MatchController* m_match;
   std::size_t m_budget = std::size_t{1} << 30;
   int m_everyNth = 1;
-  std::shared_ptr<MatchRows> m_rows;
-  std::shared_ptr<link::MatchSampler> m_sampler;
-  std::shared_ptr<link::StateArchive> m_archive;
-  std::shared_ptr<link::DrawingMemory> m_drawings;
+  Kept m_kept;
   mutable link::DrawingMoments m_drawn;
   mutable std::unique_ptr<link::RecordedFrames> m_past;  // rebuilds frames; made when asked for
 };

@@ -12,7 +12,7 @@ class QMenu;
 
 namespace pitchboard::ui {
 
-/// All of the submenus below, orders first.
+/// All of the submenus below and the referee's (referee_calls.h), orders first.
 void addRobotMenus(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids);
 /// "Order": every action a robot knows, and searching the ball.
 void addOrderMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids);

@@ -28,7 +28,7 @@ QString cardsOf(const link::RefereePlayerView& player) {
 }  // namespace
 
 RefereeModel::Row RefereeModel::rowOf(const link::RefereePlayerView& player,
-                                      const link::RobotReplyView* reply) {
+                                      const link::RobotReplyView* reply) const {
   Row row;
   row.number = player.number;
   row.penalised = !player.penalty.empty();
@@ -38,6 +38,9 @@ RefereeModel::Row RefereeModel::rowOf(const link::RefereePlayerView& player,
       row.penalised ? QString::fromStdString(player.penalty) : QStringLiteral("plays");
   if (row.penalised) row.texts[Left] = durationText(player.secondsLeft);
   row.texts[Cards] = cardsOf(player);
+  if (m_compact && !row.texts[Cards].isEmpty()) {
+    row.texts[State] += QStringLiteral(" · ") + row.texts[Cards];
+  }
   if (reply == nullptr) return row;
   row.offline = reply->age > lateUntil;
   row.texts[Robot] = row.offline              ? QStringLiteral("offline")
@@ -69,8 +72,8 @@ void RefereeModel::update(const link::RefereeTeamView& team,
     rows.push_back(rowOf(player, reply == replies.end() ? nullptr : &*reply));
   }
   // Who sits out is looked for: first in the list.
-  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-    return a.penalised != b.penalised ? a.penalised : a.number < b.number;
+  std::stable_sort(rows.begin(), rows.end(), [this](const Row& a, const Row& b) {
+    return !m_compact && a.penalised != b.penalised ? a.penalised : a.number < b.number;
   });
   const bool same = std::equal(rows.begin(), rows.end(), m_rows.begin(), m_rows.end(),
                                [](const Row& a, const Row& b) { return a.number == b.number; });
@@ -98,6 +101,8 @@ QVariant RefereeModel::data(const QModelIndex& index, int role) const {
   switch (role) {
     case Qt::DisplayRole:
       return row.texts[index.column()];
+    case numberRole:
+      return row.number;
     case Qt::ToolTipRole:
       return index.column() == Robot ? row.tip : row.texts[index.column()];
     case Qt::ForegroundRole:

@@ -8,7 +8,7 @@
 
 #include "referee_model.h"
 
-namespace tst_referee_panel {
+namespace tst_referee_model {
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
@@ -27,7 +27,7 @@ link::RefereeView view() {
 
 }  // namespace
 
-class TestRefereePanel : public QObject {
+class TestRefereeModel : public QObject {
   Q_OBJECT
 
  private slots:
@@ -93,13 +93,18 @@ class TestRefereePanel : public QObject {
     reply.team = 5;
     model.update(view().teams[0], {reply});
     QVERIFY(cell(1, RefereeModel::Robot).isEmpty());
+    // Beside controls rows keep their places, and cards stand with the state.
+    model.setCompact(true);
+    model.update(view().teams[0], {});
+    QCOMPARE(cell(0, RefereeModel::Player), QStringLiteral("1"));
+    QCOMPARE(cell(1, RefereeModel::State), QStringLiteral("pushing · yellow"));
     model.update({}, {});
     QCOMPARE(model.rowCount(), 0);
   }
 };
 
-PITCHBOARD_GUI_TEST(TestRefereePanel)
+PITCHBOARD_GUI_TEST(TestRefereeModel)
 
-}  // namespace tst_referee_panel
+}  // namespace tst_referee_model
 
-#include "tst_referee_panel.moc"
+#include "tst_referee_model.moc"

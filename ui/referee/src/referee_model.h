@@ -15,7 +15,12 @@ class RefereeModel : public QAbstractTableModel {
   Q_OBJECT
  public:
   enum Column { Player, State, Left, Cards, Robot, columns };
+  static constexpr int numberRole = Qt::UserRole;  ///< on the shirt
   using QAbstractTableModel::QAbstractTableModel;
+
+  /// In order of numbers and with the cards beside the state: rows keep their places while somebody
+  /// works with them.
+  void setCompact(bool on) { m_compact = on; }
 
   void update(const link::RefereeTeamView& team, const std::vector<link::RobotReplyView>& replies);
 
@@ -33,8 +38,9 @@ class RefereeModel : public QAbstractTableModel {
     QString tip;
     bool operator==(const Row&) const = default;
   };
-  static Row rowOf(const link::RefereePlayerView& player, const link::RobotReplyView* reply);
+  Row rowOf(const link::RefereePlayerView& player, const link::RobotReplyView* reply) const;
   std::vector<Row> m_rows;
+  bool m_compact = false;
 };
 
 }  // namespace pitchboard::ui

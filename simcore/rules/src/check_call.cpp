@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <simcore/rules/check_call.h>
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+namespace pitchboard::sim {
+namespace {
+
+using Allowed = Result<void>;
+
+tl::unexpected<Error> refused(const std::string& text) {
+  return failure(ErrorCode::Conflict, text);
+}
+
+/// The transitions of REFEREE.md section 1.
+Allowed checkState(const GameState& game, const RefereeRules& rules, PlayState state) {
+  const PlayState from = game.state;
+  const bool shootOut = game.phase == GamePhase::ShootOut;
+  const bool possible = [&] {
+    switch (state) {
+      case PlayState::Initial:
+        return from == PlayState::Finished;
+      case PlayState::Ready:
+        return (from == PlayState::Initial || from == PlayState::Playing) && !shootOut;
+      case PlayState::Set:
+        return from == PlayState::Ready ||
+               (shootOut && (from == PlayState::Initial || from == PlayState::Finished));
+      case PlayState::Playing:
+        return from == PlayState::Set;
+      case PlayState::Finished:
+        return from != PlayState::Initial && from != PlayState::Finished;
+    }
+    return false;
+  }();
+  if (!possible) {
+    return refused("The referee cannot go from " + std::string(wordsOf(from)) + " to " +
+                   std::string(wordsOf(state)) + ".");
+  }
+  if (state == PlayState::Set && from != PlayState::Ready && shootOutDecided(game, rules)) {
+    return refused("The shoot-out is decided.");
+  }
+  return {};
+}
+
+Allowed checkTimeout(const GameState& game, int team) {
+  if (game.state == PlayState::Finished || game.phase == GamePhase::Timeout ||
+      (team >= 0 && game.state == PlayState::Playing)) {
+    return refused("A timeout is taken in INITIAL, READY or SET.");
+  }
+  if (team >= 0 && game.teams[static_cast<std::size_t>(team)].timeouts > 0) {
+    return refused("This team has taken its timeout in this half.");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> checkCall(const GameState& game, const RefereeRules& rules,
+                       std::span<const RobotIdentity> robots, const RefereeCall& call) {
+  const bool needsTeam = call.kind == CallKind::Goal || call.kind == CallKind::SetPlay;
+  if (call.team < GameState::nobody || call.team > 1 || (needsTeam && call.team < 0)) {
+    return failure(ErrorCode::InvalidArgument, "The referee needs one of the two teams for this.");
+  }
+  const auto robot = std::ranges::find(robots, call.robot, &RobotIdentity::id);
+  const GamePlayer* player =
+      robot == robots.end() ? nullptr : game.player(robot->team, robot->number);
+  const bool needsRobot = call.kind == CallKind::Penalise || call.kind == CallKind::Pardon ||
+                          call.kind == CallKind::Card;
+  if (needsRobot && player == nullptr) {
+    return failure(ErrorCode::NotFound, "Robot " + std::to_string(call.robot.value) +
+                                            " plays in neither of the two teams.");
+  }
+  const bool playing = game.state == PlayState::Playing;
+  const bool finished = game.state == PlayState::Finished;
+  switch (call.kind) {
+    case CallKind::State:
+      return checkState(game, rules, call.state);
+    case CallKind::Goal:
+      if (call.value < 0) {
+        if (game.teams[static_cast<std::size_t>(call.team)].score == 0) {
+          return refused("This team has no goal to take back.");
+        }
+      } else if (!playing && !finished) {
+        return refused("A goal counts only in PLAYING or FINISHED.");
+      }
+      return {};
+    case CallKind::SetPlay:
+      if (!playing || game.phase == GamePhase::Timeout) {
+        return refused("Set plays are given in PLAYING only.");
+      }
+      return {};
+    case CallKind::NextStep:
+      if (!game.restart.isTold()) return refused("There is no set play to go on with.");
+      return {};
+    case CallKind::DropBall:
+      if (!playing) return refused("A drop ball is given in PLAYING only.");
+      return {};
+    case CallKind::Penalise:
+      if (call.penalty == PenaltyKind::None) return refused("A penalty needs its reason.");
+      return {};
+    case CallKind::Pardon:
+      if (player->penalty == PenaltyKind::None) {
+        return refused(robot->name() + " is not penalised.");
+      }
+      return {};
+    case CallKind::NextHalf:
+      if (!finished) return refused("The next half follows FINISHED.");
+      return {};
+    case CallKind::ShootOut:
+      if (!finished) return refused("The shoot-out follows FINISHED.");
+      return {};
+    case CallKind::Timeout:
+      return checkTimeout(game, call.team);
+    case CallKind::Stop:
+      if (game.stopped) return refused("Play is stopped already.");
+      return {};
+    case CallKind::GoOn:
+      if (!game.stopped) return refused("Play is not stopped.");
+      return {};
+    case CallKind::KickOff:
+    case CallKind::Card:
+    case CallKind::Automatic:
+      return {};
+  }
+  return {};
+}
+
+bool shootOutDecided(const GameState& game, const RefereeRules& rules) {
+  const auto scored = [&game](std::size_t team) {
+    return std::popcount(static_cast<unsigned>(game.teams[team].singleShots));
+  };
+  const int shots = rules.shots;
+  const int taken0 = game.teams[0].penaltyShots, taken1 = game.teams[1].penaltyShots;
+  const int lead = scored(0) - scored(1);
+  if (taken0 < shots || taken1 < shots) {
+    return lead > std::max(0, shots - taken1) || -lead > std::max(0, shots - taken0);
+  }
+  // As many each and one is ahead; without end it is a draw after fifteen each, as bits go.
+  return taken0 == taken1 && (lead != 0 || taken0 >= 15);
+}
+
+}  // namespace pitchboard::sim

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the status line says in Live: values made by hand, no network.
+
+#include <QtTest>
+#include <cmath>
+
+#include <ui/live/live_status.h>
+
+namespace tst_live_status {
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+namespace {
+
+link::RobotFrame robot(int number, int sender, double age) {
+  link::RobotFrame made;
+  made.key = {1, number, sender};
+  made.identity.number = number;
+  made.name = "B" + std::to_string(number);
+  made.link.emplace();
+  made.link->timedOut = age > 10;
+  return made;
+}
+
+}  // namespace
+
+class TestLiveStatus : public QObject {
+  Q_OBJECT
+ private slots:
+  // Looked at five times a second, in the rhythm of the window and not of the referee.
+  void twoASecondReadsTwo() {
+    LiveStatus status;
+    link::LiveDetails details;
+    link::MatchFrame frame;
+    frame.referee.emplace().version = 12;
+    for (int i = 0; i < 100; ++i) {
+      const double seconds = i * 0.2;
+      details.referee.shown = static_cast<std::uint64_t>(seconds * 2.0 + 0.3);
+      details.team.datagrams = static_cast<std::uint64_t>(seconds * 6.0);
+      const LiveStatusText text = status.update(details, &frame, seconds);
+      if (seconds < 6.0) continue;
+      const auto near = [](const QString& words, const QString& before, double wanted) {
+        if (!words.startsWith(before)) return false;
+        const double said = words.mid(before.size()).section(QLatin1Char('/'), 0, 0).toDouble();
+        return std::abs(said - wanted) < 0.25;
+      };
+      QVERIFY2(near(text.referee, QStringLiteral("Referee v12, "), 2.0), qPrintable(text.referee));
+      QVERIFY2(near(text.network, QStringLiteral("UDP "), 6.0), qPrintable(text.network));
+    }
+  }
+
+  void aCounterThatBeganAnewIsNoRate() {
+    RateWindow rate;
+    rate.look(0.0, 1000);
+    rate.look(1.0, 1010);
+    QCOMPARE(rate.look(2.0, 0), 0.0);
+    QCOMPARE(rate.look(3.0, 4), 4.0);
+  }
+
+  void aNumberThatAnotherProgramSendsIsNotMissed() {
+    LiveStatus status;
+    link::MatchFrame frame;
+    frame.robots = {robot(3, 0, 60.0), robot(3, 1, 0.1)};
+    QVERIFY2(status.update({}, &frame, 0.0).trouble.isEmpty(),
+             qPrintable(status.update({}, &frame, 0.0).trouble));
+    frame.robots.pop_back();
+    QVERIFY(status.update({}, &frame, 1.0).trouble.startsWith("B3 has not been heard"));
+  }
+};
+
+PITCHBOARD_GUI_TEST(TestLiveStatus)
+
+}  // namespace tst_live_status
+
+#include "tst_live_status.moc"

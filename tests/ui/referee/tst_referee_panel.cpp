@@ -1,0 +1,610 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A person referees a simulated match: buttons, keys, undo, the scoreboard, formations.
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QTableView>
+#include <QTemporaryDir>
+#include <QToolButton>
+#include <QUndoStack>
+#include <QtTest>
+
+#include <robotlink/scenario/scenario.h>
+#include <robotlink/session/match_recorder.h>
+#include <ui/base/scoreboard_state.h>
+#include <ui/base/theme.h>
+#include <ui/referee/referee_panel.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
+#include <ui/sources/match_memory.h>
+#include <ui/sources/referee_calls.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
+
+#include "next_steps.h"
+#include "referee_model.h"
+
+namespace tst_referee_panel {
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+namespace {
+
+/// A paused match whose referee is a person, and the dock.
+struct Desk {
+  Desk() : controller(link::MatchOptions{}) {
+    QObject::connect(&controller, &MatchController::errorOccurred, &controller,
+                     [this](const QString& sentence) { errors << sentence; });
+    link::Scenario scenario = link::loadScenario("match").value();
+    scenario.settings.referee->automatic = false;
+    for (auto& robot : scenario.robots) robot.behaviour = "none";
+    dock.reset(makeRefereePanel({&controller, &source, &timeline}, nullptr));
+    dock->resize(416, 900);
+    dock->show();
+    controller.open(scenario, true);
+  }
+  const link::MatchFrame& frame() const { return *controller.frame(); }
+  QString state() const {
+    const FramePtr frame = controller.frame();
+    return frame && frame->referee ? QString::fromStdString(frame->referee->state) : QString();
+  }
+  QPushButton* button(const char* name) const {
+    return dock->findChild<QPushButton*>(QString("referee ") + QString::fromUtf8(name));
+  }
+  /// Once the button is there and may be pressed.
+  void press(const char* name) {
+    QTRY_VERIFY2(button(name) && button(name)->isEnabled(), name);
+    QTest::mouseClick(button(name), Qt::LeftButton);
+  }
+  void reach(const char* wanted) {
+    for (const char* next : {"READY", "SET", "PLAYING"}) {
+      press(next);
+      QTRY_COMPARE(state(), QString(next));
+      if (QString(next) == QString(wanted)) return;
+    }
+  }
+  QTableView* players(bool right = false) const {
+    return dock->findChild<QTableView*>(right ? "refereeRightPlayers" : "refereeLeftPlayers");
+  }
+  void choose(int row, bool right = false) {
+    QTRY_VERIFY(players(right)->model()->rowCount() > row);
+    players(right)->selectRow(row);
+  }
+  QString says(int row, int column = RefereeModel::State, bool right = false) const {
+    return players(right)->model()->index(row, column).data().toString();
+  }
+  void openFold() const {
+    auto* fold = dock->findChild<QToolButton*>("refereeFold");
+    if (!fold->isChecked()) fold->click();
+  }
+  QUndoStack* undo() { return controller.edits()->undoStack(); }
+
+  MatchController controller;
+  SourceSwitch source{&controller};
+  Timeline timeline{&source};
+  std::unique_ptr<QWidget> dock;
+  QStringList errors;
+};
+
+void sameScoreboard(const link::MatchFrame& now, const link::MatchFrame& past) {
+  QCOMPARE(past.origin, link::FrameOrigin::Recorded);
+  QVERIFY(past.referee.has_value());
+  const ScoreboardState was = scoreboardOf(now), seen = scoreboardOf(past);
+  QVERIFY(!was.penalties.isEmpty());
+  QCOMPARE(seen.penalties, was.penalties);
+  QCOMPARE(seen.clock, was.clock);
+  QCOMPARE(seen.left, 0);
+  QCOMPARE(seen.right, 1);
+  QCOMPARE(seen.leftName, was.leftName);
+  QCOMPARE(past.referee->state, now.referee->state);
+  QCOMPARE(past.referee->kickOffTeam, now.referee->kickOffTeam);
+  QCOMPARE(past.referee->secondaryTime, now.referee->secondaryTime);
+  QCOMPARE(past.referee->version, now.referee->version);
+  for (std::size_t side = 0; side < 2; ++side) {
+    QCOMPARE(past.referee->teams[side].players.size(), now.referee->teams[side].players.size());
+    QCOMPARE(past.referee->teams[side].playersLeft, now.referee->teams[side].playersLeft);
+  }
+}
+
+}  // namespace
+
+class TestRefereePanel : public QObject {
+  Q_OBJECT
+ private slots:
+  void statesByButtonsAndUndo() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.reach("PLAYING");
+    desk.undo()->undo();
+    QTRY_COMPARE(desk.state(), QString("SET"));
+    desk.undo()->redo();
+    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    QVERIFY(desk.errors.isEmpty());
+    auto* log = desk.dock->findChild<QTableView*>("refereeLog");
+    desk.controller.stepOnce();
+    QTRY_VERIFY(log->model()->rowCount() > 0);
+    const QAbstractItemModel* lines = log->model();
+    QTRY_VERIFY(lines->index(lines->rowCount() - 1, 1).data().toString().contains("PLAYING"));
+  }
+
+  void aRefusedCallIsNoStep() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.reach("PLAYING");
+    QTRY_COMPARE(desk.undo()->count(), 3);
+    callReferee(desk.controller.edits(),
+                {.kind = sim::CallKind::State, .state = sim::PlayState::Set}, "SET");
+    QTRY_COMPARE(desk.errors.size(), 1);
+    QVERIFY2(desk.errors[0].contains("from PLAYING to SET"), qPrintable(desk.errors[0]));
+    QCOMPARE(desk.state(), QString("PLAYING"));
+    QCOMPARE(desk.undo()->count(), 3);
+    // One of several that is refused: nobody is penalised, and there is no step.
+    callReferee(desk.controller.edits(), {.kind = sim::CallKind::Pardon},
+                {desk.frame().robots[0].slot(), desk.frame().robots[1].slot()}, "pardon");
+    QTRY_COMPARE(desk.errors.size(), 2);
+    QCOMPARE(desk.undo()->count(), 3);
+  }
+
+  // Gone from the timeline and the panel's log; a redo brings it back.
+  void anUndoneGoalIsGone_data() {
+    QTest::addColumn<bool>("played");
+    QTest::newRow("told before it is undone") << true;
+    QTest::newRow("undone before it is told") << false;
+  }
+  void anUndoneGoalIsGone() {
+    QFETCH(bool, played);
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.reach("PLAYING");
+    desk.controller.stepOnce();
+    const auto count = [&desk](link::MatchEventKind kind) {
+      return std::ranges::count(desk.timeline.events()->events(), kind, &link::MatchEvent::kind);
+    };
+    QTRY_COMPARE(count(link::MatchEventKind::GameState), 3);
+    desk.press("Goal left");
+    QTRY_COMPARE(desk.state(), QString("READY"));
+    QTRY_COMPARE(desk.undo()->count(), 4);
+    if (played) {
+      desk.controller.stepOnce();
+      QTRY_COMPARE(count(link::MatchEventKind::Goal), 1);
+      QCOMPARE(count(link::MatchEventKind::GameState), 4);
+    }
+    QSignalSpy told(&desk.controller, &MatchController::eventsReceived);
+    desk.undo()->undo();
+    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    desk.controller.stepOnce();
+    QTRY_VERIFY(!told.empty());
+    QTRY_COMPARE(count(link::MatchEventKind::Goal), 0);
+    QCOMPARE(count(link::MatchEventKind::GameState), 3);
+    QCOMPARE(count(link::MatchEventKind::Undone), 0);
+    desk.undo()->redo();
+    QTRY_COMPARE(desk.state(), QString("READY"));
+    desk.controller.stepOnce();
+    QTRY_COMPARE(count(link::MatchEventKind::Goal), 1);
+  }
+
+  // In every state: what can be pressed is what the match would do, and the rest says why not.
+  void onlyLegalCallsCanBePressed_data() {
+    QTest::addColumn<int>("steps");
+    QTest::addColumn<QString>("state");
+    QTest::addRow("INITIAL") << 0 << "INITIAL";
+    QTest::addRow("READY") << 1 << "READY";
+    QTest::addRow("SET") << 2 << "SET";
+    QTest::addRow("PLAYING") << 3 << "PLAYING";
+    QTest::addRow("stopped") << 4 << "PLAYING";
+    QTest::addRow("corner kick") << 5 << "PLAYING";
+    QTest::addRow("FINISHED") << 6 << "FINISHED";
+    QTest::addRow("timeout") << 7 << "INITIAL";
+  }
+  void onlyLegalCallsCanBePressed() {
+    QFETCH(int, steps);
+    QFETCH(QString, state);
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    using sim::CallKind;
+    using sim::PlayState;
+    const auto call = [&desk](const sim::RefereeCall& made) {
+      callReferee(desk.controller.edits(), made, "call");
+    };
+    if (steps == 7) call({.kind = CallKind::Timeout, .team = 0});
+    const PlayState states[] = {PlayState::Ready, PlayState::Set, PlayState::Playing};
+    for (int i = 0; i < std::min(steps, 3) && steps < 7; ++i) {
+      call({.kind = CallKind::State, .state = states[i]});
+    }
+    if (steps == 4) call({.kind = CallKind::Stop});
+    if (steps == 5) {
+      call({.kind = CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::CornerKick});
+    }
+    if (steps == 6) call({.kind = CallKind::State, .state = PlayState::Finished});
+    QTRY_COMPARE(desk.state(), state);
+    desk.controller.settle();
+    desk.choose(1);
+    QTRY_VERIFY(desk.button("Penalise")->isEnabled());
+    QTest::qWait(150);  // the panel looks ten times a second
+    const auto is = [&desk](const char* name, const sim::RefereeCall& made) {
+      const QString why = whyRefused(&desk.frame(), made);
+      QPushButton* one = desk.button(name);
+      QVERIFY2(one, name);
+      QVERIFY2(one->isEnabled() == why.isEmpty(), name);
+      QVERIFY2(!one->toolTip().isEmpty(), name);
+      if (!why.isEmpty()) QCOMPARE(one->toolTip(), why);
+    };
+    for (int side = 0; side < 2; ++side) {
+      const int team = side;  // blue defends the left goal
+      const QString at = side == 0 ? "left" : "right";
+      is(qPrintable("Goal " + at), {.kind = CallKind::Goal, .team = team, .value = 1});
+      is((QStringLiteral("−1 ") + at).toUtf8(),
+         {.kind = CallKind::Goal, .team = team, .value = -1});
+      is(qPrintable("Kick-off " + at), {.kind = CallKind::KickOff, .team = team});
+      is(qPrintable("Timeout " + at), {.kind = CallKind::Timeout, .team = team});
+    }
+    is("Give", {.kind = CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::DirectFreeKick});
+    is("Next step", {.kind = CallKind::NextStep});
+    const RobotId robot = desk.frame().robots[1].slot();
+    is("Penalise",
+       {.kind = CallKind::Penalise, .robot = robot, .penalty = sim::PenaltyKind::Incapable});
+    is("Pardon", {.kind = CallKind::Pardon, .robot = robot});
+    const auto offered = nextSteps(*desk.frame().desk);
+    QVERIFY(!offered.empty() && offered.size() <= 3);
+    for (const NextStep& step : offered) {
+      QPushButton* one = desk.dock->findChild<QPushButton*>("referee " + step.text);
+      QVERIFY2(one && one->isVisible() && one->isEnabled(), qPrintable(step.text));
+      if (step.call)
+        QVERIFY2(whyRefused(&desk.frame(), *step.call).isEmpty(), qPrintable(step.text));
+    }
+    QVERIFY(desk.errors.isEmpty());
+  }
+
+  void aGoalAndTheScoreboard() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.reach("PLAYING");
+    desk.controller.edits()->moveBall({}, {2.0, 1.0});
+    desk.press("Goal left");
+    QTRY_COMPARE(desk.state(), QString("READY"));
+    QTRY_COMPARE(scoreboardOf(desk.frame()).left, 1);
+    QCOMPARE(desk.frame().snapshot.ball, (Point{0, 0}));
+    QTRY_COMPARE(desk.undo()->count(), 5);
+    desk.undo()->undo();
+    QTRY_COMPARE(scoreboardOf(desk.frame()).left, 0);
+    QTRY_COMPARE(desk.frame().snapshot.ball, (Point{2.0, 1.0}));
+    QCOMPARE(desk.state(), QString("PLAYING"));
+  }
+
+  void aPenaltyOfAChosenRobot() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.choose(1);
+    desk.press("Penalise");
+    QTRY_COMPARE(desk.says(1), QString("pickup or incapable"));
+    QTRY_COMPARE(desk.says(1, RefereeModel::Left), QString("30 s"));
+    QCOMPARE(scoreboardOf(desk.frame()).penalties, QString("B2 30"));
+    QTRY_COMPARE(desk.undo()->count(), 1);
+    desk.undo()->undo();
+    QTRY_COMPARE(desk.says(1), QString("plays"));
+  }
+
+  void cardsAndSubstitutes() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    const auto show = [&desk](const char* card) {
+      auto* menu = desk.dock->findChild<QToolButton*>("refereeCard");
+      QTRY_VERIFY(menu->isEnabled());
+      for (QAction* action : menu->menu()->actions()) {
+        if (action->text() == card) action->trigger();
+      }
+    };
+    desk.choose(2);
+    show("Warning");
+    QTRY_COMPARE(desk.says(2), QString("plays · warning"));
+    show("Yellow card");
+    QTRY_COMPARE(desk.says(2), QString("plays · warning, yellow"));
+    show("Red card");
+    QTRY_COMPARE(desk.says(2), QString("sent off · warning, yellow, red"));
+    QTRY_COMPARE(desk.undo()->count(), 3);
+    desk.undo()->undo();
+    QTRY_COMPARE(desk.says(2), QString("plays · warning, yellow"));
+    // Two at once are one step.
+    const int before = desk.undo()->index();
+    desk.players()->clearSelection();
+    desk.choose(0);
+    desk.choose(1, true);
+    desk.press("Take off");
+    QTRY_VERIFY2(desk.says(0) == "substitute", qPrintable(desk.errors.join('\n')));
+    QTRY_COMPARE(desk.says(1, RefereeModel::State, true), QString("substitute"));
+    QTRY_COMPARE(desk.undo()->index(), before + 1);
+    QCOMPARE(desk.says(2), QString("plays · warning, yellow"));
+    desk.press("Pardon");
+    QTRY_COMPARE(desk.says(0), QString("plays"));
+    QTRY_COMPARE(desk.says(1, RefereeModel::State, true), QString("plays"));
+    QVERIFY(desk.errors.isEmpty());
+  }
+
+  void theBallGoesWhereTheRefereeWants() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.openFold();
+    auto* x = desk.dock->findChild<QDoubleSpinBox*>("refereeBallX");
+    auto* y = desk.dock->findChild<QDoubleSpinBox*>("refereeBallY");
+    x->selectAll();
+    QTest::keyClicks(x, "1,5");  // a comma is understood
+    y->selectAll();
+    QTest::keyClicks(y, "-2");
+    desk.press("Place");
+    QTRY_COMPARE(desk.frame().snapshot.ball, (Point{1.5, -2.0}));
+    desk.press("To centre");
+    QTRY_COMPARE(desk.frame().snapshot.ball, (Point{0, 0}));
+    desk.controller.edits()->undoStack()->undo();
+    QTRY_COMPARE(desk.frame().snapshot.ball, (Point{1.5, -2.0}));
+  }
+
+  // Every call that has a key, by its key, in the order of a match.
+  void everyStateByItsKey() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.dock->activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(desk.dock.get()));
+    const auto press = [&desk](Qt::Key key) {
+      QTest::keyClick(desk.dock.get(), key, Qt::ControlModifier | Qt::AltModifier);
+    };
+    const auto says = [&desk](const char* setPlay) {
+      return desk.frame().referee->setPlay == setPlay;
+    };
+    press(Qt::Key_3);  // blue kicks off
+    press(Qt::Key_R);
+    QTRY_COMPARE(desk.state(), QString("READY"));
+    press(Qt::Key_S);
+    QTRY_COMPARE(desk.state(), QString("SET"));
+    press(Qt::Key_P);
+    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    press(Qt::Key_X);
+    QTRY_VERIFY(desk.frame().referee->stopped);
+    press(Qt::Key_G);
+    QTRY_VERIFY(!desk.frame().referee->stopped);
+    press(Qt::Key_K);
+    QTRY_VERIFY(says("direct free kick"));
+    for (int step = 0; step < 3; ++step) press(Qt::Key_N);
+    QTRY_VERIFY(says(""));
+    press(Qt::Key_D);
+    QTRY_COMPARE(desk.state(), QString("READY"));
+    press(Qt::Key_S);
+    press(Qt::Key_P);
+    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    press(Qt::Key_2);
+    QTRY_COMPARE(desk.frame().snapshot.score.right, 1);
+    press(Qt::Key_S);
+    press(Qt::Key_P);
+    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    press(Qt::Key_F);
+    QTRY_COMPARE(desk.state(), QString("FINISHED"));
+    press(Qt::Key_I);
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    QVERIFY(!desk.frame().referee->firstHalf);
+    QVERIFY2(desk.errors.isEmpty(), qPrintable(desk.errors.join('\n')));
+  }
+
+  void aFormationComesWithItsSetPlay() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.reach("PLAYING");
+    desk.openFold();
+    auto* formation = desk.dock->findChild<QComboBox*>("refereeFormation");
+    formation->setCurrentIndex(formation->findText("Corner kick"));
+    auto* with = desk.dock->findChild<QCheckBox*>("refereeAsSetPlay");
+    QTest::mouseClick(with, Qt::LeftButton, {}, QPoint(8, with->height() / 2));
+    QVERIFY(with->isChecked());
+    QTRY_COMPARE(desk.undo()->count(), 3);
+    const int before = desk.undo()->count();
+    for (QPushButton* load : desk.dock->findChildren<QPushButton*>()) {
+      if (load->text() == "Right attacks") QTest::mouseClick(load, Qt::LeftButton);
+    }
+    QTRY_COMPARE(desk.frame().referee->setPlay, std::string("corner kick"));
+    QCOMPARE(desk.frame().referee->performingTeam, desk.frame().referee->teams[1].number);
+    QTRY_COMPARE(desk.undo()->count(), before + 1);
+    desk.undo()->undo();
+    QTRY_COMPARE(desk.frame().referee->setPlay, std::string());
+    QVERIFY(desk.errors.isEmpty());
+  }
+
+  // What was shown is shown again when a person looks back, and from a recording.
+  void thePastShowsTheScoreboard() {
+    QTemporaryDir folder;
+    const std::string path = folder.filePath("refereed.mcap").toStdString();
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    const auto recorder =
+        link::MatchRecorder::create(path, desk.controller.scenario(), desk.controller.catalog(),
+                                    desk.controller.memory()->sampler(), {})
+            .value();
+    desk.controller.observe(recorder);
+    desk.reach("PLAYING");
+    desk.choose(1);
+    desk.press("Penalise");
+    desk.press("Goal right");
+    QTRY_COMPARE(desk.frame().snapshot.score.right, 1);
+    desk.controller.stepOnce();
+    QTRY_VERIFY(desk.frame().snapshot.tick > 0);
+    const FramePtr now = desk.controller.frame();
+    FramePtr past;
+    QTRY_VERIFY((past = desk.controller.frameAt(now->snapshot.time)));
+    sameScoreboard(*now, *past);
+    if (QTest::currentTestFailed()) return;
+
+    desk.controller.stopObserving(recorder);
+    QVERIFY(recorder->finish());
+    ReplayController replay;
+    QSignalSpy opened(&replay, &ReplayController::opened);
+    replay.open(QString::fromStdString(path));
+    QTRY_COMPARE(opened.count(), 1);
+    FramePtr replayed;
+    QTRY_VERIFY((replayed = replay.frameAt(now->snapshot.time)));
+    sameScoreboard(*now, *replayed);
+  }
+
+  void formationsAreOneStep() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    const auto before = desk.frame().robots;
+    desk.openFold();
+    auto* formation = desk.dock->findChild<QComboBox*>("refereeFormation");
+    auto loads = desk.dock->findChildren<QPushButton*>();
+    for (int i = 0; i < formation->count(); ++i) {
+      formation->setCurrentIndex(i);
+      for (QPushButton* load : loads) {
+        if (load->text() == "Left attacks") QTest::mouseClick(load, Qt::LeftButton);
+      }
+      QTRY_COMPARE(desk.undo()->count(), 1);
+      QTRY_VERIFY(desk.frame().robots[1].pose != before[1].pose);
+      for (const link::RobotFrame& a : desk.frame().robots) {
+        for (const link::RobotFrame& b : desk.frame().robots) {
+          if (a.key == b.key) continue;
+          QVERIFY2(distance(a.pose.position, b.pose.position) > 0.27,
+                   qPrintable(formation->currentText()));
+        }
+        QVERIFY(distance(a.pose.position, desk.frame().snapshot.ball) > 0.2);
+      }
+      desk.controller.edits()->undoStack()->undo();
+      QTRY_COMPARE(desk.frame().robots[1].pose, before[1].pose);
+      desk.controller.edits()->undoStack()->clear();
+    }
+  }
+
+  void rulesCanBeChosen() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    auto* rules = desk.dock->findChild<QComboBox*>("refereeRules");
+    QTRY_COMPARE(rules->currentData().toString(), QString("humanoid-2021"));
+    rules->setCurrentIndex(0);
+    emit rules->activated(0);
+    QTRY_VERIFY(!desk.frame().referee);
+    QTRY_VERIFY(!desk.button("READY")->isVisible());
+    QVERIFY(rules->isVisible());  // without a referee the fold is open
+    rules->setCurrentIndex(3);
+    emit rules->activated(3);
+    QTRY_VERIFY(desk.frame().referee.has_value());
+    QTRY_COMPARE(desk.frame().refereeRules, std::string("humanoid-soccer-2026"));
+  }
+
+  void otherRulesAreUndone_data() {
+    QTest::addColumn<int>("rules");
+    QTest::newRow("no referee") << 0;
+    QTest::newRow("2026") << 3;
+  }
+  void otherRulesAreUndone() {
+    QFETCH(int, rules);
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.reach("PLAYING");
+    desk.press("Goal right");
+    QTRY_COMPARE(desk.state(), QString("READY"));
+    desk.press("SET");
+    desk.press("PLAYING");
+    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    QTRY_COMPARE(scoreboardOf(desk.frame()).right, 1);
+    desk.choose(0);
+    desk.press("Penalise");
+    QTRY_VERIFY(desk.frame().robots[0].penalty.has_value());
+    desk.controller.runTo(90);
+    QTRY_COMPARE(desk.frame().snapshot.tick, std::uint64_t(90));
+    const std::uint64_t hash = desk.controller.stateHash();
+    const link::MatchFrame before = desk.frame();
+    QUndoStack* stack = desk.controller.edits()->undoStack();
+    const int steps = stack->count();
+
+    auto* box = desk.dock->findChild<QComboBox*>("refereeRules");
+    const std::string name = box->itemData(rules).toString().toStdString();
+    box->setCurrentIndex(rules);
+    emit box->activated(rules);
+    QTRY_COMPARE(desk.frame().refereeRules, rules == 0 ? std::string() : name);
+    if (rules != 0) QCOMPARE(scoreboardOf(desk.frame()).right, 0);
+    QTRY_COMPARE(stack->count(), steps + 1);
+    stack->undo();
+    QTRY_COMPARE(desk.frame().refereeRules, std::string("humanoid-2021"));
+    QCOMPARE(desk.controller.stateHash(), hash);
+    QCOMPARE(scoreboardOf(desk.frame()).clock, scoreboardOf(before).clock);
+    QCOMPARE(scoreboardOf(desk.frame()).penalties, scoreboardOf(before).penalties);
+    stack->redo();
+    QTRY_COMPARE(desk.frame().refereeRules, rules == 0 ? std::string() : name);
+    stack->undo();
+    QTRY_COMPARE(desk.controller.stateHash(), hash);
+    // What was done before it can still be undone.
+    stack->undo();
+    QTRY_VERIFY(!desk.frame().robots[0].penalty.has_value());
+    QVERIFY(desk.errors.isEmpty());
+  }
+
+  void whoCallsIsUndone() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    auto* automatic = desk.dock->findChild<QCheckBox*>("refereeAutomatic");
+    QVERIFY(!automatic->isChecked());
+    QTRY_VERIFY(automatic->isEnabled());
+    automatic->click();
+    QTRY_VERIFY(desk.frame().desk->rules.automatic);
+    QTRY_COMPARE(desk.undo()->count(), 1);
+    desk.undo()->undo();
+    QTRY_VERIFY(!desk.frame().desk->rules.automatic);
+    QTRY_VERIFY(!automatic->isChecked());
+  }
+
+  void whoIsPenalisedIsLeftOutOfAFormation() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.openFold();
+    desk.choose(1);
+    desk.press("Penalise");
+    QTRY_VERIFY(desk.frame().robots[1].penalty.has_value());
+    const auto before = desk.frame().robots;
+    auto* says = desk.dock->findChild<QLabel*>("refereeStaysOff");
+    QTRY_COMPARE(says->text(), QString("B2 is penalised and stays off the field."));
+    for (QPushButton* load : desk.dock->findChildren<QPushButton*>()) {
+      if (load->text() == "Left attacks") QTest::mouseClick(load, Qt::LeftButton);
+    }
+    QTRY_VERIFY(desk.frame().robots[2].pose != before[2].pose);
+    QCOMPARE(desk.frame().robots[1].pose, before[1].pose);
+  }
+
+  void theLogEndsAtTheMomentShown() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.press("READY");
+    QTRY_COMPARE(desk.state(), QString("READY"));
+    desk.controller.runTo(60);
+    QTRY_COMPARE(desk.frame().snapshot.tick, std::uint64_t(60));
+    desk.press("SET");
+    QTRY_COMPARE(desk.state(), QString("SET"));
+    desk.controller.runTo(120);
+    QTRY_COMPARE(desk.frame().snapshot.tick, std::uint64_t(120));
+    const auto* log = desk.dock->findChild<QTableView*>("refereeLog")->model();
+    QTRY_COMPARE(log->rowCount(), 2);
+    desk.timeline.seek(0.5);
+    QCOMPARE(log->rowCount(), 1);
+    desk.timeline.seek(1.5);
+    QCOMPARE(log->rowCount(), 2);
+    desk.timeline.seek(0.5);
+    desk.timeline.goLive();
+    QCOMPARE(log->rowCount(), 2);
+  }
+
+  // Without scrolling, at the size that the panel has in a window of 1280×800.
+  void theLogIsSeen() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.dock->resize(scaled(nullptr, 416), scaled(nullptr, 500));
+    auto* log = desk.dock->findChild<QTableView*>("refereeLog");
+    QTRY_VERIFY(log->isVisible());
+    QTRY_VERIFY2(log->visibleRegion().boundingRect().height() >= scaled(nullptr, 72),
+                 qPrintable(QString::number(log->visibleRegion().boundingRect().height())));
+  }
+};
+
+PITCHBOARD_GUI_TEST(TestRefereePanel)
+
+}  // namespace tst_referee_panel
+
+#include "tst_referee_panel.moc"

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "next_steps.h"
+
+#include <simcore/rules/check_call.h>
+
+namespace pitchboard::ui {
+namespace {
+
+using sim::CallKind;
+using sim::GamePhase;
+using sim::PlayState;
+
+NextStep toState(PlayState state, const char* text, const char* tip) {
+  return {sim::RefereeCall{.kind = CallKind::State, .state = state}, QString::fromUtf8(text),
+          QString::fromUtf8(tip)};
+}
+
+NextStep calling(CallKind kind, const char* text, const char* tip) {
+  return {sim::RefereeCall{.kind = kind}, QString::fromUtf8(text), QString::fromUtf8(tip)};
+}
+
+NextStep nextOfSetPlay(sim::Restart::Step step) {
+  using Step = sim::Restart::Step;
+  const bool placing = step == Step::Placing, preparing = step == Step::Preparing;
+  return calling(CallKind::NextStep,
+                 placing     ? "Next step: prepare"
+                 : preparing ? "Next step: ready"
+                             : "Next step: ball in play",
+                 placing     ? "The ball is placed; the team that takes it may come"
+                 : preparing ? "The ball may be kicked"
+                             : "Anybody may play the ball");
+}
+
+std::vector<NextStep> afterTheEnd(const sim::GameState& game) {
+  const bool shootOut = game.phase == GamePhase::ShootOut;
+  if (shootOut && !game.over) {
+    return {toState(PlayState::Set, "Next shot", "The next robot places itself")};
+  }
+  if (game.half == 1 && !game.over) {
+    return {calling(CallKind::NextHalf, "Second half", "INITIAL; the teams change sides")};
+  }
+  std::vector<NextStep> steps;
+  if (!shootOut) {
+    steps.push_back(calling(CallKind::NextHalf,
+                            game.phase == GamePhase::ExtraTime ? "Next half" : "Extra time",
+                            "Two shorter halves"));
+    steps.push_back(calling(CallKind::ShootOut, "Penalty shoot-out", "One robot against a keeper"));
+  }
+  steps.push_back({std::nullopt, QStringLiteral("Play again"),
+                   QStringLiteral("Begins the match again; undo brings this one back")});
+  return steps;
+}
+
+}  // namespace
+
+std::vector<NextStep> nextSteps(const link::RefereeDesk& desk) {
+  const sim::GameState& game = desk.game;
+  const bool shootOut = game.phase == GamePhase::ShootOut;
+  std::vector<NextStep> steps;
+  if (game.stopped && game.state != PlayState::Finished) {
+    return {calling(CallKind::GoOn, "Go on", "Play goes on")};
+  }
+  switch (game.state) {
+    case PlayState::Initial:
+      if (shootOut)
+        steps.push_back(toState(PlayState::Set, "Next shot", "The next robot places itself"));
+      else
+        steps.push_back(toState(PlayState::Ready, "READY", "Robots walk to their places"));
+      break;
+    case PlayState::Ready:
+      steps.push_back(toState(PlayState::Set, "SET", "Robots stand"));
+      break;
+    case PlayState::Set:
+      steps.push_back(toState(PlayState::Playing, "PLAYING", "The whistle"));
+      break;
+    case PlayState::Playing:
+      if (game.restart.isTold()) steps.push_back(nextOfSetPlay(game.restart.step));
+      steps.push_back(calling(CallKind::Stop, "Stop", "Play is stopped"));
+      if (!shootOut && !game.restart.isTold()) {
+        steps.push_back(calling(CallKind::DropBall, "Drop ball", "READY, nobody's kick-off"));
+      }
+      steps.push_back(shootOut ? toState(PlayState::Finished, "End the shot", "No goal")
+                               : toState(PlayState::Finished, "End the half", "FINISHED"));
+      break;
+    case PlayState::Finished:
+      steps = afterTheEnd(game);
+      break;
+  }
+  std::erase_if(steps, [&desk](const NextStep& step) {
+    return step.call && !sim::checkCall(desk.game, desk.rules, {}, *step.call);
+  });
+  return steps;
+}
+
+QString playText(const link::RefereeDesk& desk) {
+  const sim::GameState& game = desk.game;
+  using Step = sim::Restart::Step;
+  if (game.setPlay() == sim::SetPlay::None) return {};
+  const std::string_view words = wordsOf(game.setPlay());
+  QString text = QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
+  if (game.setPlayTeam() >= 0) {
+    text += QStringLiteral(" for ") +
+            teamWords(game.teams[static_cast<std::size_t>(game.setPlayTeam())]);
+  }
+  const Step step = game.restart.step;
+  return text + (step == Step::Placing     ? QStringLiteral(", ball is placed")
+                 : step == Step::Preparing ? QStringLiteral(", prepare")
+                                           : QStringLiteral(", ready"));
+}
+
+QString teamWords(const sim::GameTeam& team) {
+  const std::string_view name = info(team.colour).name;
+  return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).toUpper();
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a referee can do next. Pure; any thread.
+
+#include <QString>
+#include <optional>
+#include <vector>
+
+#include <robotlink/frame/match_frame.h>
+#include <simcore/rules/referee.h>
+
+namespace pitchboard::ui {
+
+struct NextStep {
+  std::optional<sim::RefereeCall> call;  ///< nothing: the match is played again
+  QString text, tip;
+};
+
+/// At most three, the usual one first; each is allowed by sim::checkCall().
+std::vector<NextStep> nextSteps(const link::RefereeDesk& desk);
+
+/// "corner kick for BLUE, prepare": what is going on besides the state; empty: nothing.
+QString playText(const link::RefereeDesk& desk);
+
+/// "BLUE".
+QString teamWords(const sim::GameTeam& team);
+
+}  // namespace pitchboard::ui

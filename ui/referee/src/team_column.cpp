@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "team_column.h"
+
+#include <QGridLayout>
+#include <QHeaderView>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include <ui/base/referee_words.h>
+#include <ui/base/table_style.h>
+#include <ui/sources/referee_calls.h>
+
+#include "next_steps.h"
+#include "referee_model.h"
+
+namespace pitchboard::ui {
+
+using sim::CallKind;
+
+TeamColumn::TeamColumn(bool right, Call called, QWidget* parent)
+    : QWidget(parent),
+      m_right(right),
+      m_called(std::move(called)),
+      m_square(new QLabel(this)),
+      m_name(new QLabel(this)),
+      m_score(new QLabel(this)),
+      m_buttons(new QWidget(this)),
+      m_model(new RefereeModel(this)),
+      m_table(new QTableView(this)) {
+  const int gap = scaled(this, 4);
+  m_square->setFixedSize(scaled(this, 10), scaled(this, 10));
+  m_name->setObjectName(right ? QStringLiteral("refereeRight") : QStringLiteral("refereeLeft"));
+  m_name->setFont(themeFont(TypeRole::Body, true));
+  m_name->setMinimumWidth(1);
+  m_score->setFont(themeFont(TypeRole::Score));
+  auto* head = new QHBoxLayout;
+  head->setSpacing(gap);
+  head->addWidget(m_square);
+  head->addWidget(m_name, 1);
+  head->addWidget(m_score);
+  auto* grid = new QGridLayout(m_buttons);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setSpacing(gap);
+  add("Goal", "A goal for this team", {.kind = CallKind::Goal, .value = 1});
+  add("−1", "Takes a goal of this team back", {.kind = CallKind::Goal, .value = -1});
+  add("Kick-off", "This team has the next kick-off", {.kind = CallKind::KickOff});
+  add("Timeout", "In INITIAL, READY and SET", {.kind = CallKind::Timeout});
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(gap);
+  column->addLayout(head);
+  column->addWidget(m_buttons);
+  column->addWidget(m_table, 1);
+
+  m_table->setObjectName(right ? QStringLiteral("refereeRightPlayers")
+                               : QStringLiteral("refereeLeftPlayers"));
+  m_table->setModel(m_model);
+  styleTable(m_table);
+  m_table->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored);
+  m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  m_table->verticalHeader()->setMinimumSectionSize(scaled(this, 18));
+  m_table->verticalHeader()->setDefaultSectionSize(scaled(this, 18));
+  QHeaderView* header = m_table->horizontalHeader();
+  header->setStretchLastSection(false);
+  header->setMinimumSectionSize(scaled(this, 18));
+  header->setSectionResizeMode(QHeaderView::ResizeToContents);
+  header->setSectionResizeMode(RefereeModel::State, QHeaderView::Stretch);
+}
+
+void TeamColumn::add(const char* name, const char* tip, const sim::RefereeCall& call) {
+  const int at = static_cast<int>(m_calls.size());
+  const QString text = QString::fromUtf8(name);
+  auto* button = new QPushButton(text, m_buttons);
+  button->setObjectName(QStringLiteral("referee %1 %2")
+                            .arg(text, m_right ? QStringLiteral("right") : QStringLiteral("left")));
+  button->setMinimumWidth(scaled(this, 40));
+  connect(button, &QPushButton::clicked, this, [this, at, text] {
+    sim::RefereeCall made = m_calls[static_cast<std::size_t>(at)].call;
+    made.team = m_team;
+    m_called(made, made.value < 0 ? QStringLiteral("goal taken back") : text.toLower());
+  });
+  static_cast<QGridLayout*>(m_buttons->layout())->addWidget(button, at / 2, at % 2);
+  m_calls.push_back({button, call, QString::fromUtf8(tip)});
+}
+
+namespace {
+
+/// Everybody whom a person can call, also who is not in the packets: substitutes.
+std::vector<link::RefereePlayerView> playersOf(const link::MatchFrame& frame,
+                                               const sim::GameTeam& team) {
+  std::vector<link::RefereePlayerView> players;
+  for (const link::RobotFrame& robot : frame.robots) {
+    if (robot.identity.team != team.colour) continue;
+    const sim::GamePlayer* one = frame.desk->game.player(team.colour, robot.identity.number);
+    if (one == nullptr) continue;
+    link::RefereePlayerView& player = players.emplace_back();
+    player.number = robot.identity.number;
+    if (one->penalty != sim::PenaltyKind::None) player.penalty = wordsOf(one->penalty);
+    player.secondsLeft = std::max(0, sim::secondsOf(one->ticksLeft, frame.settings->tickRate));
+    player.warnings = one->warnings;
+    player.yellow = one->yellow;
+    player.red = one->red;
+    player.cautions = one->cautions;
+    player.goalkeeper = one->goalkeeper;
+  }
+  return players;
+}
+
+}  // namespace
+
+void TeamColumn::show(const link::MatchFrame& frame, bool refereed) {
+  const link::RefereeView& view = *frame.referee;
+  link::RefereeTeamView team = view.teams[m_right ? 1 : 0];
+  if (frame.desk) {
+    const auto left = static_cast<int>(frame.desk->game.leftTeam());
+    m_team = m_right ? 1 - left : left;
+    if (refereed) {
+      team.players = playersOf(frame, frame.desk->game.teams[static_cast<std::size_t>(m_team)]);
+    }
+  }
+  QColor colour = theme().secondaryText;
+  for (const TeamColorInfo& one : teamColors) {
+    if (team.colour == one.name) colour = theme().team(one.color);
+  }
+  m_square->setStyleSheet(QStringLiteral("background: %1; border-radius: 2px").arg(colour.name()));
+  m_name->setText(!refereed           ? refereeTeamText(team, view.ourTeam)
+                  : team.name.empty() ? QString::fromStdString(team.colour).toUpper()
+                                      : QString::fromStdString(team.name));
+  m_name->setToolTip(refereeTeamText(team, view.ourTeam));
+  m_score->setText(QString::number(team.score));
+  m_score->setVisible(refereed);
+  m_buttons->setVisible(refereed);
+  m_model->setCompact(refereed);
+  m_model->update(team, view.replies);
+  m_table->horizontalHeader()->setVisible(!refereed);
+  m_table->setColumnHidden(RefereeModel::Cards, refereed);
+  // Robots answer the referee, who tells it in monitor mode only.
+  m_table->setColumnHidden(RefereeModel::Robot, refereed || view.replies.empty());
+  // Five rows; more are scrolled to.
+  const int rows = std::clamp(m_model->rowCount(), 2, 5);
+  m_table->setMinimumHeight(rows * m_table->verticalHeader()->defaultSectionSize() +
+                            (refereed ? 2 : m_table->horizontalHeader()->sizeHint().height() + 2));
+}
+
+void TeamColumn::setLocked(const link::MatchFrame* frame, const QString& why) {
+  for (const Button& one : m_calls) {
+    sim::RefereeCall call = one.call;
+    call.team = m_team;
+    const QString reason = why.isEmpty() ? whyRefused(frame, call) : why;
+    one.button->setEnabled(reason.isEmpty());
+    one.button->setToolTip(reason.isEmpty() ? one.tip : reason);
+  }
+}
+
+std::vector<int> TeamColumn::chosen() const {
+  std::vector<int> numbers;
+  for (const QModelIndex& index : m_table->selectionModel()->selectedRows()) {
+    numbers.push_back(index.data(RefereeModel::numberRole).toInt());
+  }
+  return numbers;
+}
+
+}  // namespace pitchboard::ui
