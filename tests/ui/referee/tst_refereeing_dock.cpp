@@ -123,7 +123,7 @@ class TestRefereeingDock : public QObject {
     Desk desk;
     QTRY_COMPARE(desk.state(), QString("INITIAL"));
     auto* robots = desk.dock->findChild<QTableWidget*>("refereeRobots");
-    QTRY_COMPARE(robots->rowCount(), 6);
+    QTRY_COMPARE(robots->rowCount(), 8);
     robots->selectRow(1);
     desk.press("Penalise");
     QTRY_COMPARE(robots->item(1, 1)->text(), QString("pickup or incapable"));
@@ -137,7 +137,7 @@ class TestRefereeingDock : public QObject {
     Desk desk;
     QTRY_COMPARE(desk.state(), QString("INITIAL"));
     auto* robots = desk.dock->findChild<QTableWidget*>("refereeRobots");
-    QTRY_COMPARE(robots->rowCount(), 6);
+    QTRY_COMPARE(robots->rowCount(), 8);
     const auto cards = [robots](int row) { return robots->item(row, 3)->text(); };
     const auto penalty = [robots](int row) { return robots->item(row, 1)->text(); };
     robots->selectRow(2);
