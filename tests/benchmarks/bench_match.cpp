@@ -29,7 +29,7 @@ BENCHMARK_CAPTURE(match, rigid_body_paper_noise, "match-3v3", "paper", true)->Mi
 BENCHMARK_CAPTURE(match, rigid_body_realistic_noise, "match-3v3", "realistic", true)->MinTime(2.0);
 BENCHMARK_CAPTURE(match, soccer_realistic_noise, "match-3v3", "realistic", false)->MinTime(2.0);
 // A whole match: four a side, from kick-off on, with its referee.
-BENCHMARK_CAPTURE(match, whole_4v4_realistic_noise, "match-4v4", "realistic", false)->MinTime(2.0);
+BENCHMARK_CAPTURE(match, whole_4v4_realistic_noise, "match", "realistic", false)->MinTime(2.0);
 BENCHMARK_CAPTURE(match, published_physics, "published-match-3v3", "published", true)->MinTime(2.0);
 
 }  // namespace

@@ -2,7 +2,7 @@
 // Plays whole matches with their referee, from the first READY to the final whistle, and says what
 // went wrong; exit code 1 when something did. Each of the scenarios is played in turn.
 //   whole_matches [COUNT=50] [MINUTES OF A HALF=10] [RULES=humanoid-2021]
-//   [SCENARIOS=match,match-4v4]
+//   [SCENARIOS=match]
 //                 [FIRST SEED=1] [PARTICLES=500] [NOISE=realistic]
 
 #include <chrono>
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   if (!rules) return fail(rules.error());
   if (!*rules) return fail({ErrorCode::InvalidArgument, "these rules have no referee", ""});
   std::vector<std::string> names;
-  std::istringstream list(text(4, "match,match-4v4"));
+  std::istringstream list(text(4, "match"));
   for (std::string name; std::getline(list, name, ',');) names.push_back(name);
   const int first = std::atoi(text(5, "1"));
   link::MatchOptions options;

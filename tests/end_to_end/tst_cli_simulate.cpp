@@ -64,7 +64,7 @@ class TestCliSimulate : public QObject {
     const QJsonObject out = QJsonDocument::fromJson(run.out).object();
     QCOMPARE(out["ticks"].toInt(), 600);
     QCOMPARE(out["finished_by"].toString(), QString("duration"));
-    QCOMPARE(out["robots"].toArray().size(), 6);
+    QCOMPARE(out["robots"].toArray().size(), 8);
     auto scenario = link::loadScenario("match").value();
     scenario.settings.seed = 5;
     auto runner = link::MatchRunner::start(scenario, {}, true).value();

@@ -44,7 +44,7 @@ Scenario wholeMatch(const char* noise, Size size) {
   rules.beforeMatch = rules.beforeHalf = 3;
   rules.readyTime = small ? 20 : 25;
   std::erase_if(scenario.robots, [small](const ScenarioRobot& robot) {
-    return robot.identity.number == 3 || (small && robot.identity.number == 1);
+    return robot.identity.number > 2 || (small && robot.identity.number == 1);
   });
   return scenario;
 }

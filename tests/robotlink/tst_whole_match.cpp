@@ -23,8 +23,8 @@ using namespace pitchboard::link;
 
 namespace {
 
-Scenario shortMatch(const char* rules, const char* name = "match") {
-  Scenario scenario = loadScenario(name).value();
+Scenario shortMatch(const char* rules) {
+  Scenario scenario = loadScenario("match").value();
   scenario.settings.referee = refereeRuleSet(rules).value();
   scenario.settings.referee->halfTime = 60;
   scenario.settings.referee->breakTime = 10;
@@ -100,7 +100,7 @@ class TestWholeMatch : public QObject {
   }
 
   void everybodyIsInItsPlaceAtKickOff() {
-    auto match = make(shortMatch("humanoid-2021", "match-4v4"));
+    auto match = make(shortMatch("humanoid-2021"));
     sim::Snapshot now;
     int touched = 0;
     std::vector<Point> inSet;
@@ -154,7 +154,7 @@ class TestWholeMatch : public QObject {
     QCOMPARE(word(1), refereeSet);
     wait(sim::PlayState::Playing);
     QCOMPARE(word(1), refereePlay);
-    QCOMPARE(word(4), refereeSet);  // blue has the kick-off
+    QCOMPARE(word(5), refereeSet);  // blue has the kick-off
     QVERIFY(match.simulation().call({.kind = sim::CallKind::Penalise,
                                      .robot = RobotId{1},
                                      .penalty = sim::PenaltyKind::Manual}));
@@ -189,7 +189,7 @@ class TestWholeMatch : public QObject {
       if (taken && game.countdown.ticks > 0) ++executed;
       if (game.countdown.ticks > 0 || !taken) {
         QVERIFY(word(1) != refereePlay);
-        if (taken) QCOMPARE(word(4), refereePlay);
+        if (taken) QCOMPARE(word(5), refereePlay);
       }
     }
     QVERIFY(executed > 10);
@@ -219,7 +219,7 @@ class TestWholeMatch : public QObject {
     QCOMPARE(versions[7], versions[9]);
     QCOMPARE(last->state, 1);
     QCOMPARE(*last->secondaryTime, 28);
-    QCOMPARE(last->teams[0].players()[3].penalty, 14);  // nobody wears this shirt
+    QCOMPARE(last->teams[0].players()[4].penalty, 14);  // nobody wears this shirt
   }
 
   void anExternalControllerIsObeyed() {

@@ -2,8 +2,7 @@
 #pragma once
 
 // Plays a match of the reference robots in lock-step and measures it: goals, time in which robots
-// touch, how far their belief is from the truth. Shared by the test and by the program that plays
-// many matches (docs/BEHAVIOURS.md).
+// touch, how far their belief is from the truth. Shared by tests.
 
 #include <algorithm>
 #include <cmath>

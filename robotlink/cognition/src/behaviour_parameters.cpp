@@ -2,6 +2,7 @@
 #include <robotlink/cognition/behaviour_parameters.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include <robotlink/cognition/process_registry.h>
@@ -10,6 +11,11 @@
 
 namespace pitchboard::link {
 namespace {
+
+// What versions up to 0.11 had and wrote: read, and without effect. Robots decide by time now.
+constexpr std::array<std::string_view, 6> formerKeys{
+    "leaves_ball",          "takes_ball",     "supporter_leaves_ball",
+    "supporter_takes_ball", "support_behind", "support_beside"};
 
 BehaviourChoice readBehaviourObject(const JsonNode& node, JsonReport& report,
                                     const std::string& path,
@@ -24,6 +30,7 @@ BehaviourChoice readBehaviourObject(const JsonNode& node, JsonReport& report,
   for (const BehaviourParameter& parameter : behaviourParameters) {
     if (parameter.isOf(choice.name)) keys.emplace_back(parameter.key);
   }
+  keys.insert(keys.end(), formerKeys.begin(), formerKeys.end());
   const JsonObject object(report, node, path, keys);
   for (const BehaviourParameter& parameter : behaviourParameters) {
     if (!parameter.isOf(choice.name) || !object.find(parameter.key)) continue;

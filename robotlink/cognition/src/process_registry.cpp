@@ -22,9 +22,8 @@ constexpr std::array behaviourList{
     NamedBehaviour{
         {"striker", "goes for the ball and the goal, leaves the ball to a nearer team-mate", true},
         makeSoccerDecision<Striker>},
-    NamedBehaviour{
-        {"supporter", "stays near the ball, takes it over when it is clearly nearer", true},
-        makeSoccerDecision<Supporter>},
+    NamedBehaviour{{"supporter", "as a striker, but begins behind it", true},
+                   makeSoccerDecision<Supporter>},
     NamedBehaviour{{"keeper", "stays between the ball and its goal, clears the ball", true},
                    makeSoccerDecision<Keeper>},
     NamedBehaviour{{"idle", "stands", true}, makeSoccerDecision<Idle>},

@@ -33,9 +33,24 @@ enum class TeamValue : std::size_t {
   BeliefErrorEnd,
   Possession,
   Collisions,
-  Penalties
+  Penalties,
+  // Of the match, see MatchWatch.
+  BallAttended,
+  SupportersClose,
+  Passes,
+  PassesOwn,
+  RemovalsTeamHalf,
+  RemovalsAgain,
+  RemovalsPushing,
+  RemovalsIncapable,
+  RemovalsPosition,
+  RemovalsInSet,
+  RemovalsStuck,
+  RemovalsLeaving,
+  LongestStuck,
+  Ready
 };
-inline constexpr std::size_t teamValueCount = 21;
+inline constexpr std::size_t teamValueCount = 35;
 
 enum class RobotValue : std::size_t { Walked, Kicks, BeliefError };
 inline constexpr std::size_t robotValueCount = 3;

@@ -125,7 +125,7 @@ std::vector<Point> PathFollower::points() const {
 
 RunMeasure::RunMeasure(const Experiment& experiment, const RunPlace& run,
                        std::shared_ptr<LatestRows> rows)
-    : m_experiment(experiment), m_run(run), m_rows(std::move(rows)) {}
+    : m_experiment(experiment), m_run(run), m_rows(std::move(rows)), m_watch(experiment.team) {}
 
 void RunMeasure::begin(const SimulatedMatch& match) {
   match.simulation().snapshot(m_now);
@@ -153,6 +153,7 @@ void RunMeasure::begin(const SimulatedMatch& match) {
 
 void RunMeasure::ticked(const SimulatedMatch& match, std::chrono::nanoseconds /*tickTime*/) {
   if (m_robots.empty() && m_samples == 0) begin(match);
+  m_watch.ticked(match.simulation().state(), match.simulation().events());
   if (m_rows->samples() != m_samples) {
     m_samples = m_rows->samples();
     sample(match);
@@ -198,6 +199,7 @@ void RunMeasure::sample(const SimulatedMatch& match) {
   followPaths();
   countCollisions(match.simulation().state());
   followPossession();
+  m_watch.sample(match.simulation().state(), m_now);
 }
 
 void RunMeasure::watchMovement() {
@@ -324,6 +326,34 @@ double RunMeasure::teamValue(TeamValue which, const Sums& sums) const {
       return m_collisions;
     case TeamValue::Penalties:
       return m_penalties;
+    case TeamValue::BallAttended:
+      return m_watch.ballAttended();
+    case TeamValue::SupportersClose:
+      return m_watch.supportersClose();
+    case TeamValue::Passes:
+      return m_watch.passes();
+    case TeamValue::PassesOwn:
+      return m_watch.passesOfTeam();
+    case TeamValue::RemovalsTeamHalf:
+      return m_watch.removalsOfTeamAndHalf();
+    case TeamValue::RemovalsAgain:
+      return m_watch.removedAgain();
+    case TeamValue::RemovalsPushing:
+      return m_watch.removalsFor(sim::PenaltyKind::Pushing);
+    case TeamValue::RemovalsIncapable:
+      return m_watch.removalsFor(sim::PenaltyKind::Incapable);
+    case TeamValue::RemovalsPosition:
+      return m_watch.removalsFor(sim::PenaltyKind::IllegalPosition);
+    case TeamValue::RemovalsInSet:
+      return m_watch.removalsFor(sim::PenaltyKind::MotionInSet);
+    case TeamValue::RemovalsStuck:
+      return m_watch.removalsFor(sim::PenaltyKind::LocalStuck);
+    case TeamValue::RemovalsLeaving:
+      return m_watch.removalsFor(sim::PenaltyKind::Leaving);
+    case TeamValue::LongestStuck:
+      return m_watch.longestStuck();
+    case TeamValue::Ready:
+      return m_watch.ready();
   }
   return unmeasured;
 }

@@ -17,6 +17,7 @@
 #include <telemetry/expression/expression.h>
 
 #include "latest_rows.h"
+#include "match_watch.h"
 #include "run_layout.h"
 
 namespace pitchboard::link {
@@ -135,6 +136,7 @@ class RunMeasure : public TickObserver {
   double m_movedAt = 0.0;
   std::vector<char> m_touching;  // of each pair
   std::vector<PathFollower> m_paths;
+  MatchWatch m_watch;
 };
 
 }  // namespace pitchboard::link

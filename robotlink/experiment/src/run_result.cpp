@@ -37,6 +37,20 @@ constexpr std::array<TeamMetric, teamValueCount> teamTable{{
     {"possession", "", "Share of possession"},
     {"collisions", "", "Collisions"},
     {"penalties", "", "Penalties"},
+    {"ball_attended", "", "Share of the time in play with a robot at the ball"},
+    {"supporters_close", "", "Share of the time in play with supporters in each other's way"},
+    {"passes", "", "Passes of both teams"},
+    {"passes_own", "", "Passes"},
+    {"removals_team_half", "", "Removals of a team in a half"},
+    {"removals_again", "", "Removed again within 30 s"},
+    {"removals_pushing", "", "Removals for pushing"},
+    {"removals_incapable", "", "Removals of fallen robots"},
+    {"removals_position", "", "Removals for an illegal position"},
+    {"removals_in_set", "", "Removals for moving in SET"},
+    {"removals_stuck", "", "Removals from a stuck ball"},
+    {"removals_leaving", "", "Removals for leaving the field"},
+    {"longest_stuck_s", "s", "Longest time that a robot was stuck"},
+    {"ready_s", "s", "A READY"},
 }};
 static_assert(teamTable.back().name != nullptr, "every TeamValue needs its row");
 

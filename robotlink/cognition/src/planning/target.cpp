@@ -61,14 +61,20 @@ void TargetVariables::write(Blackboard& board, const sim::FieldSpec& field,
     put(m_ballX, ball.x);
     put(m_ballY, ball.y);
   }
-  board.write(m_wanted, target.ball ? roundBall : walk);
+  board.write(m_wanted, (target.ball ? roundBall : walk) + (target.forwards ? forwards : none) +
+                            (target.apart ? apart : none));
 }
 
 std::optional<Target> TargetVariables::read(const Blackboard& board,
                                             const sim::FieldSpec& field) const {
-  const int wanted = board.read(m_wanted);
-  if (wanted != walk && wanted != roundBall) return std::nullopt;
+  const int all = board.read(m_wanted);
+  const int wanted = all & (walk | roundBall);
+  if ((wanted != walk && wanted != roundBall) || (all & ~(wanted | forwards | apart)) != 0) {
+    return std::nullopt;
+  }
   Target target;
+  target.forwards = (all & forwards) != 0;
+  target.apart = (all & apart) != 0;
   target.pose = frame::studioFromLocalization(
       field, {value(board, m_x), value(board, m_y), value(board, m_theta)});
   target.near = frame::metresFromCm(value(board, m_near));

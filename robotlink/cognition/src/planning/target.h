@@ -21,6 +21,8 @@ struct Target {
   double near = 0.10;         ///< m, close enough
   double facing = 0.20;       ///< rad, turned well enough
   std::optional<Point> ball;  ///< to keep clear of
+  bool forwards = false;      ///< walks no long way sideways or backwards
+  bool apart = false;         ///< gives other robots more room than it needs
   /// Whether who stands at `pose` is there.
   bool isReached(const Pose& pose) const;
 };
@@ -42,7 +44,8 @@ class TargetVariables {
                  std::span<const Point> points) const;
 
  private:
-  static constexpr int none = 0, walk = 1, roundBall = 2;  // DECISION_TARGET
+  static constexpr int none = 0, walk = 1, roundBall = 2, forwards = 4,
+                       apart = 8;  // DECISION_TARGET
 
   IntVar m_wanted, m_pathPoints;
   FloatVar m_x, m_y, m_theta, m_near, m_facing, m_ballX, m_ballY;

@@ -15,6 +15,7 @@ using std::numbers::pi;
 
 constexpr double planPeriod = 0.2;       // s: 5 Hz
 constexpr double robotClearance = 0.12;  // m between two bodies
+constexpr double roomyClearance = 0.30;  // of who has time
 constexpr double postClearance = 0.06;
 constexpr double ballClearance = 0.08;
 
@@ -36,7 +37,8 @@ double speedOf(const sim::RobotModel& body, const Act& act) {
 
 void Walk::plan(const Surroundings& world, const Target& target) {
   m_obstacles.clear();
-  const double bodies = m_field.robotRadius + m_othersRadius + robotClearance;
+  const double bodies =
+      m_field.robotRadius + m_othersRadius + (target.apart ? roomyClearance : robotClearance);
   for (const Point& robot : world.robots) m_obstacles.push_back({robot, bodies});
   for (const double x : {-m_field.halfLength(), m_field.halfLength()}) {
     for (const double y : {-m_field.goalWidth / 2, m_field.goalWidth / 2}) {
@@ -80,7 +82,9 @@ Act Walk::gaitTowards(const Surroundings& world, const Target& target, double le
   const double turnSpeed = sim::gaitSpeed(m_body, acts::turnLeft.action, 0).turn;
   int best = 0;
   double least = 1e9;
-  for (std::size_t i = 0; i < gaits.size(); ++i) {
+  constexpr double longWay = 0.5;  // m
+  const std::size_t allowed = target.forwards && left > longWay ? 1 : gaits.size();
+  for (std::size_t i = 0; i < allowed; ++i) {
     const double before = wrapToPi(bearing - gaits[i].direction);
     const double after = wrapToPi(facing - before);
     double time =

@@ -4,20 +4,45 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include <base/angles.h>
 #include <base/repeatable_math.h>
 
+#include "soccer/arrival.h"
+#include "soccer/kick_choice.h"
+#include "soccer/roles.h"
+
 namespace pitchboard::link {
+namespace {
+
+/// How far beyond a line it stands, m; negative on the field.
+double beyondLines(const WorldModel& world) {
+  const Point& at = world.pose().position;
+  return std::max(std::abs(at.x) - world.field().halfLength(),
+                  std::abs(at.y) - world.field().halfWidth());
+}
+
+/// The ball lies before the own goal with an opponent near it.
+bool isDangerous(const WorldModel& world, const Point& ball, double within) {
+  constexpr double near = 1.5;  // m
+  return distance(ball, world.ownGoal()) < within &&
+         std::ranges::any_of(world.opponents(), [&](const Point& opponent) {
+           return distance(opponent, ball) < near;
+         });
+}
+
+}  // namespace
+
 Choice Behaviour::choose(const WorldModel& world) {
   if (world.fallen()) return {acts::stop, Intention::None, {}, false};  // control gets it up
   switch (world.referee()) {
     case Referee::Play:
-      return play(world);
+      return comesBack(world) ? enter(world) : play(world);
     case Referee::Ready:
       if (world.localized()) {
+        if (world.setPlay() != sim::SetPlay::None) return waitForSetPlay(world);
         Choice choice = goTo(world, kickOff(world), atKickOff());
+        if (auto* target = std::get_if<Target>(&choice.move)) target->forwards = true;
         choice.search = true;
         return choice;
       }
@@ -30,8 +55,56 @@ Choice Behaviour::choose(const WorldModel& world) {
       break;
   }
   m_search.restart();
+  comesBack(world);
   // Standing, it still looks where the ball is.
   return {acts::stop, Intention::Idle, {}, true};
+}
+
+/// Stood beside the field while it had to stand, as whoever serves a penalty does, and is not on it
+/// yet.
+bool Behaviour::comesBack(const WorldModel& world) {
+  constexpr double outside = 0.2, inside = -0.1;  // m
+  if (!world.localized()) return false;
+  const double beyond = beyondLines(world);
+  if (world.referee() != Referee::Play) {
+    m_comesBack = beyond > outside;
+  } else if (beyond < inside) {
+    m_comesBack = false;
+  }
+  return m_comesBack;
+}
+
+/// Who comes back from a penalty walks in first: straight, as it was put facing the field.
+Choice Behaviour::enter(const WorldModel& world) {
+  const sim::FieldSpec& field = world.field();
+  constexpr double inside = 0.6;  // m
+  const Point at = world.pose().position;
+  const double x = field.halfLength() - inside, y = field.halfWidth() - inside;
+  const Point place{std::clamp(at.x, -x, x), std::clamp(at.y, -y, y)};
+  Choice choice = goTo(world, {place, direction(at, place)}, Intention::Walk);
+  choice.search = true;
+  return choice;
+}
+
+/// The other team has the ball: away from it, to where it is needed next.
+Choice Behaviour::waitForSetPlay(const WorldModel& world) {
+  Choice choice = play(world);
+  const auto ball = world.ball();
+  constexpr double room = 1.1;  // m, more than any rule asks for
+  const Point at = world.pose().position;
+  if (!ball) return {acts::stop, choice.intention, {}, true};
+  if (distance(at, *ball) < room) {
+    // Towards the own goal, out of its way.
+    const double away = direction(*ball, world.ownGoal());
+    const auto [s, c] = repeatable::sinCos(away);
+    const Point place{ball->x + 1.3 * room * c, ball->y + 1.3 * room * s};
+    Choice back = goTo(world, {place, direction(place, *ball)}, Intention::Support);
+    back.search = true;
+    return back;
+  }
+  const Target* target = std::get_if<Target>(&choice.move);
+  if (target && distance(target->pose.position, *ball) > room) return choice;
+  return {acts::stop, choice.intention, {}, true};
 }
 
 Choice Behaviour::goTo(const WorldModel& world, const Pose& pose, Intention intention,
@@ -44,11 +117,19 @@ Choice Behaviour::lookForBall(const WorldModel& world) {
   return {m_search.step(world), Intention::Search, {}, true};
 }
 
+/// `ball`: where it will lie.
 Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
   if (world.seesBall()) {
     m_told = world.now();
     m_search.restart();
-    return {m_attack.step(world, aimFrom(world, ball)), Intention::Ball, ball, false};
+    constexpr double rolls = 0.6;  // m: it is met where it stops
+    const Point here = world.toField(world.ballInFront());
+    if (distance(here, ball) > rolls && distance(world.pose().position, here) > rolls) {
+      const auto target = walkTo(world, {ball, direction(ball, here)}, 0.3, 0.5, Ball::KeepClear);
+      return {target ? Move(*target) : acts::gait, Intention::Ball, ball, false};
+    }
+    const bool clears = isDangerous(world, here, m_numbers.clearDanger);
+    return {m_attack.step(world, aimFrom(world, here), clears), Intention::Ball, here, false};
   }
   // Seen by a team-mate or remembered. If it is not there, it is looked for.
   if (!world.localized()) return lookForBall(world);
@@ -60,31 +141,70 @@ Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
   return {target ? Move(*target) : acts::turnRight, Intention::Ball, ball, true};
 }
 
-bool Striker::takesBall(const WorldModel& world, const Point& ball) const {
-  // Who has it keeps it: two that swap for every centimetre reach nothing.
-  return !mateIsFirst(world, ball, m_attacking ? m_numbers.leavesBall : -m_numbers.takesBall);
+/// Who has it keeps it for a while: two that swap for every centimetre reach nothing.
+bool Behaviour::takesBall(const WorldModel& world, const Point& ball, bool has) const {
+  const double own = secondsToBall(world, ball);
+  const double away = distance(world.pose().position, ball);
+  for (const auto& mate : world.mates()) {
+    if (!mate || !mate->takesPart()) continue;
+    const bool goes = mate->intention == Intention::Ball;
+    const double its = secondsToBallFrom(world, mate->position, ball);
+    if (has) {
+      if (goes && its < own - m_numbers.leavesAfter) return false;
+    } else if (goes) {
+      if (own > its - m_numbers.takesAfter) return false;
+    } else if (mate->intention != Intention::Keep &&
+               distance(mate->position, ball) + wayRound(mate->position, ball) <
+                   away + wayRound(world.pose().position, ball)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 Choice Striker::play(const WorldModel& world) {
-  const auto ball = world.ball();
+  const auto ball = world.ballStops();
   if (!ball) {
     m_attacking = false;
     return lookForBall(world);
   }
-  m_attacking = !world.localized() || takesBall(world, *ball);
-  if (m_attacking) return toBall(world, *ball);
-  m_search.restart();
-  return goTo(world, supportPose(world, *ball), Intention::Support, 0.25);
+  m_attacking = !world.localized() || takesBall(world, *ball, m_attacking);
+  if (!m_attacking) {
+    m_search.restart();
+    return support(world, *ball);
+  }
+  m_place.reset();
+  return toBall(world, *ball);
 }
 
-Pose Striker::supportPose(const WorldModel& world, const Point& ball) const {
-  const sim::FieldSpec& field = world.field();
-  const double side = world.pose().position.y > ball.y ? 1.0 : -1.0;
-  const double beside = m_numbers.supportBeside * side;
-  Point place{ball.x - m_numbers.supportBehind, ball.y + beside};
-  if (std::abs(place.y) > field.halfWidth() - 0.4) place.y = ball.y - beside;
-  place.x = std::clamp(place.x, -field.halfLength() + 1.2, field.halfLength() - 1.0);
-  return {place, direction(place, ball)};
+Choice Striker::support(const WorldModel& world, const Point& ball) {
+  constexpr double middle = 0.5;  // m: there neither side has more room
+  if (std::abs(ball.y) > middle) m_side = ball.y > 0.0 ? -1.0 : 1.0;
+  std::vector<Point> robots{world.pose().position};
+  for (const auto& mate : world.mates()) {
+    if (mate && mate->takesPart() && mate->intention == Intention::Support)
+      robots.push_back(mate->position);
+  }
+  const double passRange = std::min(2.0, kickRange(world, acts::passLeft));
+  std::vector<Point> places;
+  for (const Placing& placing :
+       placingsFor(world.field(), ball, m_side, passRange, robots.size())) {
+    places.push_back(placing.place);
+  }
+  // It keeps its place a little longer than the ways alone say, unless a team-mate is nearer to it:
+  // two that both keep the same one would meet there.
+  const auto isNearer = [&](const Point& other) {
+    return distance(other, places[*m_place]) < distance(robots.front(), places[*m_place]);
+  };
+  if (m_place &&
+      (*m_place >= places.size() || std::any_of(robots.begin() + 1, robots.end(), isNearer))) {
+    m_place.reset();
+  }
+  m_place = placeOf(robots, places, m_place);
+  const Point& place = places[*m_place];
+  Choice choice = goTo(world, {place, direction(place, ball)}, Intention::Support, 0.25);
+  if (auto* target = std::get_if<Target>(&choice.move)) target->apart = true;
+  return choice;
 }
 
 Pose Striker::kickOff(const WorldModel& world) {
@@ -96,22 +216,32 @@ Pose Striker::kickOff(const WorldModel& world) {
 /// places on the way.
 Pose Supporter::kickOff(const WorldModel& world) {
   constexpr double forgets = 5.0, settles = 1.0;  // s; until all have told that they support
-  const double x = -0.25 * world.field().length, y = 0.22 * world.field().width;
-  const std::array<Point, mostTeamMates + 1> places{{{x, y}, {x, -y}, {x, 0.0}, {x - 1.0, 0.0}}};
-  const auto supporters = std::ranges::count_if(world.mates(), [](const auto& mate) {
-    return mate && mate->intention == Intention::Support;
-  });
+  std::vector<Point> robots{world.pose().position};
+  for (const auto& mate : world.mates()) {
+    if (mate && mate->intention == Intention::Support) robots.push_back(mate->position);
+  }
+  // Of a large team three tell what they do; of the others only the places are known.
+  constexpr std::size_t tells = mostTeamMates;
+  const auto supporters = std::ssize(robots) - 1;
+  if (world.matePlaces().size() > tells) {
+    robots.insert(robots.end(), world.matePlaces().begin(), world.matePlaces().end());
+    robots.erase(robots.begin() + 1, robots.begin() + 1 + supporters);
+  }
+  std::vector<Point> places = kickOffPlaces(world.field());
+  // Two take the sides.
+  places.resize(std::min(places.size(), std::max<std::size_t>(2, robots.size())));
+  robots.resize(std::min(places.size(), robots.size()));
   if (world.now() - m_placeAsked > forgets || supporters != m_supporters) {
     m_placeBegan = world.now();
     m_supporters = supporters;
   }
-  if (world.now() - m_placeBegan < settles) {
-    m_place = freePlace(world, places);
-  } else if (mateHolds(world, places[m_place])) {
-    m_place = nearestNotHeld(world, {places.data(), placesFor(m_supporters)}, m_place);
+  if (world.now() - m_placeBegan < settles || m_kickOffPlace >= places.size()) {
+    m_kickOffPlace = placeOf(robots, places);
+  } else if (mateHolds(world, places[m_kickOffPlace])) {
+    m_kickOffPlace = nearestNotHeld(world, places, m_kickOffPlace);
   }
   m_placeAsked = world.now();
-  return {besideStanding(world, places[m_place]), 0.0};
+  return {besideStanding(world, places[m_kickOffPlace]), 0.0};
 }
 
 /// Who does not take part stays where it is: beside it, not against it.
@@ -129,11 +259,6 @@ Point Supporter::besideStanding(const WorldModel& world, Point place) {
     place = {mate->position.x + least * to.x, mate->position.y + least * to.y};
   }
   return place;
-}
-
-/// As many places as supporters; two take the sides.
-std::size_t Supporter::placesFor(std::ptrdiff_t mates) {
-  return std::max<std::size_t>(2, static_cast<std::size_t>(mates) + 1);
 }
 
 /// Two whose beliefs differed chose the same place: who is there later gives way.
@@ -163,56 +288,32 @@ std::size_t Supporter::nearestNotHeld(const WorldModel& world, std::span<const P
   return nearest;
 }
 
-std::size_t Supporter::freePlace(const WorldModel& world, std::span<const Point> places) {
-  std::vector<Point> supporters{world.pose().position};  // this robot first
-  for (const auto& mate : world.mates()) {
-    if (mate && mate->intention == Intention::Support) supporters.push_back(mate->position);
-  }
-  std::vector<std::size_t> free(placesFor(std::ssize(supporters) - 1));
-  std::iota(free.begin(), free.end(), std::size_t{0});
-  std::vector<bool> placed(supporters.size(), false);
-  while (true) {
-    std::size_t who = 0, where = 0;
-    double least = 1e9;
-    for (std::size_t s = 0; s < supporters.size(); ++s) {
-      for (std::size_t f = 0; f < free.size() && !placed[s]; ++f) {
-        const double way = distance(supporters[s], places[free[f]]);
-        // Two of the same way: the one on the left first, whoever asks.
-        const bool nearer =
-            way < least - 1e-9 || (way < least + 1e-9 && supporters[s].y > supporters[who].y);
-        if (!nearer) continue;
-        who = s;
-        where = f;
-        least = way;
-      }
-    }
-    if (who == 0) return free[where];
-    placed[who] = true;
-    free.erase(free.begin() + static_cast<std::ptrdiff_t>(where));
-  }
-}
-
-bool Supporter::takesBall(const WorldModel& world, const Point& ball) const {
-  const double own = distance(world.pose().position, ball);
-  bool somebodyAttacks = false;
-  double nearest = 1e9;
-  for (const auto& mate : world.mates()) {
-    if (!mate || !mate->active || mate->intention == Intention::Keep) continue;
-    somebodyAttacks = somebodyAttacks || mate->intention == Intention::Ball;
-    if (mate->intention == Intention::Ball)
-      nearest = std::min(nearest, distance(mate->position, ball));
-  }
-  if (!somebodyAttacks) return true;
-  return own <
-         nearest - (m_attacking ? m_numbers.supporterLeavesBall : m_numbers.supporterTakesBall);
-}
-
 Pose Keeper::kickOff(const WorldModel& world) {
   return {{-world.field().halfLength() + 0.45, 0.0}, 0.0};
 }
 
+/// To one that is near, and to one farther out when nobody is there sooner.
+bool Keeper::goesForBall(const WorldModel& world, const Point& ball) const {
+  constexpr double surely = 1.0;  // s
+  const double fromGoal = distance(ball, world.ownGoal());
+  const double clearUntil = std::max(m_numbers.clearUntil, m_numbers.clearWithin);
+  if (!world.seesBall()) return false;
+  const double own = secondsToBall(world, ball) + (m_clearing ? -surely : surely);
+  double others = 1e9;
+  for (const auto& mate : world.mates()) {
+    if (mate && mate->takesPart())
+      others = std::min(others, secondsToBallFrom(world, mate->position, ball));
+  }
+  const bool mateIsFirst = others < own;
+  for (const Point& opponent : world.opponents()) {
+    others = std::min(others, secondsFrom(world, opponent, ball));
+  }
+  const double near = m_clearing ? clearUntil : m_numbers.clearWithin;
+  return (fromGoal < near && !mateIsFirst) || (fromGoal < m_numbers.keeperOut && own < others);
+}
+
 Choice Keeper::play(const WorldModel& world) {
-  const auto ball = world.ball();
+  const auto ball = world.ballStops();
   if (!world.localized() || !ball) {
     m_clearing = false;
     if (world.localized() && distance(world.pose().position, kickOff(world).position) > 0.4) {
@@ -223,10 +324,7 @@ Choice Keeper::play(const WorldModel& world) {
     // Looks about without leaving the goal.
     return {acts::gait, Intention::Keep, {}, true};
   }
-  const double clearUntil = std::max(m_numbers.clearUntil, m_numbers.clearWithin);
-  const double fromGoal = distance(*ball, world.ownGoal());
-  m_clearing = world.seesBall() && fromGoal < (m_clearing ? clearUntil : m_numbers.clearWithin) &&
-               !mateIsFirst(world, *ball, 0.5);
+  m_clearing = goesForBall(world, *ball);
   if (m_clearing) {
     Choice choice = toBall(world, *ball);
     choice.intention = Intention::Ball;

@@ -41,15 +41,21 @@ class Behaviour {
  protected:
   Choice goTo(const WorldModel& world, const Pose& pose, Intention intention, double near = 0.15);
   Choice toBall(const WorldModel& world, const Point& ball);
+  bool takesBall(const WorldModel& world, const Point& ball, bool has) const;
   Choice lookForBall(const WorldModel& world);
+  bool comesBack(const WorldModel& world);
+  Choice enter(const WorldModel& world);
+  Choice waitForSetPlay(const WorldModel& world);
 
   const BehaviourParameters m_numbers;
   Search m_search;
   Attack m_attack;
+  bool m_comesBack = false;
   double m_told = -1e9;  // when the ball was last where it was said to be
 };
 
-/// Goes for the ball and the goal; leaves the ball to a team-mate that is there first.
+/// Goes for the ball when nobody of its team is there sooner; else takes one of the places of those
+/// who support.
 class Striker : public Behaviour {
  public:
   using Behaviour::Behaviour;
@@ -57,13 +63,14 @@ class Striker : public Behaviour {
   Choice play(const WorldModel& world) override;
   Pose kickOff(const WorldModel& world) override;
 
- protected:
-  Pose supportPose(const WorldModel& world, const Point& ball) const;
-  virtual bool takesBall(const WorldModel& world, const Point& ball) const;
+ private:
+  Choice support(const WorldModel& world, const Point& ball);
   bool m_attacking = false;
+  double m_side = 1.0;                 // of the ball with more room
+  std::optional<std::size_t> m_place;  // of those who support
 };
 
-/// Stays behind and beside the ball; goes for it when it is there clearly before its team-mates.
+/// As a striker; begins behind it, in a place of its own.
 class Supporter : public Striker {
  public:
   using Striker::Striker;
@@ -71,22 +78,18 @@ class Supporter : public Striker {
   Pose kickOff(const WorldModel& world) override;
   Intention atKickOff() const override { return Intention::Support; }
 
- protected:
-  bool takesBall(const WorldModel& world, const Point& ball) const override;
-
  private:
-  static std::size_t placesFor(std::ptrdiff_t mates);
-  static std::size_t freePlace(const WorldModel& world, std::span<const Point> places);
   static bool mateHolds(const WorldModel& world, const Point& place);
   static std::size_t nearestNotHeld(const WorldModel& world, std::span<const Point> places,
                                     std::size_t otherwise);
   static Point besideStanding(const WorldModel& world, Point place);
-  std::size_t m_place = 0;                          // for the kick-off
+  std::size_t m_kickOffPlace = 0;
   std::ptrdiff_t m_supporters = 0;                  // beside this one
   double m_placeAsked = -1e9, m_placeBegan = -1e9;  // s
 };
 
-/// Stays between the ball and its own goal; clears the ball when it comes near.
+/// Stays between the ball and its own goal; clears the ball when it comes near, and comes out when
+/// nobody is there sooner.
 class Keeper : public Behaviour {
  public:
   using Behaviour::Behaviour;
@@ -96,6 +99,7 @@ class Keeper : public Behaviour {
   Intention atKickOff() const override { return Intention::Keep; }
 
  private:
+  bool goesForBall(const WorldModel& world, const Point& ball) const;
   bool m_clearing = false;
 };
 

@@ -9,42 +9,40 @@
 #include <base/angles.h>
 #include <base/repeatable_math.h>
 
+#include "soccer/arrival.h"
+#include "soccer/kick_choice.h"
+
 namespace pitchboard::link {
 namespace {
 
 using acts::turn;
 using std::numbers::pi;
 
-/// From where a robot sees all of the field between them.
-std::array<Point, 5> searchPlaces(const sim::FieldSpec& field) {
+/// Where the rules put the ball of a set play that is the own team's, or from where a robot sees
+/// all of the field between them.
+std::vector<Point> searchPlaces(const WorldModel& world) {
+  const sim::FieldSpec& field = world.field();
+  const double l = field.halfLength(), w = field.halfWidth();
+  const double areaX = l - field.goalAreaLength, areaY = field.goalAreaWidth / 2;
+  if (world.setPlayIsOurs()) {
+    switch (world.setPlay()) {
+      case sim::SetPlay::GoalKick:
+        // The league's rules of 2021 put it on the halfway line, others at the area's corner.
+        return {{0, w}, {0, -w}, {-areaX, areaY}, {-areaX, -areaY}};
+      case sim::SetPlay::CornerKick:
+        return {{l, w}, {l, -w}};
+      case sim::SetPlay::PenaltyKick:
+        return {{l - field.penaltyMarkDistance, 0}};
+      case sim::SetPlay::ThrowIn: {
+        const Point& last = world.ballLastSeen();
+        return {{std::clamp(last.x, -l, l), last.y > 0.0 ? w : -w}};
+      }
+      default:
+        break;
+    }
+  }
   const double x = 0.28 * field.length, y = 0.22 * field.width;
-  return {{{0, 0}, {x, y}, {x, -y}, {-x, -y}, {-x, y}}};
-}
-
-/// How far the ball rolls that this kick hits, m.
-double kickRange(const WorldModel& world, const Act& kick, const sim::BallAtFeet& ball) {
-  const sim::FieldSpec& field = world.field();
-  return sim::rollingDistance(field.surface,
-                              sim::kickSpeed(world.body(), field.robotRadius, kick.action, ball));
-}
-
-/// Whether a ball that rolls so far along the robot's heading stays on the field or goes into the
-/// opponents' goal.
-bool staysIn(const WorldModel& world, const Point& ball, double range) {
-  const sim::FieldSpec& field = world.field();
-  const auto [s, c] = repeatable::sinCos(world.pose().yaw);
-  const double toLine = field.halfLength() - ball.x;
-  const bool shot = c > 0.0 && toLine < range * c;
-  const double way = shot ? toLine / c : range;
-  const double y = std::abs(ball.y + way * s);
-  if (shot) return y < field.goalWidth / 2 - field.goalPostRadius - field.ballRadius;
-  return y < field.halfWidth() && ball.x + way * c > -field.halfLength();
-}
-
-/// m/s
-double forwardSpeed(const WorldModel& world) {
-  return std::max(0.01,
-                  sim::gaitSpeed(world.body(), acts::forward.action, acts::forward.b).forward);
+  return {{0, 0}, {x, y}, {x, -y}, {-x, -y}, {-x, y}};
 }
 
 }  // namespace
@@ -73,10 +71,17 @@ void Search::begin(const WorldModel& world) {
   m_since = world.now();
   m_lost.reset();
   m_first = 0;
-  if (world.ballAge() > clue) return;
-  m_lost = world.ballLastSeen();
-  m_patience = 10.0 + 1.5 * distance(world.pose().position, *m_lost) / forwardSpeed(world);
-  const auto places = searchPlaces(world.field());
+  const bool placed = world.setPlayIsOurs() && world.setPlay() != sim::SetPlay::None;
+  if (world.ballAge() > clue && !placed) return;
+  if (placed) {
+    const auto all = searchPlaces(world);
+    m_lost = *std::ranges::min_element(
+        all, {}, [&world](const Point& place) { return distance(place, world.ballLastSeen()); });
+  } else {
+    m_lost = world.ballLastSeen();
+  }
+  m_patience = 10.0 + 1.5 * distance(world.pose().position, *m_lost) / walkingSpeed(world);
+  const auto places = searchPlaces(world);
   const auto nearest = std::ranges::min_element(places, [this](const Point& a, const Point& b) {
     return distance(a, *m_lost) < distance(b, *m_lost);
   });
@@ -98,13 +103,14 @@ Move Search::walk(const WorldModel& world, double time) {
     m_since = world.now() - m_numbers->headTime;  // looks about there
     return acts::turnRight;
   }
-  const auto places = searchPlaces(world.field());
+  const auto places = searchPlaces(world);
   const auto i = (m_first + static_cast<std::size_t>(time / placeTime)) % places.size();
   if (const auto target = walkThere(places[i])) return *target;
   return acts::turnRight;
 }
 
-Move Attack::step(const WorldModel& world, const Point& aim) {
+Move Attack::step(const WorldModel& world, const Point& aim, bool clears) {
+  m_clears = clears;
   const Point local = world.ballInFront();
   const Point ball = world.toField(local);
   const double yaw = world.pose().yaw;
@@ -113,6 +119,7 @@ Move Attack::step(const WorldModel& world, const Point& aim) {
       world.localized() ? wrapToPi(direction(ball, aim) - yaw) : wrapToPi(-world.imuYaw());
   const double d = world.ballDistance(), bearing = world.ballBearing();
   const double goalDistance = distance(ball, aim);
+  m_held = heldFor(world, ball);
   const double goodEnough = tolerance(world, ball, goalDistance);
 
   // All distances of BehaviourParameters are beyond that at which the body touches the ball.
@@ -136,8 +143,7 @@ Move Attack::step(const WorldModel& world, const Point& aim) {
 /// How far from the aim is good enough.
 double Attack::tolerance(const WorldModel& world, const Point& ball, double goalDistance) const {
   // From where a kick does not reach the goal.
-  const double far =
-      std::max(3.0, kickRange(world, acts::kickRight, {kicksFrom(world), 0.0}));  // m
+  const double far = std::max(3.0, kickRange(world, acts::kickRight));  // m
   const double opening = repeatable::atan2(0.35 * world.field().goalWidth, goalDistance);
   double enough = goalDistance > far ? m_numbers->aimFar : opening;
   enough = std::min(std::max(enough, m_numbers->aimLeast), m_numbers->aimMost);
@@ -147,7 +153,20 @@ double Attack::tolerance(const WorldModel& world, const Point& ball, double goal
       enough = std::max(enough, m_numbers->aimPressed);
     }
   }
-  return enough;
+  // Who has stood there long takes what there is.
+  constexpr double most = pi / 3;
+  const double half = 0.5 * m_numbers->atBallTime;
+  const double share = std::clamp((m_held - half) / half, 0.0, 1.0);
+  return std::max(enough, share * most);
+}
+
+double Attack::heldFor(const WorldModel& world, const Point& ball) {
+  constexpr double away = 0.4;  // m that the ball has got away
+  if (distance(ball, m_heldAt) > away || world.ballDistance() > world.touch() + away) {
+    m_heldAt = ball;
+    m_heldSince = world.now();
+  }
+  return world.now() - m_heldSince;
 }
 
 /// From where this robot's foot hits the ball surely, m between the centres.
@@ -162,6 +181,9 @@ Act Attack::atBall(const WorldModel& world, double error, double tolerance) {
   const double d = world.ballDistance(), bearing = world.ballBearing();
   if (std::abs(error) < 0.6 * tolerance) m_aligned = true;
   if (std::abs(error) > tolerance) m_aligned = false;
+  if (d < kicksFrom(world) && world.ballAge() < 0.3) {
+    if (const auto kicks = kick(world)) return *kicks;
+  }
   if (!m_aligned) {
     if (std::abs(bearing) > 0.45) return turn(bearing);
     if (d > world.touch() + 0.2) return acts::forwardSlow;
@@ -171,25 +193,25 @@ Act Attack::atBall(const WorldModel& world, double error, double tolerance) {
   if (std::abs(bearing) > m_numbers->kickBearing) {
     return world.ballInFront().y > 0.0 ? acts::sidleLeft : acts::sidleRight;
   }
-  const bool ownWay = std::abs(world.localized() ? world.pose().yaw : world.imuYaw()) > 1.7;
-  if (d < kicksFrom(world) && world.ballAge() < 0.3 && !ownWay) {
-    return kick(world);
-  }
-  return d > world.touch() + m_numbers->slowWithin ? acts::forward : acts::forwardSlow;
+  return acts::forward;
 }
 
-/// With the foot on the ball's side; weakly where a strong kick would send the ball off the field.
-Act Attack::kick(const WorldModel& world) {
-  constexpr double alwaysStrong = 3.0;  // m: a ball that rolls no farther is kicked with all force
-  const sim::BallAtFeet ball{world.ballDistance(), world.ballBearing()};
-  const bool right = ball.bearing <= 0.0;
+/// With the foot on the ball's side, where it is aligned and a ball that is kicked rolls no farther
+/// than it can follow; else what is best.
+std::optional<Act> Attack::kick(const WorldModel& world) const {
+  constexpr double follows = 1.0;  // m
+  const bool right = world.ballBearing() <= 0.0;
   const Act strong = right ? acts::kickRight : acts::kickLeft;
-  const double range = kickRange(world, strong, ball);
-  if (range <= alwaysStrong || !world.localized() ||
-      staysIn(world, world.toField(world.ballInFront()), range)) {
-    return strong;
+  const bool ownWay = std::abs(world.localized() ? world.pose().yaw : world.imuYaw()) > 1.7;
+  if (kickRange(world, strong) <= follows) {
+    const bool placed = m_aligned && std::abs(world.ballBearing()) <= m_numbers->kickBearing;
+    return placed && !ownWay ? std::optional(strong) : std::nullopt;
   }
-  return right ? acts::weakKickRight : acts::weakKickLeft;
+  if (!world.localized()) return std::nullopt;
+  const KickSituation situation{world.toField(world.ballInFront()), m_clears,
+                                m_held > m_numbers->atBallTime};
+  const auto best = chooseKick(world, *m_numbers, situation);
+  return best ? std::optional(best->act) : std::nullopt;
 }
 
 Point aimFrom(const WorldModel& world, const Point& ball) {
@@ -203,30 +225,42 @@ Point aimFrom(const WorldModel& world, const Point& ball) {
   const bool onTheLine =
       ball.x > field.halfLength() - close && std::abs(ball.y) < field.goalWidth / 2;
   const double depth = onTheLine ? 2 * close : 0.0;
-  for (int i = -2; i <= 2; ++i) {
-    const Point aim{field.halfLength() + depth, i * 0.16 * field.goalWidth};
-    const double way = direction(ball, aim);
-    double cost = 0.3 * std::abs(i) + std::abs(wrapToPi(way - heading));
+  const auto inTheWay = [&](double way) {
+    double cost = 0.0;
     for (const Point& opponent : opponents) {
       const double d = distance(ball, opponent);
       const double off = std::abs(wrapToPi(direction(ball, opponent) - way));
       if (d > 0.3 && d < 2.0 && off < 0.5) cost += 2.0 * (0.5 - off);
     }
+    return cost;
+  };
+  // Far from it, past whoever stands in the way.
+  constexpr double far = 4.5;  // m
+  if (distance(ball, world.opponentGoal()) > far) {
+    const double straight = direction(ball, world.opponentGoal());
+    for (int i = -2; i <= 2; ++i) {
+      const double way = straight + 0.4 * i;
+      const auto [s, c] = repeatable::sinCos(way);
+      const Point aim{ball.x + 2.0 * c, ball.y + 2.0 * s};
+      const bool inside = std::abs(aim.y) < field.halfWidth() - 0.4;
+      const double cost = 0.15 * std::abs(i) + 0.3 * std::abs(wrapToPi(way - heading)) +
+                          inTheWay(way) + (inside ? 0.0 : 1.0);
+      if (cost >= least) continue;
+      least = cost;
+      best = aim;
+    }
+    return best;
+  }
+  for (int i = -2; i <= 2; ++i) {
+    const Point aim{field.halfLength() + depth, i * 0.16 * field.goalWidth};
+    const double way = direction(ball, aim);
+    const double cost = 0.3 * std::abs(i) + std::abs(wrapToPi(way - heading)) + inTheWay(way);
     if (cost < least) {
       least = cost;
       best = aim;
     }
   }
   return best;
-}
-
-bool mateIsFirst(const WorldModel& world, const Point& ball, double advantage) {
-  const double own = distance(world.pose().position, ball) - advantage;
-  for (const auto& mate : world.mates()) {
-    if (!mate || !mate->active || mate->intention != Intention::Ball) continue;
-    if (distance(mate->position, ball) < own) return true;
-  }
-  return false;
 }
 
 }  // namespace pitchboard::link

@@ -44,30 +44,32 @@ class Search {
 };
 
 /// Brings the ball towards a point: approaches a place behind it, turns round it until the robot
-/// looks where the ball is to go, walks up to it (which dribbles it) and kicks with the foot on the
-/// ball's side, so strongly as the surface and the lines allow. Never kicks towards its own goal.
+/// looks where the ball is to go, and walks on with it at its feet. Kicks when a kick is worth more
+/// than that (kick_choice.h), never towards its own goal.
 class Attack {
  public:
   explicit Attack(const BehaviourParameters& numbers)
       : m_numbers(std::make_shared<const BehaviourParameters>(numbers)) {}
-  Move step(const WorldModel& world, const Point& aim);
+  /// `clears`: the ball must go, wherever to.
+  Move step(const WorldModel& world, const Point& aim, bool clears);
 
  private:
   double tolerance(const WorldModel& world, const Point& ball, double goalDistance) const;
   double kicksFrom(const WorldModel& world) const;
   Act atBall(const WorldModel& world, double error, double tolerance);
-  static Act kick(const WorldModel& world);
+  std::optional<Act> kick(const WorldModel& world) const;
+  double heldFor(const WorldModel& world, const Point& ball);
   std::shared_ptr<const BehaviourParameters> m_numbers;  // of its copies, too
   bool m_engaged = false;
   bool m_aligned = false;
+  bool m_clears = false;
+  double m_held = 0.0;        // s, how long the ball has not got away from here
+  double m_heldSince = -1e9;  // s
+  Point m_heldAt;
 };
 
-/// Where the ball should go: the part of the goal that seen opponents cover least; out to the side
-/// while it lies in front of the own goal.
+/// Where the ball should go: the part of the goal that seen opponents cover least; from farther
+/// away past those who stand in the way; out to the side while it lies in front of the own goal.
 Point aimFrom(const WorldModel& world, const Point& ball);
-
-/// A team-mate that reaches this ball first, so that it is left to it. `advantage` (m) is what this
-/// robot's way counts less.
-bool mateIsFirst(const WorldModel& world, const Point& ball, double advantage);
 
 }  // namespace pitchboard::link

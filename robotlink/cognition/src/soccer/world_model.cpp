@@ -26,6 +26,10 @@ void WorldModel::update(Blackboard& board, const Clock& clock) {
   m_first = false;
   m_referee = static_cast<Referee>(board.read(m_variables.comReferee));
   m_fallen = board.read(m_variables.imuState) != 0;
+  const int setPlay = readOr(board, m_setPlayWord);
+  const bool known = setPlay >= 0 && setPlay <= static_cast<int>(lastOf(sim::SetPlay{}));
+  m_setPlay = known ? static_cast<sim::SetPlay>(setPlay) : sim::SetPlay::None;
+  m_setPlayOurs = readOr(board, m_setPlayOursWord) != 0;
 
   const Pose onField = frame::studioFromLocalization(
       m_field, {static_cast<double>(board.read(m_variables.localizationX)),
@@ -91,6 +95,7 @@ void WorldModel::readBall(const Blackboard& board) {
   m_ballLocal = {m_ballLocal.x + gain * change.x, m_ballLocal.y + gain * change.y};
   m_ballSeen = m_now;
   m_ballField = toField(m_ballLocal);
+  if (localized()) m_track.see(toField(seen), distance, m_now);
 }
 
 void WorldModel::readRobots(Blackboard& board) {
@@ -126,6 +131,13 @@ void WorldModel::readMates(const Blackboard& board) {
     }
     m_mates[i] = mate;
   }
+  m_matePlaces.clear();
+  for (std::size_t i = 0; i < m_team.mateX.size(); ++i) {
+    const auto x = static_cast<double>(readOr(board, m_team.mateX[i], -1.0F));
+    const auto y = static_cast<double>(readOr(board, m_team.mateY[i], -1.0F));
+    // Zeros are fresh memory: nobody stands on the corner.
+    if (x >= 0.0 && y >= 0.0 && x + y > 0.0) m_matePlaces.push_back(fromCm(x, y));
+  }
 }
 
 double WorldModel::ballDistance() const {
@@ -151,6 +163,11 @@ std::optional<Point> WorldModel::ball() const {
   if (told) return told;
   if (ballAge() < m_ballMemory) return m_ballField;
   return std::nullopt;
+}
+
+std::optional<Point> WorldModel::ballStops() const {
+  if (!seesBall() || !localized()) return ball();
+  return m_track.stopsAt(toField(m_ballLocal), m_field, m_now);
 }
 
 std::vector<Point> WorldModel::opponents() const {

@@ -16,8 +16,10 @@
 #include <base/geometry.h>
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/cognition/cognitive_process.h>
+#include <simcore/world/game_state.h>
 #include <simcore/world/robot_io.h>
 
+#include "soccer/ball_track.h"
 #include "team/team_variables.h"
 
 namespace pitchboard::link {
@@ -30,6 +32,11 @@ struct TeamMate {
   Intention intention = Intention::None;
   bool active = false;        ///< heard of lately and standing
   std::optional<Point> ball;  ///< as it saw it
+  /// In the game: whoever is penalised or plays by no behaviour of these says that it is idle, or
+  /// nothing.
+  bool takesPart() const {
+    return active && intention != Intention::None && intention != Intention::Idle;
+  }
 };
 
 class WorldModel {
@@ -41,7 +48,11 @@ class WorldModel {
         m_body(body),
         m_facesLeft(facesLeft),
         m_ballMemory(parameters.ballMemory),
-        m_opponentMemory(parameters.opponentMemory) {}
+        m_opponentMemory(parameters.opponentMemory) {
+    const VariableCatalog& map = VariableCatalog::extended();
+    m_setPlayWord = map.intVar("COM_SET_PLAY").value_or(IntVar{-1});
+    m_setPlayOursWord = map.intVar("COM_SET_PLAY_OURS").value_or(IntVar{-1});
+  }
 
   /// Once a cycle, before the behaviour. Also tells vision what to look for: the ball, and for one
   /// cycle in a while opponents (DECISION_ACTION_VISION).
@@ -50,6 +61,9 @@ class WorldModel {
   double now() const { return m_now; }
   Referee referee() const { return m_referee; }
   bool fallen() const { return m_fallen; }
+  /// The set play that the referee has given, as the match tells it; None without.
+  sim::SetPlay setPlay() const { return m_setPlay; }
+  bool setPlayIsOurs() const { return m_setPlayOurs; }
   const sim::FieldSpec& field() const { return m_field; }
   const sim::RobotModel& body() const { return m_body; }
   /// From the robot's centre to the ball's when they touch.
@@ -74,7 +88,14 @@ class WorldModel {
   /// Where the ball is on the field: seen by itself, remembered, or told by a team-mate.
   std::optional<Point> ball() const;
 
+  /// m/s, as this robot sees it; zero when it does not roll.
+  Velocity ballVelocity() const { return m_track.velocity(m_now); }
+  /// Where it will lie: ball(), or where a ball that this robot sees rolling comes to rest.
+  std::optional<Point> ballStops() const;
+
   const std::array<std::optional<TeamMate>, mostTeamMates>& mates() const { return m_mates; }
+  /// Of all team-mates that are known of, up to ten.
+  const std::vector<Point>& matePlaces() const { return m_matePlaces; }
   /// Opponents seen within the last seconds.
   std::vector<Point> opponents() const;
 
@@ -108,21 +129,26 @@ class WorldModel {
   double m_ballMemory, m_opponentMemory;  // s
   RobotVariables m_variables{VariableCatalog::extended()};
   TeamVariables m_team;
+  IntVar m_setPlayWord, m_setPlayOursWord;  // of the extension; -1: the map in use has none
   double m_now = 0.0;
   bool m_first = true;
   unsigned m_cycle = 0;
   bool m_lookedForOpponents = false;
   Referee m_referee = Referee::Silent;
   bool m_fallen = false;
+  sim::SetPlay m_setPlay = sim::SetPlay::None;
+  bool m_setPlayOurs = false;
   double m_side = 0.0;  // > 0 attacks right, low-passed
   bool m_attacksLeft = false;
   Pose m_pose;
   double m_sigma = 1e9, m_imuYaw = 0.0;
   Point m_ballLocal;
   Point m_ballField;
+  BallTrack m_track;
   double m_ballSeen = -1e9;
   std::array<Sighting, sim::Percepts::maxSeenRobots> m_opponents;
   std::array<std::optional<TeamMate>, mostTeamMates> m_mates;
+  std::vector<Point> m_matePlaces;
 };
 
 }  // namespace pitchboard::link

@@ -36,17 +36,18 @@ struct BehaviourParameters {
   double patience = 4.0;
   double opponentMemory = 3.0;
   // With team-mates.
-  double leavesBall = 0.1;
-  double takesBall = 0.3;
-  double supporterLeavesBall = 0.2;
-  double supporterTakesBall = 0.8;
-  double supportBehind = 1.2;
-  double supportBeside = 1.0;
+  double leavesAfter = 0.5;  // s
+  double takesAfter = 1.0;
+  double passGain = 0.35;
+  double passLane = 0.5;
+  double atBallTime = 6.0;
   // Before the own goal.
   double keeperLine = 0.2;
   double keeperArc = 0.40;
   double clearWithin = 1.3;
   double clearUntil = 1.9;
+  double clearDanger = 2.0;
+  double keeperOut = 2.5;
 
   double distanceToKick = 25.0;  ///< cm; 25 in simulation, 40 on the published real robot
 
@@ -61,8 +62,6 @@ struct BehaviourParameter : sim::Parameter<BehaviourParameters> {
 namespace behaviour_sets {
 inline constexpr std::array<std::string_view, 3> players{"striker", "supporter", "keeper"};
 inline constexpr std::array<std::string_view, 3> field{"striker", "supporter"};
-inline constexpr std::array<std::string_view, 3> striker{"striker"};
-inline constexpr std::array<std::string_view, 3> supporter{"supporter"};
 inline constexpr std::array<std::string_view, 3> keeper{"keeper"};
 inline constexpr std::array<std::string_view, 3> naive{"naive"};
 }  // namespace behaviour_sets
@@ -101,18 +100,16 @@ inline constexpr auto behaviourParameters = std::to_array<BehaviourParameter>({
       "Patience", "At a place where no ball is, before it searches"}, behaviour_sets::players},
     {{"opponent_memory", &BehaviourParameters::opponentMemory, sim::units::seconds, 0, 600,
       "Opponent memory", "Keeps an opponent in mind that it does not see"}, behaviour_sets::players},
-    {{"leaves_ball", &BehaviourParameters::leavesBall, sim::units::metres, 0, 20,
-      "Leaves the ball", "To a team-mate that goes for it and is nearer by more than this"}, behaviour_sets::striker},
-    {{"takes_ball", &BehaviourParameters::takesBall, sim::units::metres, 0, 20,
-      "Takes the ball", "From a team-mate that goes for it, nearer by more than this"}, behaviour_sets::striker},
-    {{"supporter_leaves_ball", &BehaviourParameters::supporterLeavesBall, sim::units::metres, 0, 20,
-      "Supporter leaves it", "When it is no longer nearer than an attacker by this"}, behaviour_sets::supporter},
-    {{"supporter_takes_ball", &BehaviourParameters::supporterTakesBall, sim::units::metres, 0, 20,
-      "Supporter takes it", "When it is nearer than every attacker by this"}, behaviour_sets::supporter},
-    {{"support_behind", &BehaviourParameters::supportBehind, sim::units::metres, 0, 20,
-      "Supports behind", "Towards the own goal from the ball"}, behaviour_sets::field},
-    {{"support_beside", &BehaviourParameters::supportBeside, sim::units::metres, 0, 20,
-      "Supports beside", "Across the field from the ball"}, behaviour_sets::field},
+    {{"leaves_after", &BehaviourParameters::leavesAfter, sim::units::seconds, 0, 60,
+      "Leaves the ball", "To a team-mate that goes for it and is there sooner by more than this"}, behaviour_sets::field},
+    {{"takes_after", &BehaviourParameters::takesAfter, sim::units::seconds, 0, 60,
+      "Takes the ball", "From a team-mate that goes for it, when it is there sooner by more than this"}, behaviour_sets::field},
+    {{"pass_gain", &BehaviourParameters::passGain, sim::units::plain, 0, 2,
+      "Worth of a pass", "A ball that a team-mate has first; a sure goal is worth 1, a metre forward 0.08"}, behaviour_sets::players},
+    {{"pass_lane", &BehaviourParameters::passLane, sim::units::metres, 0, 5,
+      "Lane of a pass", "Beside the way of the ball, without an opponent"}, behaviour_sets::players},
+    {{"at_ball_time", &BehaviourParameters::atBallTime, sim::units::seconds, 1, 600,
+      "At the ball, at most", "While the ball does not get away it aims less and less well; after so long it takes almost any kick"}, behaviour_sets::players},
     {{"keeper_line", &BehaviourParameters::keeperLine, sim::units::metres, 0, 10,
       "Keeper's line", "Before the goal line, at the posts; farther out before the middle"}, behaviour_sets::keeper},
     {{"keeper_arc", &BehaviourParameters::keeperArc, sim::units::plain, 0, 2,
@@ -121,6 +118,10 @@ inline constexpr auto behaviourParameters = std::to_array<BehaviourParameter>({
       "Clears within", "Goes for a ball so near to the goal's centre"}, behaviour_sets::keeper},
     {{"clear_until", &BehaviourParameters::clearUntil, sim::units::metres, 0, 20,
       "Clears until", "Then follows it so far; at least as far as it begins"}, behaviour_sets::keeper},
+    {{"clear_danger", &BehaviourParameters::clearDanger, sim::units::metres, 0, 20,
+      "Danger", "A ball so near to the own goal is kicked away when an opponent is near"}, behaviour_sets::players},
+    {{"keeper_out", &BehaviourParameters::keeperOut, sim::units::metres, 0, 20,
+      "Comes out", "To a ball so near to the goal's centre that nobody reaches sooner"}, behaviour_sets::keeper},
     {{"distance_to_kick", &BehaviourParameters::distanceToKick, sim::Unit{"centimetres", "cm"}, 0, 10000,
       "Distance to kick", "As published: kicks a ball that it sees nearer; 25 in simulation, 40 on the real robot"}, behaviour_sets::naive},
 });
