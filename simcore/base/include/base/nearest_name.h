@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Finds what somebody meant who mistyped a name: for errors about files and command lines. Pure
+// functions, any thread.
+
 #include <span>
 #include <string_view>
 
