@@ -64,9 +64,7 @@ Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const Ma
   MatchBase& base = parts->base;
   TRY(base.simulation.placeBall(scenario.ball, scenario.ballVelocity));
   base.simulation.setClockRunning(scenario.clockRunning);
-  ProcessManager& processes = parts->slots.processes();
-  processes.setClocksFollow(options.speed != 1.0);
-  if (options.speed > 0.0) processes.setSpeed(options.speed, std::chrono::steady_clock::now());
+  parts->pace.slowTo(options.speed, std::chrono::steady_clock::now());
   if (options.cognitionDebug && options.cognition == Cognition::Separate) {
     base.cognitionDebug = TRY(CognitionDebugReceiver::listen());
   }
@@ -150,14 +148,15 @@ void SimulatedMatch::Parts::tellSetPlay(RobotSlot& slot, int team) const {
   writeIfPresent(slot.board, comSetPlayOurs, told.team == team ? 1 : 0);
 }
 
-/// Teams that have changed sides start their processes again, told where they attack.
+/// Our processes of teams that have changed sides start again, told where they attack. A team's own
+/// programs go on: they find out as on a real field.
 void SimulatedMatch::Parts::followSides() {
   for (std::size_t i = 0; i < slots.all().size(); ++i) {
     const bool facesLeft = base.simulation.state().robots[i].imuStartsAt180;
     RobotSlot& slot = *slots.all()[i];
     if (slot.facesLeft == facesLeft) continue;
     (void)slots.change(slot.id, [](RobotSlot& changed) -> Result<void> {
-      changed.processes.clear();
+      std::erase_if(changed.processes, [](const auto& one) { return one->profile.isReference(); });
       return {};
     });
     slot.facesLeft = facesLeft;  // also when it has none, or they do not start
@@ -295,6 +294,17 @@ std::span<const sim::Percepts> SimulatedMatch::percepts() const {
 
 ProcessPace& SimulatedMatch::pace() const {
   return m_parts->pace;
+}
+
+bool SimulatedMatch::isRepeatable() const {
+  const auto others = robots().ofOthers();
+  const auto isOwn = [](const auto& process) { return !process->profile.isReference(); };
+  const auto repeats = [&](const auto& slot) {
+    const bool own = std::ranges::any_of(slot->processes, isOwn) || slot->cycle.index >= 0 ||
+                     std::ranges::find(others, slot->id, &sim::RobotIdentity::id) != others.end();
+    return !own || (slot->cooperates && !slot->hasMissedCycle);
+  };
+  return std::ranges::all_of(robots().all(), repeats) && (pace().inLockStep() || !robots().turns());
 }
 
 Scenario SimulatedMatch::toScenario() const {

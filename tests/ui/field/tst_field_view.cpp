@@ -3,6 +3,7 @@
 
 #include <QAction>
 #include <QGraphicsView>
+#include <QKeyEvent>
 #include <QSignalSpy>
 #include <QTest>
 #include <QUndoStack>
@@ -15,6 +16,7 @@
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/scenario/scenario.h>
 #include <ui/base/theme.h>
+#include <ui/field/field_keys.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -30,6 +32,12 @@ using namespace pitchboard::ui;
 
 class TestFieldView : public QObject, protected field_rig::FieldRig {
   Q_OBJECT
+
+  /// A published key, as the window hands it on.
+  void press(int key, Qt::KeyboardModifiers modifiers = {}) {
+    QVERIFY(m_view->takePublishedKey(QKeyEvent(QEvent::KeyPress, key, modifiers)));
+  }
+
  private slots:
   void init() { open(); }
   void cleanup() { close(); }
@@ -111,7 +119,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     moveTo(from + QPoint(30, 30));
     moveTo(from + QPoint(70, 70));
     QTRY_VERIFY(std::abs(pose(1).position.x - before.position.x) > 0.3);
-    QTest::keyClick(m_canvas, Qt::Key_Escape);
+    QVERIFY(m_view->cancel());
     QTest::mouseRelease(m_canvas->viewport(), Qt::LeftButton, {}, from + QPoint(70, 70));
     QTRY_VERIFY(near(pose(1), before));
     QCOMPARE(m_controller->edits()->undoStack()->count(), 0);
@@ -140,7 +148,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     const double scale = m_canvas->transform().m11();
     wheel(at(pose(1).position), 120);
     QVERIFY(m_canvas->transform().m11() > scale);
-    QTest::keyClick(m_canvas, Qt::Key_Home);
+    m_view->actions().fit->trigger();
     m_view->select({blue(1)});
     wheel(at(pose(1).position), 120);
     QCOMPARE(m_canvas->transform().m11(), scale);
@@ -169,7 +177,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     QVERIFY(std::abs(m_canvas->transform().m11() - scale) > 1);
     const QPointF shown = m_canvas->viewportTransform().map(before);
     QVERIFY2((shown - QPointF(point)).manhattanLength() <= 2.0, "the point moved on the screen");
-    QTest::keyClick(m_canvas, Qt::Key_Home);
+    m_view->actions().fit->trigger();
     QCOMPARE(m_canvas->transform().m11(), scale);
   }
 
@@ -198,34 +206,26 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     QCOMPARE(m_view->selection(), (std::vector{blue(1), blue(2), blue(3)}));
   }
 
-  void arrowsNudge_data() {
-    QTest::addColumn<int>("key");
-    QTest::addColumn<bool>("coarse");
+  void everyNudgeCounts_data() {
     QTest::addColumn<bool>("flipped");
     QTest::addColumn<QPointF>("way");
-    QTest::newRow("left") << int(Qt::Key_Left) << false << false << QPointF(-0.01, 0);
-    QTest::newRow("up") << int(Qt::Key_Up) << false << false << QPointF(0, 0.01);
-    QTest::newRow("right, coarse") << int(Qt::Key_Right) << true << false << QPointF(0.1, 0);
-    QTest::newRow("down, coarse") << int(Qt::Key_Down) << true << false << QPointF(0, -0.1);
-    QTest::newRow("right, flipped") << int(Qt::Key_Right) << false << true << QPointF(-0.01, 0);
+    QTest::newRow("as drawn") << false << QPointF(0.01, -0.1);
+    QTest::newRow("flipped") << true << QPointF(-0.01, 0.1);
   }
-  void arrowsNudge() {
-    QFETCH(int, key);
-    QFETCH(bool, coarse);
+  void everyNudgeCounts() {
     QFETCH(bool, flipped);
     QFETCH(QPointF, way);
     m_view->setFlipped(flipped);
     m_view->select({blue(1)});
     const Pose before = pose(1);
-    const auto modifier = coarse ? Qt::ShiftModifier : Qt::NoModifier;
-    for (int i = 0; i < 3; ++i) QTest::keyClick(m_canvas, Qt::Key(key), modifier);
+    for (int i = 0; i < 3; ++i) m_view->nudge({0.01, -0.1});
     QTRY_VERIFY(std::abs(pose(1).position.x - before.position.x - 3 * way.x()) < 1e-6 &&
                 std::abs(pose(1).position.y - before.position.y - 3 * way.y()) < 1e-6);
   }
 
-  void deleteRemovesAndUndoBringsBack() {
+  void removedRobotsAreSelectedNoMoreAndUndoBringsThemBack() {
     m_view->select({red(1)});
-    QTest::keyClick(m_canvas, Qt::Key_Delete);
+    m_controller->edits()->removeRobots(m_controller->frame()->slotsOf({red(1)}));
     QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(5));
     QVERIFY(m_view->selection().empty());
     m_controller->edits()->undoStack()->undo();
@@ -244,7 +244,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     QFETCH(Qt::KeyboardModifiers, modifiers);
     QFETCH(int, team);
     moveTo(at({1.0, 1.5}));
-    QTest::keyClick(m_canvas, Qt::Key_A, modifiers);
+    press(Qt::Key_A, modifiers);
     QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(7));
     const sim::RobotSnapshot made = m_controller->frame()->robots.back();
     QCOMPARE(int(made.identity.team), team);
@@ -252,14 +252,14 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     QCOMPARE(std::abs(made.pose.yaw) > 1.0, info(made.identity.team).facesLeft);
   }
 
-  void digitsSelect() {
-    QTest::keyClick(m_canvas, Qt::Key_4);
+  void numbersSelect() {
+    m_view->selectNumber(4);
     QCOMPARE(m_view->selection(), std::vector{red(1)});
   }
 
-  void spaceTurnsTheFieldRound() {
+  void flippingTurnsTheFieldRound() {
     const QPoint before = at({3.0, 1.0});
-    QTest::keyClick(m_canvas, Qt::Key_Space);
+    m_view->actions().flip->trigger();
     QVERIFY(m_view->isFlipped());
     const QPoint after = at({3.0, 1.0});
     const QPoint middle = m_canvas->viewport()->rect().center();
@@ -278,9 +278,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     const QSignalSpy load(m_view.get(), &FieldView::loadMatchRequested);
     const QSignalSpy reset(m_view.get(), &FieldView::resetRequested);
     const QSignalSpy clear(m_view.get(), &FieldView::clearRequested);
-    QTest::keyClick(m_canvas, Qt::Key_F2);
-    QTest::keyClick(m_canvas, Qt::Key_F3);
-    QTest::keyClick(m_canvas, Qt::Key_F4);
+    for (const int key : {Qt::Key_F2, Qt::Key_F3, Qt::Key_F4}) press(key);
     QCOMPARE(load.count() + reset.count() + clear.count(), 3);
   }
 
@@ -296,18 +294,20 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     moveTo(at({1.0, 1.5}));
     constexpr quint32 rightShiftScanCode = 62;
     QKeyEvent shift(QEvent::KeyPress, Qt::Key_Shift, Qt::NoModifier, rightShiftScanCode, 0, 0);
-    QCoreApplication::sendEvent(m_canvas, &shift);
-    // Not QTest::keyClick(), which would press a Shift key of its own.
-    QKeyEvent a(QEvent::KeyPress, Qt::Key_A, Qt::ShiftModifier);
-    QCoreApplication::sendEvent(m_canvas, &a);
+    QVERIFY(!m_view->takePublishedKey(shift));
+    press(Qt::Key_A, Qt::ShiftModifier);
     QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(7));
     QCOMPARE(int(m_controller->frame()->robots.back().identity.team), int(TeamColor::Orange));
   }
 
-  void allAreSelectedByKey() {
-    QTest::keyClick(m_canvas, Qt::Key_A, Qt::ControlModifier | Qt::ShiftModifier);
-    QCOMPARE(m_view->selection().size(), std::size_t(6));
-    QCOMPARE(m_controller->frame()->robots.size(), std::size_t(6));
+  void aDragWhilePanIsHeldMovesTheViewAndSaysSo() {
+    QVERIFY(!m_view->setPanHeld(true));
+    QVERIFY(!m_view->setPanHeld(false));  // a tap
+    const QPoint here = at({0.0, 0.0});
+    m_view->setPanHeld(true);
+    drag(here, here + QPoint(80, 30));
+    QVERIFY(m_view->setPanHeld(false));
+    QVERIFY((at({0.0, 0.0}) - here - QPoint(80, 30)).manhattanLength() <= 2);
   }
 
   void shiftDragOfTheBallKicksIt() {
@@ -382,10 +382,12 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     alone.show();
     QVERIFY(QTest::qWaitForWindowExposed(&alone));
     auto* canvas = alone.findChild<QGraphicsView*>();
-    for (const int key : {int(Qt::Key_A), int(Qt::Key_B), int(Qt::Key_Delete), int(Qt::Key_F),
-                          int(Qt::Key_F5), int(Qt::Key_Left), int(Qt::Key_Insert)}) {
-      QTest::keyClick(canvas, Qt::Key(key));
+    for (const FieldKey& key : fieldKeys()) {
+      alone.takePublishedKey(QKeyEvent(QEvent::KeyPress, key.key, key.modifiers));
     }
+    alone.nudge({0.01, 0});
+    alone.selectNumber(1);
+    QVERIFY(!alone.cancel());
     QTest::mouseClick(canvas->viewport(), Qt::LeftButton);
     alone.showFrame(nullptr);
     QVERIFY(alone.selection().empty());

@@ -161,8 +161,9 @@ class TestLive : public QObject {
     QTest::mouseMove(canvas->viewport(), here + QPoint(60, 40));
     QTest::mouseRelease(canvas->viewport(), Qt::LeftButton, {}, here + QPoint(60, 40));
     QTest::mouseDClick(canvas->viewport(), Qt::LeftButton, {}, here);
-    for (const int key : {Qt::Key_A, Qt::Key_B, Qt::Key_Delete, Qt::Key_Insert, Qt::Key_Left,
-                          Qt::Key_F, Qt::Key_L, Qt::Key_Y, Qt::Key_F3, Qt::Key_F4, Qt::Key_F5}) {
+    s.window.field()->actions().publishedKeys->setChecked(true);
+    for (const int key : {Qt::Key_A, Qt::Key_B, Qt::Key_Delete, Qt::Key_Insert, Qt::Key_F,
+                          Qt::Key_L, Qt::Key_Y, Qt::Key_F3, Qt::Key_F4, Qt::Key_F5}) {
       QTest::keyClick(canvas, Qt::Key(key));
     }
     for (QAction* action : s.window.findChildren<QAction*>()) {
@@ -185,7 +186,7 @@ class TestLive : public QObject {
       QCOMPARE(after->robots[i].pose, before->robots[i].pose);
     }
     QVERIFY(s.controller.edits()->undoStack() != nullptr);
-    QTest::keyClick(canvas, Qt::Key_Space);
+    QTest::keyClick(canvas, Qt::Key_F, Qt::ControlModifier);
     QVERIFY(s.window.field()->isFlipped());
   }
 

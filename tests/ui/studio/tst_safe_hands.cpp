@@ -18,6 +18,7 @@
 #include <QtTest>
 
 #include <ui/base/theme.h>
+#include <ui/field/field_keys.h>
 #include <ui/field/field_view.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/sources/match_edits.h>
@@ -25,7 +26,6 @@
 #include "../support/menu_entry.h"
 #include "../support/mouse_wheel.h"
 #include "../support/robot_keys.h"
-#include "field_keys.h"
 #include "window_rig.h"
 
 namespace tst_safe_hands {
@@ -219,6 +219,7 @@ class TestSafeHands : public QObject {
     QTest::keyClick(s.find<QComboBox>("physicsModel"), Qt::Key_Down);
 
     s.window.field()->setFocus();
+    s.window.field()->actions().publishedKeys->setChecked(true);
     for (const FieldKey& key : fieldKeys()) {
       for (int i = 0; i < key.count; ++i) {
         lookBack();

@@ -121,12 +121,12 @@ class TestRobotsMenu : public QObject {
     RobotCard* first = s.cards()[0];
     first->setFocus();
     QTRY_VERIFY(first->hasFocus());
-    QTest::keyClick(first, Qt::Key_Space);
+    QTest::keyClick(first, Qt::Key_Return);
     QCOMPARE(s.window.field()->selection(), std::vector{blue(1)});
     QVERIFY(first->hasFocus());
     QTest::keyClick(first, Qt::Key_Tab);
     QVERIFY(s.cards()[1]->hasFocus());
-    QTest::keyClick(s.cards()[1], Qt::Key_Space, Qt::ControlModifier);
+    QTest::keyClick(s.cards()[1], Qt::Key_Return, Qt::ControlModifier);
     QCOMPARE(s.window.field()->selection(), (std::vector{blue(1), blue(2)}));
     QVERIFY(s.cards()[1]->hasFocus());
     // A click with the mouse gives the keys to the field.
@@ -150,7 +150,8 @@ class TestRobotsMenu : public QObject {
     QVERIFY(canvas->hasFocus());
     const int slot = s.controller.frame()->robot(s.cards()[1]->state().id)->slot().value;
     const Pose before = s.pose(slot);
-    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Right, Qt::ShiftModifier);
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Right,
+                    Qt::ControlModifier | Qt::ShiftModifier);
     QTRY_VERIFY(std::abs(s.pose(slot).position.x - before.position.x - 0.1) < 1e-6);
   }
 
@@ -161,17 +162,19 @@ class TestRobotsMenu : public QObject {
     QVERIFY(!few.cards()[0]->isCollapsed() && many.cards()[0]->isCollapsed());
     // What somebody opens stays open, whoever comes or goes.
     RobotCard* mine = many.cards()[4];
-    mine->setFocus();
-    QTest::keyClick(mine, Qt::Key_Right);
+    const auto clickArrow = [mine] {
+      QTest::mouseClick(mine, Qt::LeftButton, {}, QPoint(mine->width() - 10, 12));
+    };
+    clickArrow();
     QVERIFY(!mine->isCollapsed());
     many.controller.edits()->removeRobots({RobotId{9}});
     QTRY_COMPARE(many.cards().size(), qsizetype(8));
     QVERIFY(!many.cards()[0]->isCollapsed());
-    QTest::keyClick(mine, Qt::Key_Left);
+    clickArrow();
     many.controller.edits()->undoStack()->undo();
     QTRY_COMPARE(many.cards().size(), qsizetype(9));
     QVERIFY(many.cards()[0]->isCollapsed() && mine->isCollapsed());
-    QTest::keyClick(mine, Qt::Key_Right);
+    clickArrow();
     many.controller.edits()->removeRobots({RobotId{8}, RobotId{9}});
     QTRY_COMPARE(many.cards().size(), qsizetype(7));
     QVERIFY(!mine->isCollapsed());

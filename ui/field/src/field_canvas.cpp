@@ -11,7 +11,6 @@
 
 #include <ui/base/theme.h>
 
-#include "field_keys.h"
 #include "field_pointer.h"
 
 namespace pitchboard::ui {
@@ -132,7 +131,7 @@ void FieldCanvas::paintEmptyState(QPainter* painter) const {
   if (frame && !empty) return;
   QString text = m_emptyText ? m_emptyText() : QString();
   if (text.isEmpty()) {
-    text = QStringLiteral("Press A to add a robot where the cursor is, B to put the ball there.");
+    text = QStringLiteral("Right-click to add a robot or to place the ball.");
   }
   const bool longer = text.contains(QLatin1Char('\n'));
   const QFont& font = fieldFont(scaled(this, longer ? 12 : 13), !longer);
@@ -181,7 +180,7 @@ void FieldCanvas::pan(const QPointF& to) {
 void FieldCanvas::updateCursorShape() {
   if (m_panning) {
     viewport()->setCursor(Qt::ClosedHandCursor);
-  } else if (m_spaceDown) {
+  } else if (m_panHeld) {
     viewport()->setCursor(Qt::OpenHandCursor);
   } else {
     viewport()->setCursor(m_pointer->shape(m_cursor));
@@ -190,9 +189,9 @@ void FieldCanvas::updateCursorShape() {
 
 void FieldCanvas::mousePressEvent(QMouseEvent* event) {
   m_cursor = metresAt(event->position());
-  if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && m_spaceDown)) {
+  if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && m_panHeld)) {
     m_panning = true;
-    m_spaceUsed = true;
+    m_panUsed = true;
     m_panFrom = event->position();
     updateCursorShape();
   } else if (event->button() == Qt::LeftButton) {
@@ -252,38 +251,17 @@ bool FieldCanvas::viewportEvent(QEvent* event) {
   return QGraphicsView::viewportEvent(event);
 }
 
-bool FieldCanvas::event(QEvent* event) {
-  // The field's own keys go before the window's shortcuts while it has the focus.
-  if (event->type() == QEvent::ShortcutOverride) {
-    const auto* key = static_cast<QKeyEvent*>(event);
-    if (key->key() == Qt::Key_Space || fieldOrder(key->key(), key->modifiers())) {
-      event->accept();
-      return true;
-    }
-  }
-  return QGraphicsView::event(event);
-}
-
+// A view scrolls with keys; this one leaves them to the window.
 void FieldCanvas::keyPressEvent(QKeyEvent* event) {
-  if (event->key() == Qt::Key_Space && !event->isAutoRepeat()) {
-    m_spaceDown = true;
-    m_spaceUsed = false;
-    updateCursorShape();
-    return;
-  }
-  if (m_keyHandler && m_keyHandler(event)) {
-    event->accept();
-    return;
-  }
   event->ignore();
 }
 
-void FieldCanvas::keyReleaseEvent(QKeyEvent* event) {
-  if (event->key() != Qt::Key_Space || event->isAutoRepeat()) return;
-  const bool tapped = m_spaceDown && !m_spaceUsed;
-  m_spaceDown = false;
+bool FieldCanvas::setPanHeld(bool held) {
+  const bool used = m_panUsed;
+  m_panHeld = held;
+  m_panUsed = false;
   updateCursorShape();
-  if (tapped) emit spaceTapped();
+  return used;
 }
 
 void FieldCanvas::focusInEvent(QFocusEvent* event) {
@@ -292,7 +270,6 @@ void FieldCanvas::focusInEvent(QFocusEvent* event) {
 }
 
 void FieldCanvas::focusOutEvent(QFocusEvent* event) {
-  m_spaceDown = false;
   QGraphicsView::focusOutEvent(event);
   viewport()->update();
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 // The window onto the scene: zoom, pan, side, background, and what is said when there is nothing to
-// see. Mouse and keys go to the pointer and the key map.
+// see. The mouse goes to the pointer; keys are the window's.
 
 #include <QGraphicsView>
 #include <functional>
@@ -29,8 +29,8 @@ class FieldCanvas : public QGraphicsView {
   /// Last place of the cursor in metres.
   QPointF cursor() const { return m_cursor; }
 
-  /// Asked first for every key; says whether it took it.
-  void setKeyHandler(std::function<bool(QKeyEvent*)> handler) { m_keyHandler = std::move(handler); }
+  /// While held, a drag with the left button pans. At the end: whether it was used for that.
+  bool setPanHeld(bool held);
 
   /// What is said of the robot on which the mouse rests.
   void setHoverText(std::function<QString(const QPointF& metres)> text) {
@@ -43,12 +43,9 @@ class FieldCanvas : public QGraphicsView {
  signals:
   void cursorMoved(QPointF metres, bool valid);
   void menuRequested(QPoint globalPosition, QPointF metres);
-  /// Space, without having been used to move the view.
-  void spaceTapped();
 
  protected:
   bool viewportEvent(QEvent* event) override;
-  bool event(QEvent* event) override;
   void changeEvent(QEvent* event) override;
   void drawBackground(QPainter* painter, const QRectF& rect) override;
   void drawForeground(QPainter* painter, const QRectF& rect) override;
@@ -60,7 +57,6 @@ class FieldCanvas : public QGraphicsView {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
-  void keyReleaseEvent(QKeyEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
   void focusInEvent(QFocusEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
@@ -75,14 +71,13 @@ class FieldCanvas : public QGraphicsView {
   FieldScene* m_scene;
   FieldPointer* m_pointer;
   FieldBackground m_background;
-  std::function<bool(QKeyEvent*)> m_keyHandler;
   std::function<QString()> m_emptyText;
   std::function<QString(const QPointF&)> m_hoverText;
   QPointF m_cursor;
   QPointF m_panFrom;
   bool m_panning = false;
-  bool m_spaceDown = false;
-  bool m_spaceUsed = false;
+  bool m_panHeld = false;
+  bool m_panUsed = false;
   bool m_fitted = true;
 };
 

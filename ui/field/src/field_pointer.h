@@ -35,7 +35,6 @@ class FieldPointer : public QObject {
   void doubleClick(const QPointF& at);
   /// The wheel over one of the selected robots turns them; false when there is none.
   bool turnAt(const QPointF& at, double notches);
-  bool isDragging() const { return m_drag != Drag::None; }
   /// Puts back what is being dragged; says whether anything was.
   bool cancel();
   /// Moves the selected robots by so much.

@@ -13,6 +13,7 @@ namespace {
 
 const QString wedgeKey = QStringLiteral("field/fieldOfViewOfAll");
 const QString eopraKey = QStringLiteral("field/eopraGranularity");
+const QString publishedKey = QStringLiteral("field/publishedKeys");
 const QString hiddenKey = QStringLiteral("field/hiddenDrawings");
 const QString selectedKey = QStringLiteral("field/drawingsOfSelected");
 constexpr qsizetype mostHidden = 1000;  // whatever a file says
@@ -87,6 +88,7 @@ void restoreFieldLayers(FieldView& field, const QSettings& settings) {
       option->setChecked(true);
     }
   }
+  field.actions().publishedKeys->setChecked(settings.value(publishedKey, false).toBool());
   DrawingChoice choice = choiceFrom(settings.value(hiddenKey).toStringList());
   choice.onlySelected = settings.value(selectedKey, false).toBool();
   field.findChild<FieldScene*>()->changeStyle(
@@ -101,6 +103,7 @@ void saveFieldLayers(const FieldView& field, QSettings& settings) {
   }
   put(settings, wedgeKey, now.wedgeForAll, usual.wedgeForAll);
   put(settings, eopraKey, now.eopraGranularity, usual.eopraGranularity);
+  put(settings, publishedKey, field.actions().publishedKeys->isChecked(), false);
   put(settings, hiddenKey, textsOf(now.drawings), QStringList());
   put(settings, selectedKey, now.drawings.onlySelected, false);
 }

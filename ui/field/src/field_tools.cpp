@@ -14,7 +14,6 @@
 #include "drawings_menu.h"
 #include "field_canvas.h"
 #include "field_pointer.h"
-#include "help_overlay.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -34,8 +33,8 @@ constexpr std::array<ToolText, 3> toolTexts{{
 }  // namespace
 
 FieldTools::FieldTools(FieldScene* scene, FieldPointer* pointer, FieldCanvas* canvas,
-                       HelpOverlay* help, QWidget* field)
-    : QObject(field), m_scene(scene), m_pointer(pointer), m_canvas(canvas), m_help(help) {
+                       QWidget* field)
+    : QObject(field), m_scene(scene), m_pointer(pointer), m_canvas(canvas) {
   makeLayers();
   makeLayerOptions(field);
   makeTools();
@@ -48,9 +47,7 @@ void FieldTools::makeLayers() {
     auto* action = new QAction(QString::fromUtf8(layer.name), this);
     action->setCheckable(true);
     action->setChecked(m_scene->style().shows(layer.layer));
-    if (*layer.shortcut) {
-      action->setText(action->text() + QLatin1Char('\t') + QLatin1String(layer.shortcut));
-    }
+    action->setObjectName(QStringLiteral("layer.") + QLatin1String(layer.key));
     connect(action, &QAction::toggled, this,
             [this, which = layer.layer](bool on) { showLayer(which, on); });
     m_actions.layers.push_back(action);
@@ -69,26 +66,29 @@ void FieldTools::makeTools() {
             [this, tool = text.tool] { m_pointer->setTool(tool); });
     connect(m_pointer, &FieldPointer::toolChanged, action,
             [action, tool = text.tool](FieldTool chosen) { action->setChecked(chosen == tool); });
-    m_actions.view.push_back(action);
+    m_actions.tools.push_back(action);
   }
-  m_adding = m_actions.view.back();
+  m_adding = m_actions.tools.back();
 }
 
 void FieldTools::makeViews() {
-  m_flip = new QAction(themedIcon(QStringLiteral("object-flip-horizontal")),
-                       QStringLiteral("Flip sides"), this);
-  m_flip->setCheckable(true);
-  m_flip->setToolTip(QStringLiteral("See the field from the other side (Space)"));
-  connect(m_flip, &QAction::toggled, this, [this](bool on) { m_canvas->setFlipped(on); });
-  auto* fit = new QAction(themedIcon(QStringLiteral("zoom-fit-best")),
-                          QStringLiteral("Fit the field\tHome"), this);
-  fit->setToolTip(QStringLiteral("Fit the field (Home)"));
-  connect(fit, &QAction::triggered, this, [this] { m_canvas->fit(); });
-  auto* keys = new QAction(themedIcon(QStringLiteral("help-contextual")),
-                           QStringLiteral("Keys of the field\tF1"), this);
-  keys->setToolTip(QStringLiteral("All keys of the field (F1)"));
-  connect(keys, &QAction::triggered, this, [this] { m_help->toggle(); });
-  m_actions.view.insert(m_actions.view.end(), {m_flip, fit, keys});
+  const auto make = [this](const char* id, const char* icon, const char* text, const char* tip) {
+    auto* action = new QAction(themedIcon(QLatin1String(icon)), QString::fromUtf8(text), this);
+    action->setObjectName(QLatin1String(id));
+    action->setToolTip(QString::fromUtf8(tip));
+    return action;
+  };
+  m_actions.flip = make("flipSides", "object-flip-horizontal", "Flip sides",
+                        "See the field from the other side");
+  m_actions.flip->setCheckable(true);
+  connect(m_actions.flip, &QAction::toggled, this, [this](bool on) { m_canvas->setFlipped(on); });
+  m_actions.fit = make("fitField", "zoom-fit-best", "Fit field", "Show the whole field");
+  connect(m_actions.fit, &QAction::triggered, this, [this] { m_canvas->fit(); });
+  m_actions.publishedKeys =
+      make("publishedKeys", "input-keyboard", "Published keys",
+           "Letters give orders to robots as in the published simulator, wherever the focus is");
+  m_actions.publishedKeys->setCheckable(true);
+  m_actions.showKeys = make("showKeys", "help-contextual", "Show keys", "Show all keys");
 }
 
 void FieldTools::makeLayerOptions(QWidget* field) {
@@ -126,14 +126,11 @@ void FieldTools::makeStrip(QWidget* field) {
   const int icon = scaled(field, 18);
   m_strip->setIconSize(QSize(icon, icon));
   m_strip->setFixedWidth(scaled(field, 36));
-  for (QAction* action : m_actions.view) {
-    if (action == m_flip) {
-      addTeams();
-      m_strip->addSeparator();
-      addLayersButton();
-    }
-    m_strip->addAction(action);
-  }
+  for (QAction* action : m_actions.tools) m_strip->addAction(action);
+  addTeams();
+  m_strip->addSeparator();
+  addLayersButton();
+  m_strip->addActions({m_actions.flip, m_actions.fit, m_actions.publishedKeys, m_actions.showKeys});
 }
 
 void FieldTools::addTeams() {

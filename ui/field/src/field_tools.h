@@ -20,17 +20,15 @@ class DrawingsMenu;
 class FieldCanvas;
 class FieldPointer;
 class FieldScene;
-class HelpOverlay;
 
 class FieldTools : public QObject {
   Q_OBJECT
  public:
-  FieldTools(FieldScene* scene, FieldPointer* pointer, FieldCanvas* canvas, HelpOverlay* help,
-             QWidget* field);
+  FieldTools(FieldScene* scene, FieldPointer* pointer, FieldCanvas* canvas, QWidget* field);
 
   QToolBar* strip() const { return m_strip; }
   const FieldActions& actions() const { return m_actions; }
-  QAction* flip() const { return m_flip; }
+  QAction* flip() const { return m_actions.flip; }
   /// The tool that adds robots.
   QAction* adding() const { return m_adding; }
 
@@ -47,12 +45,10 @@ class FieldTools : public QObject {
   FieldScene* m_scene;
   FieldPointer* m_pointer;
   FieldCanvas* m_canvas;
-  HelpOverlay* m_help;
   QToolBar* m_strip = nullptr;
-  FieldActions m_actions;
+  FieldActions m_actions{};
   DrawingsMenu* m_drawings = nullptr;
   QAction* m_adding = nullptr;
-  QAction* m_flip = nullptr;
 };
 
 }  // namespace pitchboard::ui

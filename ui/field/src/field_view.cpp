@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/field/field_view.h>
 
-#include <QAbstractItemView>
 #include <QAction>
-#include <QApplication>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QMenu>
@@ -13,16 +11,15 @@
 
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
+#include <ui/field/field_keys.h>
 #include <ui/sources/match_edits.h>
 #include "field_picture.h"
 #include "field_scene.h"
 
 #include "field_canvas.h"
-#include "field_keys.h"
 #include "field_menu.h"
 #include "field_pointer.h"
 #include "field_tools.h"
-#include "help_overlay.h"
 #include "hover_text.h"
 #include "pose_editor.h"
 
@@ -42,15 +39,13 @@ struct FieldView::Private {
         scene(new FieldScene(view)),
         pointer(new FieldPointer(scene, matchController, view)),
         canvas(new FieldCanvas(scene, pointer, view)),
-        help(new HelpOverlay(canvas)),
-        tools(new FieldTools(scene, pointer, canvas, help, view)) {}
+        tools(new FieldTools(scene, pointer, canvas, view)) {}
 
   void openPoseEditor(RobotKey id);
   void openBallEditor();
   void openEditor(PoseEdit edit);
   void openMenu(QPoint globalPosition, QPointF metres);
   FieldMenuActions menuActions();
-  bool handleKey(QKeyEvent* event);
   /// Null in a match that is only watched; says why while the past is shown.
   MatchController* editor() const {
     if (!scene->style().readOnly) return controller;
@@ -61,19 +56,12 @@ struct FieldView::Private {
   void addAtCursor(TeamColor color);
   void moveSelectedToCursor();
   void carryOut(const FieldOrder& order);
-  void escape();
-  void selectRobot(int number);
-  bool hasEscape() const {
-    return pointer->isDragging() || pointer->tool() != FieldTool::Select ||
-           !scene->selection().empty();
-  }
 
   FieldView* q;
   MatchController* controller;
   FieldScene* scene;
   FieldPointer* pointer;
   FieldCanvas* canvas;
-  HelpOverlay* help;
   FieldTools* tools;
   bool rightShift = false;
 };
@@ -98,14 +86,6 @@ void FieldView::Private::moveSelectedToCursor() {
   pointer->nudge({cursor.x - first->position.x, cursor.y - first->position.y});
 }
 
-void FieldView::Private::escape() {
-  if (pointer->cancel()) return;
-  if (pointer->tool() != FieldTool::Select)
-    pointer->setTool(FieldTool::Select);
-  else
-    scene->select({});
-}
-
 void FieldView::Private::carryOut(const FieldOrder& order) {
   const std::vector<RobotId> selected = scene->selectedSlots();
   using enum FieldAction;
@@ -116,23 +96,7 @@ void FieldView::Private::carryOut(const FieldOrder& order) {
   MatchEdits* edits = controller ? controller->edits() : nullptr;
   switch (order.action) {
     case Select:
-      return selectRobot(order.value);
-    case SelectAll:
-      return scene->selectAll();
-    case Escape:
-      return escape();
-    case Nudge: {
-      constexpr Point directions[] = {{-1, 0}, {0, 1}, {1, 0}, {0, -1}};
-      const Point& direction = directions[order.value];
-      const double step = order.other / 100.0 * (scene->style().flipped ? -1 : 1);
-      return pointer->nudge({direction.x * step, direction.y * step});
-    }
-    case Layer:
-      return tools->actions().layers[static_cast<std::size_t>(order.value)]->toggle();
-    case Fit:
-      return canvas->fit();
-    case Help:
-      return help->toggle();
+      return q->selectNumber(order.value);
     case AddRobot:
       return addAtCursor(teamColors[static_cast<std::size_t>(order.value)].color);
     case AddRobotByShift:
@@ -141,8 +105,6 @@ void FieldView::Private::carryOut(const FieldOrder& order) {
       return edits->moveBall(scene->ball(), fromScene(canvas->cursor()));
     case MoveHere:
       return moveSelectedToCursor();
-    case Remove:
-      return edits->removeRobots(selected);
     case Act:
       for (const RobotId id : selected) {
         edits->commandAction(id, order.value,
@@ -158,20 +120,7 @@ void FieldView::Private::carryOut(const FieldOrder& order) {
       return emit q->resetRequested();
     case Clear:
       return emit q->clearRequested();
-    case Pause:
-      if (controller->frame()) controller->setPaused(!controller->frame()->paused);
-      return;
   }
-}
-
-// The robot of a simulated match with this blackboard, else one with this number.
-void FieldView::Private::selectRobot(int number) {
-  if (!scene->frame()) return;
-  for (const link::RobotFrame& robot : scene->frame()->robots) {
-    const int its = robot.slot().value != 0 ? robot.slot().value : robot.key.number;
-    if (its == number) return scene->select({robot.key});
-  }
-  scene->select({});
 }
 
 void FieldView::Private::openPoseEditor(RobotKey id) {
@@ -228,20 +177,6 @@ void FieldView::Private::openMenu(QPoint globalPosition, QPointF metres) {
   menu->popup(globalPosition);
 }
 
-bool FieldView::Private::handleKey(QKeyEvent* event) {
-  if (event->key() == Qt::Key_Shift) {
-    rightShift = event->nativeScanCode() == rightShiftScanCode ||
-                 event->nativeVirtualKey() == rightShiftKeysym;
-    return false;
-  }
-  const auto order = fieldOrder(event->key(), event->modifiers());
-  if (!order) return false;
-  // What is around the field may have a use for it.
-  if (order->action == FieldAction::Escape && !hasEscape()) return false;
-  carryOut(*order);
-  return true;
-}
-
 FieldView::FieldView(MatchController* controller, QWidget* parent)
     : FieldView(controller, controller, parent) {}
 
@@ -253,7 +188,6 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
   layout->addWidget(d->tools->strip());
   layout->addWidget(d->canvas, 1);
   setFocusProxy(d->canvas);
-  d->canvas->setKeyHandler([this](QKeyEvent* event) { return d->handleKey(event); });
   d->canvas->setHoverText([this](const QPointF& metres) {
     const FieldHit hit = d->scene->hit(metres);
     const bool isRobot = hit.kind == FieldHit::Kind::Robot || hit.kind == FieldHit::Kind::Handle;
@@ -262,7 +196,6 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
   connect(d->canvas, &FieldCanvas::cursorMoved, this, &FieldView::cursorMoved);
   connect(d->canvas, &FieldCanvas::menuRequested, this,
           [this](QPoint at, QPointF metres) { d->openMenu(at, metres); });
-  connect(d->canvas, &FieldCanvas::spaceTapped, this, [this] { d->tools->flip()->toggle(); });
   connect(d->scene, &FieldScene::selectionChangedTo, this, &FieldView::selectionChanged);
   connect(d->scene, &FieldScene::followedChanged, this, &FieldView::followedChanged);
   connect(d->pointer, &FieldPointer::poseRequested, this,
@@ -336,27 +269,41 @@ void FieldView::editPose(RobotKey id) {
   d->openPoseEditor(id);
 }
 
-void FieldView::showEvent(QShowEvent* event) {
-  QWidget::showEvent(event);
-  window()->installEventFilter(this);
+// The robot of a simulated match with this blackboard, else one with this number.
+void FieldView::selectNumber(int number) {
+  if (!d->scene->frame()) return;
+  for (const link::RobotFrame& robot : d->scene->frame()->robots) {
+    const int its = robot.slot().value != 0 ? robot.slot().value : robot.key.number;
+    if (its == number) return d->scene->select({robot.key});
+  }
+  d->scene->select({});
 }
 
-// A selection may be made by a card or a menu: keys that move or remove it and that nobody else in
-// the window wants come here.
-bool FieldView::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() != QEvent::KeyPress || watched != window()) {
-    return QWidget::eventFilter(watched, event);
+void FieldView::nudge(QPointF metres) {
+  if (d->scene->selection().empty() || d->editor() == nullptr) return;
+  d->pointer->nudge(d->scene->style().flipped ? -metres : metres);
+}
+
+bool FieldView::cancel() {
+  if (d->pointer->cancel()) return true;
+  if (d->pointer->tool() == FieldTool::Select) return false;
+  d->pointer->setTool(FieldTool::Select);
+  return true;
+}
+
+bool FieldView::setPanHeld(bool held) {
+  return d->canvas->setPanHeld(held);
+}
+
+bool FieldView::takePublishedKey(const QKeyEvent& event) {
+  if (event.key() == Qt::Key_Shift) {
+    d->rightShift = event.nativeScanCode() == rightShiftScanCode ||
+                    event.nativeVirtualKey() == rightShiftKeysym;
+    return false;
   }
-  auto* key = static_cast<QKeyEvent*>(event);
-  constexpr int wanted[] = {Qt::Key_Delete, Qt::Key_Home, Qt::Key_Left,
-                            Qt::Key_Right,  Qt::Key_Up,   Qt::Key_Down};
-  const QWidget* focus = QApplication::focusWidget();
-  // Whoever goes through a list there means its rows.
-  const bool inList = qobject_cast<const QAbstractItemView*>(focus) != nullptr;
-  if (!inList && std::ranges::find(wanted, key->key()) != std::end(wanted) && d->handleKey(key)) {
-    return true;
-  }
-  return QWidget::eventFilter(watched, event);
+  const auto order = fieldOrder(event.key(), event.modifiers());
+  if (order) d->carryOut(*order);
+  return order.has_value();
 }
 
 void FieldView::setFlipped(bool flipped) {

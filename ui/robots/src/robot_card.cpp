@@ -156,21 +156,10 @@ void RobotCard::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void RobotCard::keyPressEvent(QKeyEvent* event) {
-  switch (event->key()) {
-    case Qt::Key_Space:
-    case Qt::Key_Return:
-    case Qt::Key_Enter:
-      emit clicked(event->modifiers());
-      return;
-    case Qt::Key_Left:
-      collapse(true);
-      return;
-    case Qt::Key_Right:
-      collapse(false);
-      return;
-    default:
-      QFrame::keyPressEvent(event);
-  }
+  if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)
+    emit clicked(event->modifiers() & ~Qt::KeyboardModifiers(Qt::KeypadModifier));
+  else
+    QFrame::keyPressEvent(event);
 }
 
 void RobotCard::contextMenuEvent(QContextMenuEvent* event) {

@@ -159,10 +159,6 @@ void Timeline::step(int ticks) {
   playback()->step(ticks);
 }
 
-void Timeline::togglePlay() {
-  if (isRecording() || isLookingBack()) playback()->setPaused(!playback()->isPaused());
-}
-
 namespace {
 // Of two events of one tick the second is a step of its own only by its time; half a tick tells
 // them from the moment shown.

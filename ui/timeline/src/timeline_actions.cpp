@@ -15,10 +15,10 @@
 namespace pitchboard::ui {
 namespace {
 
-QAction* make(QObject* parent, const QString& text, const char* icon, const QKeySequence& keys) {
-  auto* action = new QAction(text, parent);
+QAction* make(QObject* parent, const char* id, const char* text, const char* icon = nullptr) {
+  auto* action = new QAction(QString::fromUtf8(text), parent);
+  action->setObjectName(QLatin1String(id));
   if (icon != nullptr) action->setIcon(themedIcon(QLatin1String(icon)));
-  action->setShortcut(keys);
   return action;
 }
 
@@ -28,36 +28,33 @@ TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, QObject*
     : QObject(parent),
       m_timeline(timeline),
       m_plots(plots),
-      m_now(make(this, QStringLiteral("Back to &now"), "media-seek-forward",
-                 QKeySequence(Qt::CTRL | Qt::Key_End))),
-      m_play(make(this, QStringLiteral("&Play the past"), "media-playback-start",
-                  QKeySequence(Qt::CTRL | Qt::Key_Space))),
-      m_next(make(this, QStringLiteral("&Next event"), "go-next", QKeySequence(Qt::Key_N))),
-      m_previous(make(this, QStringLiteral("&Previous event"), "go-previous",
-                      QKeySequence(Qt::SHIFT | Qt::Key_N))),
-      m_bookmark(
-          make(this, QStringLiteral("Set a &bookmark"), "bookmark-new", QKeySequence(Qt::Key_M))),
-      m_back(make(this, QStringLiteral("One tick bac&k"), nullptr,
-                  QKeySequence(Qt::CTRL | Qt::Key_Comma))),
-      m_on(make(this, QStringLiteral("One tick &on"), nullptr, {})),
-      m_selectVisible(make(this, QStringLiteral("&Choose the plots' range"), nullptr, {})),
-      m_clearRange(make(this, QStringLiteral("Choose no &range"), nullptr, {})),
-      m_loop(make(this, QStringLiteral("&Loop the chosen range"), "media-playlist-repeat",
-                  QKeySequence(Qt::CTRL | Qt::Key_L))) {
-  m_now->setObjectName(QStringLiteral("timelineNow"));
-  m_next->setObjectName(QStringLiteral("nextEvent"));
-  m_previous->setObjectName(QStringLiteral("previousEvent"));
-  m_bookmark->setObjectName(QStringLiteral("addBookmark"));
-  m_loop->setObjectName(QStringLiteral("loopRange"));
+      m_now(make(this, "timelineNow", "Back to &now", "media-seek-forward")),
+      m_oldest(make(this, "oldestMoment", "&Oldest moment")),
+      m_next(make(this, "nextEvent", "&Next event", "go-next")),
+      m_previous(make(this, "previousEvent", "&Previous event", "go-previous")),
+      m_bookmark(make(this, "addBookmark", "Set &bookmark", "bookmark-new")),
+      m_steps{make(this, "stepBack", "Step bac&k"), make(this, "stepForward", "Step &forward"),
+              make(this, "secondBack", "One second back"),
+              make(this, "secondForward", "One second forward")},
+      m_selectVisible(make(this, "selectVisible", "&Select the plots' range")),
+      m_clearRange(make(this, "clearRange", "Select no &range")),
+      m_loop(make(this, "loopRange", "&Loop range", "media-playlist-repeat")) {
   m_loop->setCheckable(true);
   connect(m_now, &QAction::triggered, timeline, &Timeline::goLive);
-  connect(m_play, &QAction::triggered, timeline, &Timeline::togglePlay);
+  connect(m_oldest, &QAction::triggered, timeline, [timeline] {
+    if (const auto range = timeline->available()) timeline->seek(range->begin);
+  });
   connect(m_next, &QAction::triggered, timeline, &Timeline::goToNextEvent);
   connect(m_previous, &QAction::triggered, timeline, &Timeline::goToPreviousEvent);
   connect(m_bookmark, &QAction::triggered, this,
           [this] { emit bookmarkAdded(m_timeline->addBookmark()); });
-  connect(m_back, &QAction::triggered, timeline, [timeline] { timeline->step(-1); });
-  connect(m_on, &QAction::triggered, timeline, [timeline] { timeline->step(1); });
+  const auto [back, forward, secondBack, secondForward] = m_steps;
+  connect(back, &QAction::triggered, timeline, [timeline] { timeline->step(-1); });
+  connect(forward, &QAction::triggered, timeline, [timeline] { timeline->step(1); });
+  connect(secondBack, &QAction::triggered, timeline,
+          [timeline] { timeline->seek(timeline->shownTime() - 1.0); });
+  connect(secondForward, &QAction::triggered, timeline,
+          [timeline] { timeline->seek(timeline->shownTime() + 1.0); });
   connect(m_selectVisible, &QAction::triggered, this,
           [this] { m_timeline->setSelection(m_plots->range()); });
   connect(m_clearRange, &QAction::triggered, timeline, [timeline] { timeline->setSelection({}); });
@@ -77,8 +74,8 @@ TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, QObject*
 void TimelineActions::refresh() {
   const bool past = m_timeline->isLookingBack() || m_timeline->isRecording();
   m_now->setEnabled(m_timeline->isLookingBack());
-  m_play->setEnabled(past);
-  m_on->setEnabled(past);
+  m_steps[1]->setEnabled(past);
+  m_steps[3]->setEnabled(past);
   m_clearRange->setEnabled(m_timeline->selection().has_value());
   m_selectVisible->setEnabled(m_plots != nullptr);
   m_loop->setChecked(m_timeline->isLooping());
@@ -140,7 +137,8 @@ void TimelineActions::fillFilter(QMenu* menu) {
 }
 
 void TimelineActions::fill(QMenu* menu) {
-  menu->addActions({m_now, m_play, m_back, m_on});
+  menu->addActions({m_now, m_oldest});
+  for (QAction* step : m_steps) menu->addAction(step);
   menu->addSeparator();
   menu->addActions({m_next, m_previous, m_bookmark});
   QMenu* shown = menu->addMenu(QStringLiteral("Events sho&wn"));

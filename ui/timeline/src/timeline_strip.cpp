@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "timeline_strip.h"
 
+#include <QAction>
 #include <QContextMenuEvent>
 #include <QHelpEvent>
 #include <QMouseEvent>
@@ -56,10 +57,21 @@ TimelineStrip::TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* par
     connect(plots, &LinkedTime::rangeChanged, this, &TimelineStrip::updateCalmly);
     connect(plots, &LinkedTime::cursorChanged, this, qOverload<>(&QWidget::update));
   }
+  constexpr double closer = 1 / 1.5, farther = 1.5;
+  addZoom("timelineZoomIn", "Zoom timeline in", [this] { zoom(closer, m_timeline->shownTime()); });
+  addZoom("timelineZoomOut", "Zoom timeline out",
+          [this] { zoom(farther, m_timeline->shownTime()); });
+  addZoom("timelineAll", "Show the whole timeline", [this] { showAll(); });
   fitAxis();
 }
 
 TimelineStrip::~TimelineStrip() = default;
+
+void TimelineStrip::addZoom(const char* id, const char* text, const std::function<void()>& change) {
+  auto* action = new QAction(QString::fromUtf8(text), this);
+  action->setObjectName(QLatin1String(id));
+  connect(action, &QAction::triggered, this, change);
+}
 
 // A hand on the timeline or on the plots is followed at once.
 void TimelineStrip::updateCalmly() {
@@ -389,58 +401,6 @@ void TimelineStrip::wheelEvent(QWheelEvent* event) {
   } else {
     constexpr double perNotch = 1.2;
     zoom(std::pow(perNotch, -notches), m_axis.time(event->position().x()));
-  }
-  event->accept();
-}
-
-void TimelineStrip::keyPressEvent(QKeyEvent* event) {
-  const bool coarse = event->modifiers() & Qt::ShiftModifier;
-  const double middle = m_timeline->shownTime();
-  constexpr double closer = 1 / 1.5, farther = 1.5, second = 1.0;
-  switch (event->key()) {
-    case Qt::Key_Left:
-      if (coarse)
-        m_timeline->seek(m_timeline->shownTime() - second);
-      else
-        m_timeline->step(-1);
-      break;
-    case Qt::Key_Right:
-      if (coarse)
-        m_timeline->seek(m_timeline->shownTime() + second);
-      else
-        m_timeline->step(1);
-      break;
-    case Qt::Key_Home:
-      if (const auto range = m_timeline->available()) m_timeline->seek(range->begin);
-      break;
-    case Qt::Key_End:
-      m_timeline->seek(m_timeline->now());
-      break;
-    case Qt::Key_Space:
-      m_timeline->togglePlay();
-      break;
-    case Qt::Key_L:
-      m_timeline->setLooping(!m_timeline->isLooping());
-      break;
-    case Qt::Key_Plus:
-    case Qt::Key_Equal:
-      zoom(closer, middle);
-      break;
-    case Qt::Key_Minus:
-      zoom(farther, middle);
-      break;
-    case Qt::Key_0:
-      showAll();
-      break;
-    case Qt::Key_Escape:
-      if (m_timeline->selection())
-        m_timeline->setSelection({});
-      else
-        m_timeline->goLive();
-      break;
-    default:
-      QWidget::keyPressEvent(event);
-      return;
   }
   event->accept();
 }

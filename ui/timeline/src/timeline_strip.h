@@ -7,6 +7,7 @@
 
 #include <QTimer>
 #include <QWidget>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -64,7 +65,6 @@ class TimelineStrip : public QWidget {
   void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
-  void keyPressEvent(QKeyEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
 
  signals:
@@ -75,6 +75,7 @@ class TimelineStrip : public QWidget {
 
  private:
   enum class Grab { Nothing, Moment, Window, WindowBegin, WindowEnd, Range, View, Compared };
+  void addZoom(const char* id, const char* text, const std::function<void()>& change);
   void fitAxis();
   void updateCalmly();
   void clampShown(telemetry::TimeRange& range) const;

@@ -5,9 +5,7 @@
 // they always do; bars and docks come back as they were. UI thread only; belongs to the window.
 
 #include <QByteArray>
-#include <QList>
 #include <QObject>
-#include <QPointer>
 
 class QAction;
 class QMainWindow;
@@ -22,7 +20,7 @@ class FieldOnly : public QObject {
   Q_OBJECT
  public:
   FieldOnly(QMainWindow* window, SourceSwitch* source);
-  /// F11, checkable; Escape ends it as well.
+  /// Checkable.
   QAction* action() const { return m_action; }
   bool isOn() const { return m_on; }
   void set(bool on);
@@ -32,17 +30,14 @@ class FieldOnly : public QObject {
 
  private:
   void place();
-  void keepKeys(bool on);
 
   QMainWindow* m_window;
   SourceSwitch* m_source;
   QAction* m_action;
-  QAction* m_end;
   QTimer* m_timer;
   Scoreboard* m_scoreboard = nullptr;
   QByteArray m_layout;
   Qt::WindowStates m_state;
-  QList<QPointer<QAction>> m_kept;  // of hidden bars, whose keys the window keeps meanwhile
   bool m_on = false;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "field_signs.h"
 
+#include <QAction>
 #include <QEvent>
 #include <QLabel>
 #include <QPainter>
@@ -28,6 +29,8 @@ class FieldSign : public QLabel {
 
   /// What to say now; empty: nothing.
   std::function<QString()> textNow;
+  /// With one the sign takes the mouse.
+  std::function<void()> clicked;
   /// Where; its size is what the text needs.
   std::function<QRect(QSize)> place;
 
@@ -44,6 +47,9 @@ class FieldSign : public QLabel {
   bool eventFilter(QObject* watched, QEvent* event) override {
     if (event->type() == QEvent::Resize && isVisible()) present();
     return QLabel::eventFilter(watched, event);
+  }
+  void mousePressEvent(QMouseEvent*) override {
+    if (clicked) clicked();
   }
   void paintEvent(QPaintEvent* event) override {
     QPainter painter(this);
@@ -79,6 +85,26 @@ QWidget* makeOpeningSign(MatchController* controller, QWidget* canvas) {
     QObject::connect(controller, changed, sign, &FieldSign::present);
   }
   QObject::connect(controller, &MatchController::frameReceived, sign, &QWidget::hide);
+  return sign;
+}
+
+QWidget* makePublishedKeysSign(QAction* publishedKeys, QWidget* canvas) {
+  auto* sign =
+      new FieldSign(canvas, QStringLiteral("publishedKeysSign"), &ThemeColors::warningText);
+  sign->setAttribute(Qt::WA_TransparentForMouseEvents, false);
+  sign->setCursor(Qt::PointingHandCursor);
+  sign->setToolTip(QStringLiteral(
+      "Letters give orders to robots, as in the published simulator. Click to switch it off."));
+  sign->clicked = [publishedKeys] { publishedKeys->setChecked(false); };
+  sign->textNow = [publishedKeys] {
+    return publishedKeys->isChecked() ? QStringLiteral("Published keys are on") : QString();
+  };
+  sign->place = [sign, canvas](QSize text) {
+    const int high = scaled(sign, 22), edge = scaled(sign, 8);
+    return QRect(edge, canvas->height() - high - edge, text.width() + scaled(sign, 16), high);
+  };
+  QObject::connect(publishedKeys, &QAction::toggled, sign, &FieldSign::present);
+  sign->present();
   return sign;
 }
 

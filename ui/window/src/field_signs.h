@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sentences in boxes that lie on the field and let the mouse through. UI thread only.
+// Sentences in boxes that lie on the field and, but for the last, let the mouse through. UI thread
+// only.
 
+class QAction;
 class QWidget;
 
 namespace pitchboard::ui {
@@ -10,10 +12,12 @@ namespace pitchboard::ui {
 class MatchController;
 class Timeline;
 
-/// Both belong to the `canvas` that they lie on. Says that a match is being opened, where the field
+/// All belong to the `canvas` that they lie on. Says that a match is being opened, where the field
 /// says that none is.
 QWidget* makeOpeningSign(MatchController* controller, QWidget* canvas);
 /// Says at the top that the past is shown: "Looking back: 03:12.50 (Now leads back)".
 QWidget* makeLookingBackSign(Timeline* timeline, QWidget* canvas);
+/// Says at the lower left that the mode is on; a click switches it off.
+QWidget* makePublishedKeysSign(QAction* publishedKeys, QWidget* canvas);
 
 }  // namespace pitchboard::ui

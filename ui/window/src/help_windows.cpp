@@ -3,119 +3,61 @@
 
 #include <QApplication>
 #include <QDialog>
-#include <QGridLayout>
+#include <QHeaderView>
 #include <QLabel>
-#include <QMainWindow>
-#include <QMenuBar>
-#include <QScrollArea>
+#include <QLineEdit>
+#include <QScreen>
+#include <QStandardItemModel>
+#include <QTableView>
 #include <QVBoxLayout>
 
 #include <ui/base/theme.h>
+#include <ui/base/words_filter.h>
 
-#include "menu_actions.h"
+#include "key_map.h"
 
 namespace pitchboard::ui {
-namespace {
 
-struct Keys {
-  const char* keys;  ///< nullptr: `does` is a heading
-  const char* does;
-};
-
-// What the mouse does and the keys that are no actions of a menu; those are listed by themselves.
-constexpr Keys shortcuts[] = {
-    {nullptr, "Field"},
-    {"Drag, Shift-drag", "move, turn"},
-    {"Wheel over a robot, wheel", "turn, zoom"},
-    {"Middle-drag, Space-drag", "pan"},
-    {"Home", "fit the field"},
-    {"Arrows, Delete", "nudge, remove"},
-    {"A, B", "add a robot, put the ball under the cursor"},
-    {"1 to 9", "select a robot"},
-    {nullptr, "Orders to the selected robot"},
-    {"F, K, V, R", "forward fast, slow, backward fast, slow"},
-    {"M, N, E, D", "walk left, right, turn left, right"},
-    {"O, Q", "around the ball, left, right"},
-    {"L, P, I, J", "kick left, right, pass left, right"},
-    {"S, T", "gait in place, stop"},
-    {"Y, Z", "ball search on, off"},
-    {nullptr, "As in the published simulator"},
-    {"F1", "help over the field"},
-    {"F2, F3, F4", "load the match, start it again, clear the field"},
-    {"F5", "pause or go on"},
-    {"F6, F7, F8", "field of view, EOPRA, StarVars"},
-    {nullptr, "Plots"},
-    {"Click", "show that moment everywhere"},
-    {"Drag, wheel", "move, zoom in time"},
-    {"Ctrl+wheel, Shift-drag", "zoom the values, zoom into a box"},
-    {"Double click", "show everything"},
-    {"Wheel over the numbers", "scroll the plots"},
-    {nullptr, "Timeline"},
-    {"Click, drag", "look back"},
-    {"Left, Right, Shift+Left, Shift+Right", "one tick, one second back or on"},
-    {"Home, End", "to the oldest moment, to now"},
-    {"Space, L", "play the past, loop the chosen range"},
-    {"Shift-drag, Escape", "choose a range, choose none or go back to now"},
-    {"+, \xE2\x88\x92, 0, wheel", "zoom, show everything"},
-    {nullptr, "Variables"},
-    {"Enter, F2, *", "plot, edit the value, favourite"},
-    {nullptr, "Log"},
-    {"Click, Ctrl+C", "show that moment everywhere, copy"},
-};
-
-}  // namespace
-
-void showShortcuts(QMainWindow* parent) {
+void showShortcuts(QWidget* parent, const KeyMap& keys) {
   auto* dialog = new QDialog(parent);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setObjectName(QStringLiteral("shortcuts"));
   dialog->setWindowTitle(QStringLiteral("Keyboard shortcuts"));
-  auto* list = new QWidget(dialog);
-  auto* grid = new QGridLayout(list);
-  grid->setHorizontalSpacing(scaled(parent, 24));
-  grid->setVerticalSpacing(scaled(parent, 4));
-  int row = 0;
-  const auto head = [&](const QString& text) {
-    auto* label = new QLabel(text, list);
-    label->setFont(themeFont(TypeRole::Body, true));
-    label->setContentsMargins(0, row == 0 ? 0 : scaled(parent, 8), 0, 0);
-    grid->addWidget(label, row++, 0, 1, 2);
-  };
-  const auto add = [&](const QString& keys, const QString& text) {
-    auto* does = new QLabel(text, list);
-    does->setForegroundRole(QPalette::PlaceholderText);
-    grid->addWidget(new QLabel(keys, list), row, 0);
-    grid->addWidget(does, row++, 1);
-  };
-  QString menu;
-  for (const MenuAction& each : menuActions(*parent->menuBar())) {
-    if (each.action->shortcut().isEmpty()) continue;
-    const QString top = each.menu.section(QLatin1Char(':'), 0, 0);
-    if (top != menu) head(top);
-    menu = top;
-    QStringList keys;
-    for (const QKeySequence& sequence : each.action->shortcuts()) {
-      keys << sequence.toString(QKeySequence::NativeText);
+  const std::vector<KeyLine> lines = keys.lines(true);
+  auto* model = new QStandardItemModel(static_cast<int>(lines.size()), 3, dialog);
+  model->setHorizontalHeaderLabels(
+      {QStringLiteral("Keys"), QStringLiteral("Action"), QStringLiteral("Where")});
+  for (int row = 0; row < model->rowCount(); ++row) {
+    const KeyLine& line = lines[static_cast<std::size_t>(row)];
+    const QString texts[] = {line.keys, line.text, line.group};
+    for (int column = 0; column < 3; ++column) {
+      model->setItem(row, column, new QStandardItem(texts[column]));
     }
-    add(keys.join(QStringLiteral(", ")), each.text);
   }
-  for (const Keys& line : shortcuts) {
-    if (line.keys == nullptr)
-      head(QString::fromUtf8(line.does));
-    else
-      add(QString::fromUtf8(line.keys), QString::fromUtf8(line.does));
-  }
-  grid->setColumnStretch(1, 1);
-  auto* scroll = new QScrollArea(dialog);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setWidgetResizable(true);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setWidget(list);
-  scroll->setMinimumWidth(list->sizeHint().width() + scaled(parent, 16));
+  auto* filter = new WordsFilter(dialog);
+  filter->setSourceModel(model);
+  auto* words = new QLineEdit(dialog);
+  words->setObjectName(QStringLiteral("shortcutWords"));
+  words->setPlaceholderText(QStringLiteral("Search, e.g. bookmark"));
+  words->setClearButtonEnabled(true);
+  QObject::connect(words, &QLineEdit::textChanged, filter, &WordsFilter::setWords);
+  auto* table = new QTableView(dialog);
+  table->setModel(filter);
+  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table->setShowGrid(false);
+  table->setWordWrap(false);
+  table->verticalHeader()->hide();
+  table->verticalHeader()->setDefaultSectionSize(scaled(parent, 22));
+  table->resizeColumnsToContents();
+  table->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
   auto* column = new QVBoxLayout(dialog);
-  column->addWidget(scroll);
-  dialog->resize(scaled(parent, 500), scaled(parent, 640));
+  column->addWidget(words);
+  column->addWidget(table);
+  const QSize wanted(scaled(parent, 640), scaled(parent, 560));
+  dialog->resize(wanted.boundedTo(parent->screen()->availableSize() - QSize(40, 80)));
   dialog->show();
+  words->setFocus();
 }
 
 void showAbout(QWidget* parent) {

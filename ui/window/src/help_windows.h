@@ -4,13 +4,14 @@
 // The windows of the Help menu. Window thread; neither is modal, and both delete themselves when
 // closed.
 
-class QMainWindow;
 class QWidget;
 
 namespace pitchboard::ui {
 
-/// Every shortcut of the menus, and what mouse and keys do elsewhere.
-void showShortcuts(QMainWindow* parent);
+class KeyMap;
+
+/// The whole map of keys in a table that can be searched.
+void showShortcuts(QWidget* parent, const KeyMap& keys);
 void showAbout(QWidget* parent);
 
 }  // namespace pitchboard::ui

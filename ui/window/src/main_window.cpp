@@ -10,7 +10,6 @@
 #include <QMenuBar>
 #include <QSettings>
 #include <QTimer>
-#include <QUndoGroup>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <limits>
@@ -20,6 +19,7 @@
 #include <ui/base/plot_target.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/time_axis.h>
+#include <ui/base/undo_history.h>
 #include <ui/base/wheel_guard.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/field/field_view.h>
@@ -50,6 +50,8 @@
 #include "dock_title.h"
 #include "field_only.h"
 #include "field_signs.h"
+#include "help_windows.h"
+#include "key_map.h"
 #include "menu_actions.h"
 #include "menus.h"
 #include "scenario_chooser.h"
@@ -61,6 +63,7 @@
 namespace pitchboard::ui {
 namespace {
 const QString exportTopic = QStringLiteral("export");
+const QString speedTopic = QStringLiteral("speed");
 const QString memoryKey = QStringLiteral("session/memoryMegabytes");
 constexpr int mostMemory = 65536;
 const QString recentSessionsKey = QStringLiteral("sessions/recent");
@@ -72,7 +75,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
       m_live(new LiveController(this)),
       m_settings(settings),
       m_source(new SourceSwitch(controller, this)),
-      m_undo(new QUndoGroup(this)),
+      m_undo(new UndoHistory(this)),
       m_selection(new RobotSelection(this)),
       m_time(new LinkedTime(this)),
       m_plots(new PlotTarget(this)),
@@ -87,8 +90,9 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_timeline->watch(controller);
   m_timeline->watch(m_live);
   m_timeline->watch(m_replay);
-  m_undo->addStack(controller->edits()->undoStack());
-  m_undo->setActiveStack(controller->edits()->undoStack());
+  m_undo->add(controller->edits()->undoStack(), [this] {
+    return m_source->kind() == SourceKind::Simulate && !m_timeline->isLookingBack();
+  });
   setWindowTitle(QStringLiteral("Pitchboard"));
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
@@ -121,12 +125,14 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_plotsDock = findChild<PlotsDock*>();
   new TabCorner(qobject_cast<QDockWidget*>(m_plotsDock->parentWidget()), m_plotsDock->pageTabs(),
                 m_docks);
-  m_undo->addStack(m_plotsDock->undoStack());
+  m_undo->add(m_plotsDock->undoStack(), [] { return true; });
   makeMenus();
+  makeKeys();
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     makeOpeningSign(controller, canvas);
     makeLookingBackSign(m_timeline, canvas);
+    makePublishedKeysSign(m_field->actions().publishedKeys, canvas);
   }
   connectNotices();
   connect(m_replay, &ReplayController::opened, this, [this] {
@@ -140,11 +146,10 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   const auto lock = [this] {
     m_controller->edits()->setLocked(m_source->kind() == SourceKind::Simulate &&
                                      m_timeline->isLookingBack());
-    chooseUndo();
+    m_undo->refresh();
   };
   connect(m_timeline, &Timeline::lookingBackChanged, this, lock);
   connect(m_timeline, &Timeline::sourceChanged, this, lock);
-  connect(qApp, &QApplication::focusChanged, this, &MainWindow::chooseUndo);
   connect(m_bar, &TransportBar::sourceRequested, this, &MainWindow::showSource);
   connect(m_bar->scenarios(), &ScenarioChooser::chosen, m_files, &ScenarioFiles::open);
   connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files, &ScenarioFiles::askAndOpen);
@@ -170,7 +175,7 @@ MainWindow::~MainWindow() {
 // what is seen; then what that shows. Left to themselves, children go by age, the oldest first, and
 // those are the sources that everything else uses. The match itself outlives the window.
 void MainWindow::shutDown() {
-  qApp->disconnect(this);  // focus moves on as widgets go
+  delete m_undo;  // it asks what goes next
   m_recording->end();
   qDeleteAll(findChildren<QDialog*>(Qt::FindDirectChildrenOnly));
   delete m_sessions;
@@ -254,7 +259,8 @@ void MainWindow::showPalette() {
 
 void MainWindow::makeMenus() {
   StudioMenus({parts(), m_undo, m_files, m_sessions, m_bar->scenarios(), m_bar->transportActions(),
-               m_status, m_docks, m_fieldOnly, m_alarms},
+               m_bar->speedSteps(), [this] { showShortcuts(this, *m_keys); }, m_status, m_docks,
+               m_fieldOnly, m_alarms},
               *this)
       .make();
 }
@@ -327,18 +333,6 @@ void MainWindow::showSource(SourceKind kind) {
   if (source == nullptr) return;
   if (kind == SourceKind::Live) m_live->start();
   m_source->choose(source);
-}
-
-// Undo belongs to the plots while somebody works there, else to the match.
-void MainWindow::chooseUndo() {
-  const QWidget* focus = QApplication::focusWidget();
-  if (focus != nullptr &&
-      (m_plotsDock->isAncestorOf(focus) || m_plotsDock->pageTabs()->isAncestorOf(focus))) {
-    m_undo->setActiveStack(m_plotsDock->undoStack());
-    return;
-  }
-  const bool editable = m_source->kind() == SourceKind::Simulate && !m_timeline->isLookingBack();
-  m_undo->setActiveStack(editable ? m_controller->edits()->undoStack() : nullptr);
 }
 
 void MainWindow::makeDocks() {
@@ -417,6 +411,8 @@ void MainWindow::connectNotices() {
                                                                : match},
                             sentence);
           });
+  connect(m_controller, &MatchController::askedForSpeed, m_notices,
+          [this](const QStringList& programs, double wanted) { askForSpeed(programs, wanted); });
   connect(m_controller, &MatchController::obeyed, m_notices,
           [this] { m_notices->settle(refused); });
   connect(m_controller, &MatchController::rewound, m_notices,
@@ -425,7 +421,7 @@ void MainWindow::connectNotices() {
     if (m_controller->isOpen()) m_notices->settle(scenario);
   });
   connect(m_controller, &MatchController::scenarioChanged, m_notices, [this] {
-    for (const QString& topic : {match, refused, finished}) m_notices->settle(topic);
+    for (const QString& topic : {match, refused, finished, speedTopic}) m_notices->settle(topic);
     m_toldFinished = false;
   });
   connect(m_controller->edits(), &MatchEdits::lockedChanged, m_notices,
@@ -441,6 +437,23 @@ void MainWindow::connectNotices() {
   connect(m_files, &ScenarioFiles::failed, m_notices, tell(scenario));
   connect(m_controller, &MatchController::frameReceived, this,
           [this](const FramePtr& frame) { tellFinished(*frame); });
+}
+
+void MainWindow::askForSpeed(const QStringList& programs, double wanted) {
+  using Programs = MatchController::RealTimePrograms;
+  const QString speed = wanted == link::MatchRunner::unlimitedSpeed
+                            ? QStringLiteral("maximum speed")
+                            : QStringLiteral("×%1").arg(numberText(wanted, wanted < 1.0 ? 2 : 0));
+  const auto answer = [this, wanted](Programs what) {
+    return [this, wanted, what] { m_controller->answerSpeed(wanted, what); };
+  };
+  m_notices->show(
+      {speedTopic},
+      QStringLiteral("%1 keeps real time (\"clock\": \"real\") and cannot follow %2.")
+          .arg(programs.join(QStringLiteral(", ")), speed),
+      {{QStringLiteral("Restart with match time"), answer(Programs::RestartWithMatchTime)},
+       {QStringLiteral("Stay at ×1"), [this] { m_controller->setSpeed(1.0); }},
+       {QStringLiteral("Change speed only for the others"), answer(Programs::LeaveBehind)}});
 }
 
 // A match that stands still should not look as if it hung.

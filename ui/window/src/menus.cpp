@@ -9,9 +9,9 @@
 #include <QInputDialog>
 #include <QMenuBar>
 #include <QSettings>
-#include <QUndoGroup>
 
 #include <ui/base/notice_bar.h>
+#include <ui/base/undo_history.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/field/field_view.h>
 #include <ui/live/attach_dialog.h>
@@ -44,9 +44,9 @@
 namespace pitchboard::ui {
 namespace {
 
-QAction* withIcon(QAction* action, const char* icon, const QKeySequence& keys = {}) {
-  if (icon != nullptr) action->setIcon(themedIcon(QLatin1String(icon)));
-  if (!keys.isEmpty()) action->setShortcut(keys);
+QAction* withIcon(QAction* action, const char* icon, const char* id = nullptr) {
+  action->setIcon(themedIcon(QLatin1String(icon)));
+  if (id != nullptr) action->setObjectName(QLatin1String(id));
   return action;
 }
 
@@ -80,7 +80,7 @@ void StudioMenus::makeFile() {
   ScenarioFiles* files = m_context.files;
   withIcon(menu->addAction(QStringLiteral("&Open…"), &m_window,
                            [this_ = &m_window] { this_->askAndOpen(); }),
-           "document-open", QKeySequence::Open);
+           "document-open", "openFile");
   QMenu* recent = menu->addMenu(QStringLiteral("Open &recent"));
   QObject::connect(
       menu, &QMenu::aboutToShow, recent,
@@ -102,10 +102,10 @@ void StudioMenus::makeFile() {
       });
   SessionFiles* sessions = m_context.sessions;
   withIcon(menu->addAction(QStringLiteral("Open s&ession…"), sessions, &SessionFiles::askAndOpen),
-           "document-open-folder", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
+           "document-open-folder", "openSession");
   onlyInTheMatch(withIcon(menu->addAction(QStringLiteral("&Save this moment as a scenario…"), files,
                                           &ScenarioFiles::askAndSave),
-                          "document-save", QKeySequence::Save));
+                          "document-save", "saveScenario"));
   SituationTests* tests = m_parts.tests;
   QAction* asTest = withIcon(
       menu->addAction(QStringLiteral("Save this moment as a &test…"), tests, &SituationTests::ask),
@@ -126,7 +126,7 @@ void StudioMenus::makeFile() {
            "document-export");
   menu->addSeparator();
   withIcon(menu->addAction(QStringLiteral("&Quit"), &m_window, &QWidget::close), "application-exit",
-           QKeySequence(Qt::CTRL | Qt::Key_Q));
+           "quit");
 }
 
 void StudioMenus::makeEdit() {
@@ -134,10 +134,8 @@ void StudioMenus::makeEdit() {
   MatchController* controller = m_parts.controller;
   RobotSelection* selection = m_parts.selection;
   SourceSwitch* source = m_parts.source;
-  QAction* undo = m_context.undo->createUndoAction(&m_window, QStringLiteral("Undo"));
-  QAction* redo = m_context.undo->createRedoAction(&m_window, QStringLiteral("Redo"));
-  menu->addAction(withIcon(undo, "edit-undo", QKeySequence::Undo));
-  menu->addAction(withIcon(redo, "edit-redo", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)));
+  menu->addAction(withIcon(m_context.undo->undoAction(), "edit-undo", "undo"));
+  menu->addAction(withIcon(m_context.undo->redoAction(), "edit-redo", "redo"));
   menu->addSeparator();
   withIcon(menu->addAction(QStringLiteral("Select &all robots"), selection,
                            [source, selection] {
@@ -149,19 +147,17 @@ void StudioMenus::makeEdit() {
                              }
                              selection->set(all);
                            }),
-           // Ctrl+A is a key of the field: it adds a red robot.
-           "edit-select-all", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A));
+           "edit-select-all", "selectAll");
   withIcon(menu->addAction(QStringLiteral("&Find anything…"), &m_window,
                            [this_ = &m_window] { this_->showPalette(); }),
-           "edit-find", QKeySequence(Qt::CTRL | Qt::Key_K));
-  // The Delete key itself belongs to the field, so that it also works in text boxes elsewhere.
+           "edit-find", "findAnything");
   QAction* remove = menu->addAction(
       QStringLiteral("&Delete selected robots"), controller, [controller, selection] {
         if (const FramePtr frame = controller->frame()) {
           controller->edits()->removeRobots(frame->slotsOf(selection->ids()));
         }
       });
-  withIcon(remove, "edit-delete");
+  withIcon(remove, "edit-delete", "removeSelected");
   remove->setEnabled(false);
   QObject::connect(selection, &RobotSelection::changed, remove, [remove, source](const auto& ids) {
     remove->setEnabled(!ids.empty() && source->kind() == SourceKind::Simulate);
@@ -213,7 +209,10 @@ void StudioMenus::makeView() {
   for (QAction* action : m_parts.field->actions().layers) layers->addAction(action);
   layers->addSeparator();
   for (QAction* action : m_parts.field->actions().options) layers->addAction(action);
-  for (QAction* action : m_parts.field->actions().view) menu->addAction(action);
+  const FieldActions& field = m_parts.field->actions();
+  QMenu* tools = menu->addMenu(QStringLiteral("Field &tools"));
+  for (QAction* action : field.tools) tools->addAction(action);
+  menu->addActions({field.flip, field.fit, field.publishedKeys});
   QAction* overlay = menu->addAction(QStringLiteral("Overlay what is &heard live"));
   overlay->setObjectName(QStringLiteral("liveOverlay"));
   overlay->setCheckable(true);
@@ -237,7 +236,7 @@ void StudioMenus::makeView() {
   menu->addAction(m_context.fieldOnly->action());
   QAction* full = menu->addAction(QStringLiteral("&Full screen"));
   full->setCheckable(true);
-  withIcon(full, "view-fullscreen", QKeySequence(Qt::SHIFT | Qt::Key_F11));
+  withIcon(full, "view-fullscreen", "fullScreen");
   QObject::connect(full, &QAction::triggered, &m_window, [this_ = &m_window](bool on) {
     this_->setWindowState(this_->windowState().setFlag(Qt::WindowFullScreen, on));
   });
@@ -274,15 +273,18 @@ void StudioMenus::makeSimulation() {
   for (QAction* action : m_context.transport) menu->addAction(action);
   QMenu* speeds = menu->addMenu(QStringLiteral("S&peed"));
   onlyInTheMatch(speeds->menuAction());
-  QObject::connect(speeds, &QMenu::aboutToShow, speeds, [speeds, controller] {
-    speeds->clear();
-    for (const double speed : matchSpeeds) {
-      QAction* action = speeds->addAction(speedText(speed), controller,
-                                          [controller, speed] { controller->setSpeed(speed); });
-      action->setCheckable(true);
-      action->setChecked(speed == controller->speed());
-    }
-  });
+  QObject::connect(
+      speeds, &QMenu::aboutToShow, speeds, [speeds, controller, steps = m_context.speedSteps] {
+        speeds->clear();
+        for (const double speed : matchSpeeds) {
+          QAction* action = speeds->addAction(speedText(speed), controller,
+                                              [controller, speed] { controller->setSpeed(speed); });
+          action->setCheckable(true);
+          action->setChecked(speed == controller->speed());
+        }
+        speeds->addSeparator();
+        speeds->addActions(steps);
+      });
   addMatchEntries(menu, controller, &m_window, [this](QAction* action) { onlyInTheMatch(action); });
   menu->addSeparator();
   QAction* freely = menu->addAction(QStringLiteral("Robot processes run &freely at ×1"));
@@ -391,8 +393,8 @@ void StudioMenus::makePlots() {
 
 void StudioMenus::makeHelp() {
   QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Help"));
-  menu->addAction(QStringLiteral("&Keyboard shortcuts"), &m_window,
-                  [this_ = &m_window] { showShortcuts(this_); });
+  menu->addAction(m_parts.field->actions().showKeys);
+  menu->addAction(QStringLiteral("&Keyboard shortcuts"), &m_window, m_context.showShortcuts);
   menu->addAction(QStringLiteral("Copy state &hash"), m_context.status,
                   &StudioStatusBar::copyStateHash);
   menu->addSeparator();

@@ -4,6 +4,7 @@
 // The window's menu bar. Every entry does something. UI thread only.
 
 #include <QList>
+#include <functional>
 #include <vector>
 
 #include "studio_parts.h"
@@ -11,7 +12,6 @@
 class QAction;
 class QDockWidget;
 class QMenu;
-class QUndoGroup;
 
 namespace pitchboard::ui {
 
@@ -22,15 +22,18 @@ class ScenarioChooser;
 class ScenarioFiles;
 class SessionFiles;
 class StudioStatusBar;
+class UndoHistory;
 
 /// What the menus' entries act on; everything outlives them.
 struct MenuContext {
   StudioParts parts;
-  QUndoGroup* undo;
+  UndoHistory* undo;
   ScenarioFiles* files;
   SessionFiles* sessions;
   ScenarioChooser* scenarios;  ///< knows the recent ones
   QList<QAction*> transport;   ///< restart, play/pause, step
+  QList<QAction*> speedSteps;  ///< slower, faster
+  std::function<void()> showShortcuts;
   StudioStatusBar* status;
   std::vector<QDockWidget*> docks;
   FieldOnly* fieldOnly;

@@ -10,6 +10,8 @@
 #include <QToolButton>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
@@ -118,7 +120,6 @@ void TransportBar::addTransport() {
                           else
                             m_context.controller->restart();
                         });
-  m_restart->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_R));
   m_play = addAction(themedIcon(QStringLiteral("media-playback-pause")), QStringLiteral("Pause"),
                      this, [this] {
                        if (Playback* past = playback()) {
@@ -130,7 +131,6 @@ void TransportBar::addTransport() {
                          m_context.controller->setPaused(!m_context.controller->isPaused());
                        }
                      });
-  m_play->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_P));
   m_step = addAction(themedIcon(QStringLiteral("media-skip-forward")), QStringLiteral("One tick"),
                      this, [this] {
                        if (Playback* past = playback())
@@ -138,20 +138,23 @@ void TransportBar::addTransport() {
                        else
                          m_context.controller->stepOnce();
                      });
-  m_step->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_Period));
   m_restart->setObjectName(QStringLiteral("restart"));
   m_play->setObjectName(QStringLiteral("play"));
   m_step->setObjectName(QStringLiteral("step"));
 
   m_speed->setObjectName(QStringLiteral("speed"));
   m_speed->setMinimumWidth(scaled(this, 68));
-  connect(m_speed, &QComboBox::activated, this, [this] {
-    const double speed = m_speed->currentData().toDouble();
-    if (Playback* past = playback())
-      past->setSpeed(speed);
-    else
-      m_context.controller->setSpeed(speed);
-  });
+  connect(m_speed, &QComboBox::activated, this,
+          [this] { setSpeed(m_speed->currentData().toDouble()); });
+  for (const auto& [id, text, by] :
+       {std::tuple("slower", "Slo&wer", -1), std::tuple("faster", "&Faster", 1)}) {
+    auto* action = new QAction(QString::fromUtf8(text), this);
+    action->setObjectName(QLatin1String(id));
+    connect(action, &QAction::triggered, this, [this, by = by] {
+      if (m_speed->isEnabled()) setSpeed(nextSpeed(by));
+    });
+    m_speedSteps << action;
+  }
   m_speed->setAccessibleName(QStringLiteral("Speed"));
   addWidget(m_speed);
   connect(m_context.controller, &MatchController::transportChanged, this,
@@ -161,6 +164,30 @@ void TransportBar::addTransport() {
   for (Playback* past : {m_context.timeline->past(), m_context.replay->playback()}) {
     connect(past, &Playback::changed, this, &TransportBar::showTransport);
   }
+}
+
+void TransportBar::setSpeed(double speed) {
+  if (Playback* past = playback())
+    past->setSpeed(speed);
+  else
+    m_context.controller->setSpeed(speed);
+}
+
+// Of the offered ones; a speed that was typed on the command line may stand between two of them.
+double TransportBar::nextSpeed(int by) const {
+  const Playback* past = playback();
+  const std::span<const double> speeds =
+      past != nullptr ? past->speeds() : std::span<const double>(matchSpeeds);
+  const auto rank = [](double speed) {
+    return speed == link::MatchRunner::unlimitedSpeed ? std::numeric_limits<double>::max() : speed;
+  };
+  const double now = past != nullptr ? past->speed() : m_context.controller->speed();
+  double next = now;
+  for (const double offered : speeds) {
+    if (by > 0 && rank(offered) > rank(now)) return offered;
+    if (by < 0 && rank(offered) < rank(now)) next = offered;
+  }
+  return next;
 }
 
 void TransportBar::addRecord() {

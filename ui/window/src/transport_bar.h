@@ -48,6 +48,8 @@ class TransportBar : public QToolBar {
   ScenarioChooser* scenarios() const { return m_scenarios; }
   /// Restart, play/pause, step: for the menu too.
   QList<QAction*> transportActions() const { return {m_restart, m_play, m_step}; }
+  /// Slower, faster.
+  QList<QAction*> speedSteps() const { return m_speedSteps; }
 
  signals:
   void sourceRequested(pitchboard::ui::SourceKind kind);
@@ -70,6 +72,9 @@ class TransportBar : public QToolBar {
   /// What the buttons move when not the match; null otherwise.
   Playback* playback() const;
   void showTransport();
+  /// Of the match, or of what is played back.
+  void setSpeed(double speed);
+  double nextSpeed(int by) const;
 
   struct Control {
     SourceKind kind;
@@ -87,6 +92,7 @@ class TransportBar : public QToolBar {
   QAction* m_restart;
   QAction* m_play;
   QAction* m_step;
+  QList<QAction*> m_speedSteps;
   bool m_finished = false;
 };
 

@@ -23,6 +23,9 @@ struct MomentOptions {
   /// here; the field too, unless the frame has one of another size. Its game, if it has one, is
   /// that of this moment; without one the referee's packet in the frame says it in whole seconds.
   const Scenario* base = nullptr;
+  /// The map of the match that will start: what robots had on received blackboards is written
+  /// there, but for the referee's words.
+  const VariableCatalog* catalog = &VariableCatalog::published();
 };
 
 struct MomentScenario {

@@ -28,23 +28,22 @@ enum class FieldLayer {
 
 struct FieldLayerInfo {
   FieldLayer layer;
-  const char* key;            ///< its word in settings: never change it
-  const char* name;           ///< on the screen
-  bool shown;                 ///< at first
-  const char* shortcut = "";  ///< the field handles it itself; the menu only shows it
+  const char* key;   ///< its word in settings: never change it
+  const char* name;  ///< on the screen
+  bool shown;        ///< at first
 };
 
 inline constexpr std::array fieldLayers{
-    FieldLayerInfo{FieldLayer::FieldOfView, "fieldOfView", "Field of view", true, "F6"},
+    FieldLayerInfo{FieldLayer::FieldOfView, "fieldOfView", "Field of view", true},
     FieldLayerInfo{FieldLayer::Belief, "belief", "Belief", true},
     FieldLayerInfo{FieldLayer::Ghost, "ghost", "Ghost at the believed pose", true},
     FieldLayerInfo{FieldLayer::PerceivedBall, "perceivedBall", "Perceived ball", true},
     FieldLayerInfo{FieldLayer::Trails, "trails", "Trails", true},
     FieldLayerInfo{FieldLayer::Numbers, "numbers", "Numbers", true},
     FieldLayerInfo{FieldLayer::Grid, "grid", "Coordinate grid", false},
-    FieldLayerInfo{FieldLayer::Landmarks, "landmarks", "Landmarks", false, "F9"},
-    FieldLayerInfo{FieldLayer::Eopra, "eopra", "EOPRA sectors", false, "F7"},
-    FieldLayerInfo{FieldLayer::StarVars, "starVars", "StarVars sectors", false, "F8"},
+    FieldLayerInfo{FieldLayer::Landmarks, "landmarks", "Landmarks", false},
+    FieldLayerInfo{FieldLayer::Eopra, "eopra", "EOPRA sectors", false},
+    FieldLayerInfo{FieldLayer::StarVars, "starVars", "StarVars sectors", false},
     FieldLayerInfo{FieldLayer::Particles, "particles", "Particles of localization", false},
     FieldLayerInfo{FieldLayer::PlannedPath, "plannedPath", "Planned path", false},
     FieldLayerInfo{FieldLayer::Drawings, "drawings", "Drawings", true},

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The field: draws the newest frame and turns mouse and keys into commands of the MatchController.
+// The field: draws the newest frame and turns the mouse into commands of the MatchController. Keys
+// are the window's, which calls what they mean here.
 // UI thread only. The scene is in metres, +y up.
 
 #include <QImage>
@@ -16,6 +17,7 @@
 #include <ui/sources/match_controller.h>
 
 class QAction;
+class QKeyEvent;
 class QMenu;
 
 namespace pitchboard::ui {
@@ -24,7 +26,9 @@ namespace pitchboard::ui {
 struct FieldActions {
   std::vector<QAction*> layers;   ///< checkable, one per FieldLayer, in that order
   std::vector<QAction*> options;  ///< how layers look: field of view of all, granularity of EOPRA
-  std::vector<QAction*> view;     ///< select, ruler, add, flip, fit, keys
+  std::vector<QAction*> tools;    ///< select, ruler, add
+  /// Published keys (checkable, remembered), show keys (for the window to answer), fit, flip sides
+  QAction *publishedKeys, *showKeys, *fit, *flip;
 };
 
 class FieldView : public QWidget, public FieldPictures {
@@ -50,6 +54,16 @@ class FieldView : public QWidget, public FieldPictures {
   const FieldActions& actions() const;
   /// What can be done with the selected robots, with all of them and the ball, for the menu bar.
   void fillRobotsMenu(QMenu* menu);
+  /// The robot of a simulated match in this slot, else one with this number; nobody: none.
+  void selectNumber(int number);
+  /// Moves the selected robots: to the right and up as the field is seen, metres.
+  void nudge(QPointF metres);
+  /// Ends a drag, or a tool other than Select; says whether there was one.
+  bool cancel();
+  /// While held, a drag with the left button pans. At the end: says whether it was used for that.
+  bool setPanHeld(bool held);
+  /// Does what this key press means in the published simulator (field_keys.h); false: nothing.
+  bool takePublishedKey(const QKeyEvent& event);
   /// Opens the editor for the pose of this robot.
   void editPose(RobotKey id);
   void setFlipped(bool flipped);
@@ -66,13 +80,9 @@ class FieldView : public QWidget, public FieldPictures {
   void cursorMoved(QPointF metres, bool valid);
   void blackboardRequested(pitchboard::RobotKey id);
   void saveScenarioRequested();
-  void loadMatchRequested();  ///< F2
+  void loadMatchRequested();  ///< F2 of the published keys
   void resetRequested();      ///< F3
   void clearRequested();      ///< F4
-
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override;
-  void showEvent(QShowEvent* event) override;
 
  private:
   struct Private;

@@ -56,7 +56,6 @@ class Timeline : public QObject {
   void goLive();
   /// One tick back or on; from now it starts to look back.
   void step(int ticks);
-  void togglePlay();
   /// Of the events that the filter shows. While it plays, going back again soon after an event was
   /// reached means the one before.
   bool goToNextEvent();

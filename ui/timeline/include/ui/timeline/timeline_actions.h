@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What can be done in time: actions for the menu and for the timeline's context menu, with the keys
-// that work in the whole window. (On the field N and M are orders for robots.)
+// What can be done in time: actions for the menu and for the timeline's context menu. Their keys
+// are the window's (its map of keys).
 
 #include <QObject>
 #include <QPoint>
+#include <array>
 #include <functional>
 
 class QAction;
@@ -41,12 +42,11 @@ class TimelineActions : public QObject {
   Timeline* m_timeline;
   LinkedTime* m_plots;
   QAction* m_now;
-  QAction* m_play;
+  QAction* m_oldest;
   QAction* m_next;
   QAction* m_previous;
   QAction* m_bookmark;
-  QAction* m_back;
-  QAction* m_on;
+  std::array<QAction*, 4> m_steps;  // a tick back, forward; a second
   QAction* m_selectVisible;
   QAction* m_clearRange;
   QAction* m_loop;

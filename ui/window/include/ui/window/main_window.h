@@ -7,13 +7,13 @@
 
 #include <QAction>
 #include <QMainWindow>
+#include <memory>
 #include <vector>
 
 #include <ui/base/theme.h>
 #include <ui/sources/frame_source.h>
 
 class QSettings;
-class QUndoGroup;
 
 namespace pitchboard::link {
 struct MatchFrame;
@@ -26,6 +26,7 @@ class Alarms;
 class ComparedSession;
 class FieldOnly;
 class FieldView;
+class KeyMap;
 class LinkedTime;
 class LiveController;
 class LiveOverlay;
@@ -45,6 +46,7 @@ struct StudioParts;
 class Timeline;
 class TimelineActions;
 class TransportBar;
+class UndoHistory;
 
 class MainWindow : public QMainWindow {
   Q_OBJECT
@@ -96,12 +98,14 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
   void showEvent(QShowEvent* event) override;
   void changeEvent(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
 
  private:
   StudioParts parts() const;
   void makeMenus();
+  void makeKeys();
+  void cancelStepByStep();
   void makeDocks();
-  void chooseUndo();
   void showTitles();
   void connectField();
   void shutDown();
@@ -110,12 +114,13 @@ class MainWindow : public QMainWindow {
   void saveLayout();
   void fitScreen();
   void tellFinished(const link::MatchFrame& frame);
+  void askForSpeed(const QStringList& programs, double wanted);
 
   MatchController* m_controller;
   LiveController* m_live;
   QSettings* m_settings;
   SourceSwitch* m_source;
-  QUndoGroup* m_undo;  // nothing to undo while another source is shown
+  UndoHistory* m_undo;
   RobotSelection* m_selection;
   LinkedTime* m_time;
   PlotTarget* m_plots;
@@ -135,6 +140,7 @@ class MainWindow : public QMainWindow {
   PlotsDock* m_plotsDock = nullptr;
   FieldOnly* m_fieldOnly;
   Alarms* m_alarms;
+  std::unique_ptr<KeyMap> m_keys;
   QByteArray m_savedLayout;
   QSize m_firstSize;  // when it was not kept from the last time
   bool m_wasShown = false;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Undo and redo over several stacks in order of time: what was done last is undone first, wherever
+// the focus is. UI thread only.
+
+#include <QHash>
+#include <QObject>
+#include <QPointer>
+#include <QUndoStack>
+#include <functional>
+#include <memory>
+#include <vector>
+
+class QAction;
+
+namespace pitchboard::ui {
+
+class UndoHistory : public QObject {
+ public:
+  explicit UndoHistory(QObject* parent);
+  /// `usable` says whether the stack's commands may be undone and redone now; call refresh() when
+  /// its answer changes.
+  void add(QUndoStack* stack, std::function<bool()> usable);
+  void refresh();
+  /// "Undo Remove B1"; disabled while there is nothing.
+  QAction* undoAction() const { return m_undo; }
+  QAction* redoAction() const { return m_redo; }
+
+ private:
+  struct Part {
+    QPointer<QUndoStack> stack;
+    std::function<bool()> usable;
+    QHash<const QUndoCommand*, quint64> pushed;  // when each command came
+  };
+  void note(Part& part);
+  /// The stack whose next command to undo is the newest, to redo the oldest; null: there is none.
+  QUndoStack* next(bool undo) const;
+
+  std::vector<std::unique_ptr<Part>> m_parts;
+  QAction* m_undo;
+  QAction* m_redo;
+  quint64 m_count = 0;
+};
+
+}  // namespace pitchboard::ui
