@@ -8,6 +8,7 @@
 #include <memory>
 #include <thread>
 
+#include <app/scenario_options.h>
 #include <base/duration_words.h>
 #include <base/try.h>
 #include <robotlink/experiment/experiment_folder.h>
@@ -285,7 +286,7 @@ void addExperimentCommand(CLI::App& parent, int& exitCode) {
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   command->add_option("--seed", o.seed, "Of the first run; default: the experiment's")
-      ->check(CLI::NonNegativeNumber)
+      ->check(shared::refuseNegative)
       ->type_name("N");
   command->add_option("--runs", o.runs, "Of each condition; default: the experiment's")
       ->type_name("N")

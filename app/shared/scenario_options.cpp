@@ -37,12 +37,16 @@ Result<void> chooseModel(link::Scenario& scenario, const std::string& text) {
 
 }  // namespace
 
+std::string refuseNegative(const std::string& text) {
+  return text.starts_with('-') ? "must be 0 or more, not " + text : std::string();
+}
+
 void addScenarioOptions(CLI::App& command, ScenarioOptions& options) {
   command.add_option("--scenario", options.scenario, "Built-in scenario or a JSON file")
       ->type_name("NAME|FILE")
       ->capture_default_str();
   command.add_option("--seed", options.seed, "Seed of the noise; default: the scenario's")
-      ->check(CLI::NonNegativeNumber)
+      ->check(refuseNegative)
       ->type_name("N");
   command
       .add_option("--noise", options.noise,

@@ -174,7 +174,9 @@ class TestCliSimulate : public QObject {
     QVERIFY(speed(simulate(obey + QStringList{"--duration", "20", "--speed", "max"})) > 1.5);
     const Run alone = simulate({"--answer-referee", "0", "--duration", "1"});
     QVERIFY(alone.exitCode != 0 && alone.err.contains("--obey-referee"));
-    QVERIFY(simulate({"--seed", "-1", "--duration", "1"}).exitCode != 0);
+    const Run negative = simulate({"--seed", "-1", "--duration", "1"});
+    QVERIFY2(negative.exitCode == 2 && negative.err.contains("--seed: must be 0 or more"),
+             negative.err.constData());
   }
 
   void savedMomentGoesOn() {

@@ -21,6 +21,10 @@ struct ScenarioOptions : link::ScenarioOverrides {
 /// --scenario, --seed, --noise, --physics and --robot-model.
 void addScenarioOptions(CLI::App& command, ScenarioOptions& options);
 
+/// A check of options that take a whole number: what is wrong with one below 0, which would become
+/// a huge one; empty when it is none.
+std::string refuseNegative(const std::string& text);
+
 /// Puts seed, noise, physics and robot models into a scenario.
 Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& options);
 
