@@ -326,7 +326,7 @@ class TestSentBoards : public QObject {
     QCOMPARE(robot.key, (RobotKey{1, 3, 0}));
     QVERIFY(robot.belief && robot.ball && robot.battery && robot.decided == 8);
     QCOMPARE(robot.pose.position.x, 1.5);
-    QVERIFY(robot.lamps[1].state == telemetry::ProcessState::Working);
+    QVERIFY(robot.lamps[1].state == telemetry::HeartbeatState::Working);
     QVERIFY(!robot.timedOut() && !robot.boardKey);
     // The agent lives, and there is no blackboard.
     rig.send(3, 21, 3200, "@BLACKBOARD=0");
