@@ -19,20 +19,16 @@ page() {
   local program=$1 help name summary command
   shift
   name=$(IFS=-; echo "$(basename "$program")${*:+-$*}")
-  help=$("$program" "$@" --help)
+  help=$("$program" "$@" --help-all)
   # The first sentence names the page; examples go to the end, where manuals have them.
-  summary=$(sed -n '1{s/^Pitchboard: //;s/\. .*//;s/\.$//;p}' <<<"$help")
+  summary=$(sed -n '/^$/q;p' <<<"$help" | tr '\n' ' ' | sed 's/^Pitchboard: //;s/\. .*//;s/\. *$//')
   {
     echo '#!/bin/sh'
     echo "cat <<'END_OF_HELP'"
-    awk '/^Examples?: /      { example = 1; sub(/^Examples?: /, ""); examples = examples "  " $0 "\n"; next }
-         /^Usage: /          { example = 0 }
-         example             { sub(/^ +/, ""); examples = examples "  " $0 "\n"; next }
-         /^Subcommands:/     { commands = 1 }
-         commands && /^ +Examples?: /   { skip = 1; next }
-         commands && /^  [^ ]/          { skip = 0 }
-         skip                { next }
-                             { print }
+    awk '/^Examples?:$/ { example = 1; next }
+         example && !NF { example = 0; next }
+         example        { examples = examples $0 "\n"; next }
+                        { print }
          END { if (examples) printf "\nExamples:\n%s", examples }' <<<"$help"
     echo 'END_OF_HELP'
   } >"$work/$name"
@@ -41,7 +37,7 @@ page() {
     --source="Pitchboard $version" --manual="Pitchboard" "$work/$name" |
     sed '/^\.SH EXAMPLES/,$ s/^\.IP$/.IP\n.nf/' |
     gzip -9n >"$folder/$name.1.gz"
-  for command in $(sed -n '/^Subcommands:/,$s/^  \([a-z][a-z-]*\) .*/\1/p' <<<"$help"); do
+  for command in $(sed -n '/^Commands:/,/^$/s/^  \([a-z][a-z-]*\)\( .*\)\{0,1\}$/\1/p' <<<"$help"); do
     page "$program" "$@" "$command"
   done
 }

@@ -59,7 +59,13 @@ sources() { git ls-files --cached --others --exclude-standard "$@" | while read 
 # tests/data is what tests read, as it was made elsewhere.
 format() { sources '*.h' '*.cpp' ':!tests/data' | xargs clang-format --dry-run --Werror; }
 
-docs() { python3 scripts/check_docs.py; }
+# scripts/spelling.txt has the words that are right all the same.
+docs() {
+  python3 scripts/check_docs.py
+  sources app simcore telemetry robotlink ui tests docs scripts packaging '*.md' run test install \
+    ':!tests/data' ':!docs/reference' ':!*.svg' ':!*.png' ':!scripts/spelling.txt' |
+    xargs codespell --ignore-words scripts/spelling.txt
+}
 
 includes() {
   quietly cmake --preset core-only

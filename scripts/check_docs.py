@@ -46,7 +46,7 @@ def own_options():
     """Every --option that our programs and scripts spell."""
     found = set()
     for name in FILES:
-        if name.startswith(("app/", "scripts/", "docs/examples/")) or name in ("run", "test"):
+        if name.startswith(("app/", "scripts/", "docs/examples/")) or name in ("install", "run", "test"):
             if name.endswith((".bin", ".mcap", ".png")):
                 continue
             text = (ROOT / name).read_text(encoding="utf-8", errors="replace")

@@ -69,6 +69,10 @@ printf '1 450 300 90 12 83 -4 1 1 1 1 1 8 1.57 148 OUT\nPBD1 1\nlayer b belief 2
   > "$seeds/drawings/message.txt"
 printf 'PB2 3 7 4500300 @REFRESH=2000 @WAITING=0 @BLACKBOARD=1 DECISION_ACTION_A=1 IMU_EULER_Z=-1.5707964 VOLTAGE=189 OUT' \
   > "$seeds/pb2/message.txt"
+{
+  printf '\003\062PB2 4 0 1000 @REFRESH=2000 @WAITING=0 @BLACKBOARD=1 LOCALIZATION_X=450 LOCALIZATION_Y=300 OUT\n'
+  printf '\003\375PB2 4 1 9000 VISION_BALL_DIST=80.5 OUR_GAIT=3 OUT\n\003\062PB2 4 0 8900 VOLTAGE=189 OUT\n'
+} > "$seeds/variables/conversation.txt"
 grep '^→ ' docs/LEARNING.md | sed 's/^→ //; s/"scenario": "one-robot", //; s/"ticks": [0-9]*/"ticks": 2/' \
   > "$seeds/lines/conversation.txt"
 number=0
@@ -90,15 +94,15 @@ robot = {"number": 3, "slot": 0, "address": 167772161, "port": 5000, "last": 100
          "arrivals": [0, 1000], "values": [1, None], "words": ["1", ""], "errors": [0, 1],
          "processes": [{"p": 0.9, "known": True, "since": 0}], "sequence": {"bits": 8, "newest": 3}}
 options = {"ourTeam": 12, "field": "spl", "teams": [{"setup": "{\"number\": 12}", "profile": ""}]}
-books = {"time": 1, "options": options, "robots": json.dumps({"robots": [robot]}),
+state = {"time": 1, "options": options, "robots": json.dumps({"robots": [robot]}),
          "referee": [{"at": 0, "address": 1, "port": 3838, "localPort": 3838, "base64": "UkdtZQ=="}]}
-(seeds / "books" / "one").write_text(json.dumps(books))
+(seeds / "live_state" / "one").write_text(json.dumps(state))
 
 def record(stream, body):
     return bytes([stream]) + len(body).to_bytes(2, "little") + body
 message = b"1 450 300 90 12 83 -4 1 1 1 1 1 8 1.57 148 OUT"
 referee = pathlib.Path("tests/data/gamecontroller/v12hl640_PLAYING_1-0.bin").read_bytes()
-(seeds / "moments" / "live").write_bytes(record(2, json.dumps(books).encode()) + record(0, message)
+(seeds / "moments" / "live").write_bytes(record(2, json.dumps(state).encode()) + record(0, message)
                                          + record(1, referee) + record(0, message))
 PYTHON
 
@@ -110,7 +114,7 @@ fuzz() {
     profile | experiment | scenario) length=8000 ;;
     lines) length=1000 ;;
     session) length=8200 ;;
-    books | moments | catalog) length=16000 ;;
+    live_state | moments | catalog) length=16000 ;;
   esac
   UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
     "$build/bin/fuzz_$target" -max_total_time="$seconds" -entropic=0 -max_len=$length -timeout=25 -rss_limit_mb=1024 \

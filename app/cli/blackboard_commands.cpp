@@ -127,7 +127,7 @@ void addListCommand(CLI::App& parent, int& exitCode) {
   const auto options = std::make_shared<Options>();
   auto* const command = parent.add_subcommand(
       "list",
-      "Blackboards on this computer: robot, key, owner, who is attached, orphans.\n"
+      "List the blackboards on this computer with owner and attached processes.\n"
       "Example: pitchboard-cli blackboard list");
   command->add_option("--key-base", options->keyBase, "added to 100 x robot number")
       ->check(CLI::Range(0, 2'000'000'000));
@@ -140,7 +140,7 @@ void addCreateCommand(CLI::App& parent, int& exitCode) {
   const auto target = std::make_shared<BlackboardTarget>();
   auto* const command =
       parent.add_subcommand("create",
-                            "Make a zeroed blackboard that stays until it is removed.\n"
+                            "Create a zeroed blackboard that stays until it is removed.\n"
                             "Example: pitchboard-cli blackboard create 1");
   target->addTo(*command);
   whenChosen(*command, target, exitCode, [](BlackboardTarget& chosen) -> Result<int> {
@@ -153,10 +153,10 @@ void addCreateCommand(CLI::App& parent, int& exitCode) {
 
 void addRemoveCommand(CLI::App& parent, int& exitCode) {
   const auto options = std::make_shared<RemoveOptions>();
-  auto* const command = parent.add_subcommand(
-      "remove",
-      "Remove blackboards; one that a process is attached to only with --force.\n"
-      "Example: pitchboard-cli blackboard remove --orphans");
+  auto* const command =
+      parent.add_subcommand("remove",
+                            "Remove blackboards. One with attached processes needs --force.\n"
+                            "Example: pitchboard-cli blackboard remove --orphans");
   command->add_option("ROBOT", options->robots, "robot numbers")->check(CLI::Range(1, 64));
   command->add_option("--key", options->key, "a System V key instead of a robot number")
       ->check(CLI::PositiveNumber);
@@ -172,7 +172,7 @@ void addRemoveCommand(CLI::App& parent, int& exitCode) {
 
 void addBlackboardCommands(CLI::App& parent, int& exitCode) {
   auto* const group = parent.add_subcommand("blackboard",
-                                            "Look at robots' blackboards and change them.\n"
+                                            "List, read and change robots' blackboards.\n"
                                             "Example: pitchboard-cli blackboard dump 1");
   group->require_subcommand(1);
   addListCommand(*group, exitCode);

@@ -52,7 +52,7 @@ int importCatalog(const ImportOptions& options) {
 void addCatalogCommands(CLI::App& parent, int& exitCode) {
   auto* const group = parent.add_subcommand(
       "catalog",
-      "Variable maps of blackboards.\n"
+      "Import variable maps of blackboards.\n"
       "Example: pitchboard-cli catalog import blackboard.h --json -o our-team.json");
   group->require_subcommand(1);
   const auto options = std::make_shared<ImportOptions>();

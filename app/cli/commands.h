@@ -9,6 +9,7 @@
 #include <memory>
 
 #include <app/command_line.h>
+#include <app/usage.h>
 
 namespace pitchboard::cli {
 
@@ -31,6 +32,7 @@ void addExportCommand(CLI::App& parent, int& exitCode);
 void addExperimentCommand(CLI::App& parent, int& exitCode);
 void addTestCommand(CLI::App& parent, int& exitCode);
 
+using shared::addGroup;
 using shared::reportError;
 
 /// Reports the error of a command that failed.

@@ -60,7 +60,7 @@ void addConformanceCommand(CLI::App& parent, int& exitCode) {
   CLI::App* command = parent.add_subcommand(
       "conformance",
       "Compare the published model with recorded runs of the published simulator.\n"
-      "Prints the largest deviation of each file; exit code 1 when any value differs.\n"
+      "Prints the largest deviation of each file; exits with 1 if any value differs.\n"
       "Example: pitchboard-cli conformance tests/data/traces/*.json");
   command->add_option("FILE", options->files, "Traces: FILE.json with FILE.csv.gz beside it")
       ->required();

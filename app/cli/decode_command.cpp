@@ -109,10 +109,14 @@ class Decoder : public link::LiveObserver {
   /// `head`: what stands before it; without a time it comes a second after the one before.
   void take(Json head, std::string_view payload, bool ofReferee, std::optional<double> time = {},
             telemetry::Sender sender = {}) {
+    const bool isVariables = !ofReferee && payload.starts_with("PB2 ");
     constexpr double mostSeconds = 9e9;
     m_head = std::move(head);
     m_time = std::clamp(time.value_or(m_time + 1.0), -mostSeconds, mostSeconds);
-    const auto port = ofReferee ? m_pipeline.options().refereePort : 0;
+    const link::LiveOptions& options = m_pipeline.options();
+    const int port = ofReferee     ? options.refereePort
+                     : isVariables ? options.variablesPortBase + 1
+                                   : 0;
     const auto after = std::chrono::duration<double>(m_time);
     m_pipeline.take({WallTime(std::chrono::duration_cast<Duration>(after)), sender,
                      static_cast<std::uint16_t>(port), false, payload});
@@ -189,32 +193,32 @@ Result<int> decodeGameController(const DecodeOptions& options) {
 }  // namespace
 
 void addDecodeCommand(CLI::App& parent, int& exitCode) {
-  CLI::App* decode = parent.add_subcommand(
-      "decode",
-      "Decode stored datagrams. Exit code 1 when one of them could not be used.\n"
-      "Examples: pitchboard-cli decode telemetry --json capture.txt\n"
-      "          pitchboard-cli decode gamecontroller --json packet.bin\n"
-      "          echo '1 450 300 0 9.5 80 10 1 1 1 1 1 8 0.1 189 OUT' |\n"
-      "            pitchboard-cli decode telemetry -");
+  CLI::App* decode =
+      parent.add_subcommand("decode",
+                            "Decode recorded datagrams. Exits with 1 if any of them is invalid.\n"
+                            "Examples: pitchboard-cli decode telemetry --json capture.txt\n"
+                            "          pitchboard-cli decode gamecontroller --json packet.bin\n"
+                            "          echo '1 450 300 0 9.5 80 10 1 1 1 1 1 8 0.1 189 OUT' |\n"
+                            "            pitchboard-cli decode telemetry -");
   decode->require_subcommand(1);
 
   auto text = std::make_shared<DecodeOptions>();
   CLI::App* telemetry = decode->add_subcommand(
       "telemetry",
-      "Datagrams of robots. Text: one per line; a line may begin with time, tab, sender, tab.\n"
+      "Datagrams of robots: messages, and variables (PB2).\n"
+      "Text: one per line; a line may begin with time, tab, sender, tab.\n"
       "Binary: one per file, or lines of JSON with the bytes under \"hex\".\n"
       "Example: pitchboard-cli decode telemetry --profile mitecom message.bin");
   telemetry->add_option("FILE", text->files, "Files; - is standard input")->required();
-  telemetry->add_option(
-      "--profile", text->profile,
-      "What stands in a message: a file (docs/LIVE.md), or one of\n" + profileNames());
+  telemetry->add_option("--profile", text->profile,
+                        "Format of the messages: a file (docs/LIVE.md), or " + profileNames());
   telemetry->add_flag("--json", text->json, "One JSON object per datagram");
   whenChosen(*telemetry, text, exitCode, decodeTelemetry);
 
   auto referee = std::make_shared<DecodeOptions>();
   CLI::App* controller = decode->add_subcommand(
       "gamecontroller",
-      "Referee packets: one packet per file, or lines of JSON with the bytes under \"hex\"");
+      "Referee packets. One packet per file, or lines of JSON with the bytes under \"hex\".");
   controller->add_option("FILE", referee->files, "Files; - is standard input")->required();
   controller->add_flag("--json", referee->json, "One JSON object per packet");
   whenChosen(*controller, referee, exitCode, decodeGameController);

@@ -200,7 +200,7 @@ void addMerge(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<Merge>();
   CLI::App* command =
       parent.add_subcommand("merge",
-                            "Join the results of shards: the same files as played in one piece\n"
+                            "Merge the results of shards into the files of a single run.\n"
                             "Example: pitchboard-cli experiment merge part1 part2 --out all");
   command->add_option("parts", options->parts, "Folders of the shards")
       ->required()
@@ -226,7 +226,7 @@ void addReplay(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<Replay>();
   CLI::App* command = parent.add_subcommand(
       "replay",
-      "Play a run of the results again, into a session file; it must end in the same state\n"
+      "Play a run again and record it. Exits with 1 if it ends in another state.\n"
       "Example: pitchboard-cli experiment replay results --run 417 --open");
   command->add_option("folder", options->folder, "The results")->required()->type_name("DIR");
   command->add_option("--run", options->run, "Its number in runs.csv")->required()->type_name("N");
@@ -274,8 +274,8 @@ void addExperimentCommand(CLI::App& parent, int& exitCode) {
   ExperimentOptions& o = *options;
   CLI::App* command = parent.add_subcommand(
       "experiment",
-      "Plays an experiment: many runs under several conditions, with tables and a report. Exit 1 "
-      "when an assertion does not hold\n"
+      "Play an experiment: many runs under several conditions, with tables and a report. Exits "
+      "with 1 if an assertion fails.\n"
       "Examples: pitchboard-cli experiment paper-scenario-1 --out results --jobs 2\n"
       "          pitchboard-cli experiment mine.json --out part2 --shard 2/8");
   command->add_option("experiment", o.experiment, "Built-in name or a JSON file")
@@ -285,6 +285,7 @@ void addExperimentCommand(CLI::App& parent, int& exitCode) {
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   command->add_option("--seed", o.seed, "Of the first run; default: the experiment's")
+      ->check(CLI::NonNegativeNumber)
       ->type_name("N");
   command->add_option("--runs", o.runs, "Of each condition; default: the experiment's")
       ->type_name("N")
@@ -293,7 +294,7 @@ void addExperimentCommand(CLI::App& parent, int& exitCode) {
   command->add_flag("--resume", o.resume, "Go on with the results that are in the folder");
   command->add_flag("--list", o.list, "Print the built-in experiments");
   command->add_flag("--progress", o.progress,
-                    "Say on stderr how far it is, also without a terminal");
+                    "Print progress to stderr even if it is not a terminal");
   command
       ->add_option("--robot-program", o.robotProgram,
                    "Program of separate processes; default: pitchboard-robot beside this one")

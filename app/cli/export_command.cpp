@@ -129,7 +129,8 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<ExportOptions>();
   CLI::App* command = parent.add_subcommand(
       "export",
-      "Write a session, or part of it, as CSV, JSON lines or a shorter session.\n"
+      "Export a recording, or part of it, as CSV, JSON lines, MCAP, HTML report, picture or "
+      "video.\n"
       "Examples: pitchboard-cli export match.mcap --to csv-wide -o match.csv\n"
       "          pitchboard-cli export match.mcap --to csv-long --robots B1,R2 --variables "
       "'VISION_*'\n"
@@ -140,39 +141,44 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       "-o "
       "goal.mcap\n"
       "          pitchboard-cli export match.mcap --to mp4 --from 60 --until 90 -o goal.mp4");
-  command->add_option("file", options->file, "The session")->required()->type_name("FILE");
+  command->add_option("file", options->file, "The recording")->required()->type_name("FILE");
   command
-      ->add_option("--to", options->format,
-                   "csv-wide: a line per time; csv-even: the same at even times; csv-long: a line "
-                   "per value; jsonl; mcap; report: an HTML page with score, statistics and "
-                   "events; svg, png: the field at --from; mp4, webm: a video of the field "
-                   "(the studio paints; videos need ffmpeg, too)")
+      ->add_option(
+          "--to", options->format,
+          "csv-wide (a row per time), csv-even (resampled at --rate), csv-long (a row per value), "
+          "jsonl, mcap, report (HTML), svg or png (the field at --from), mp4 or webm (a video, "
+          "needs ffmpeg)")
       ->type_name("FORMAT")
       ->capture_default_str();
-  command->add_option("--from", options->from, std::string("Begin: ") + sessionTimeForms)
+  command->add_option("--from", options->from, std::string("Start: ") + sessionTimeForms)
       ->type_name("T");
-  command->add_option("--until", options->until, "End, in the same forms")->type_name("T");
+  command->add_option("--until", options->until, "End, in the same format")->type_name("T");
   command
-      ->add_option("--robots", options->robots, "Only what belongs to these, e.g. B1,R2 or match")
+      ->add_option("--robots", options->robots,
+                   "Export only these robots, e.g. B1,R2; match for what belongs to no robot")
       ->type_name("NAMES")
       ->delimiter(',');
-  command->add_option("--variables", options->variables, "Only these; * stands for any letters")
+  command
+      ->add_option("--variables", options->variables,
+                   "Export only these variables; * matches any letters")
       ->type_name("NAMES")
       ->delimiter(',');
-  command->add_option("--rate", options->rate, "csv-even: lines, videos: pictures a second")
+  command->add_option("--rate", options->rate, "Rows (csv-even) or pictures (videos) per second")
       ->type_name("N")
       ->capture_default_str();
   command->add_flag("--interpolate", options->interpolate,
-                    "csv-even: on the line between two rows; else each value holds until the next");
-  command->add_flag("--clock", options->clock,
-                    "Read --from and --until as times of day (this computer's time zone); CSV: add "
-                    "a column with the time of day (UTC)");
+                    "csv-even: interpolate linearly instead of holding each value");
+  command->add_flag(
+      "--clock", options->clock,
+      "Read --from and --until as local times of day; CSV: add a column with the time of "
+      "day (UTC)");
   command->add_flag("--rows-only", options->rowsOnly,
-                    "Without events, log and datagrams (jsonl, mcap)");
-  command->add_option("-o,--output", options->output, "A new file; else the text goes to stdout")
+                    "Leave out events, log and datagrams (jsonl, mcap)");
+  command
+      ->add_option("-o,--output", options->output, "Write this new file instead of standard output")
       ->type_name("FILE");
   command->add_flag("--progress", options->progress,
-                    "Say on stderr how far it is, also without a terminal");
+                    "Print progress to stderr even if it is not a terminal");
   command->callback([options, &exitCode] { exitCode = exportSession(*options); });
 }
 

@@ -144,15 +144,15 @@ void addInspectCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<InspectOptions>();
   CLI::App* command =
       parent.add_subcommand("inspect",
-                            "Say what is in a session, and whether all of it can be "
-                            "read. Ends with 1 when it broke off, is damaged or "
-                            "something in it is not understood.\n"
+                            "Summarize a recording and check that all of it can be "
+                            "read. Exits with 1 if it is truncated or damaged, or if "
+                            "part of it is unknown.\n"
                             "Example: pitchboard-cli inspect match.mcap --events");
   command->add_option("file", options->file, "The session")->required()->type_name("FILE");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->add_flag("--events", options->events, "List the events");
   command->add_flag("--progress", options->progress,
-                    "Say on stderr how far it is, also without a terminal");
+                    "Print progress to stderr even if it is not a terminal");
   command->callback([options, &exitCode] { exitCode = inspectSession(*options); });
 }
 

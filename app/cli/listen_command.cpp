@@ -76,6 +76,9 @@ class Printer : public link::LiveObserver {
     for (const telemetry::RobotStatus& robot : details.team.robots) {
       put(dump(healthJson(robot, nameOf(robot.key, details.teams), details.team.time)) + "\n");
     }
+    for (const link::SentStatus& sent : details.sent) {
+      put(dump(healthJson(sent, details.team.time)) + "\n");
+    }
   }
 
   /// Datagrams and events that came faster than they could be printed.
@@ -122,10 +125,19 @@ void reportEnd(const link::LiveDetails& details, std::uint64_t left) {
                static_cast<unsigned long long>(network.datagrams()), team.robots.size(),
                static_cast<unsigned long long>(network.kernelDrops()),
                static_cast<unsigned long long>(network.queueDrops + left),
-               static_cast<unsigned long long>(team.errors.messages() + details.unknownReferee),
+               static_cast<unsigned long long>(team.errors.messages() + details.unknownReferee +
+                                               details.badVariables),
                refusedText(details).c_str());
   for (const telemetry::RobotStatus& robot : team.robots) {
     std::fprintf(stderr, "\n  %s", healthLine(robot, nameOf(robot.key, details.teams)).c_str());
+  }
+  for (const link::SentStatus& sent : details.sent) {
+    std::fprintf(stderr, "\n  %s", healthLine(sent).c_str());
+  }
+  if (details.badVariables > 0) {
+    std::fprintf(stderr, "\n  variables that could not be read: %llu, e.g. %s",
+                 static_cast<unsigned long long>(details.badVariables),
+                 details.badVariablesReason.c_str());
   }
   for (std::size_t i = 0; i < telemetry::textErrorCount; ++i) {
     const auto error = static_cast<telemetry::TextError>(i);
@@ -200,14 +212,16 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
       "          pitchboard-cli listen --profile our-team.json --from 192.168.0.0/24\n"
       "          pitchboard-cli listen --team ours.json --team theirs.json");
   shared::addDuration(*command, "--duration", options->duration,
-                      "Stop after this time; without it until Ctrl+C");
+                      "Stop after this time instead of at Ctrl+C");
   addListenOptions(*command, options->network);
-  command->add_option("--monitor", options->monitor,
-                      "Ask the referee at this address for monitor mode (controllers of 2026).\n"
-                      "This is the only thing that listen can send, and only to that address");
-  command->add_flag("--json", options->json,
-                    "One JSON object per message, and how each robot is heard\n"
-                    "once a second and at the end (\"type\": \"health\")");
+  command->add_option(
+      "--monitor", options->monitor,
+      "Ask the GameController (2026) at this address for monitor mode: the only thing that "
+      "listen can send");
+  command->add_flag(
+      "--json", options->json,
+      "Print one JSON object per message, and the health of each link once a second and at "
+      "the end (\"type\": \"health\")");
   whenChosen(*command, options, exitCode, listenToRobots);
 }
 

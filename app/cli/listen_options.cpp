@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <thread>
 
+#include <app/usage.h>
 #include <base/try.h>
 
 namespace pitchboard::cli {
@@ -13,13 +14,7 @@ using namespace telemetry;
 
 std::string profileNames() {
   std::string names;
-  std::size_t line = 0;
-  for (const std::string& name : builtInProfiles()) {
-    const bool wraps = line + name.size() > 60;
-    if (!names.empty()) names += wraps ? ",\n" : ", ";
-    line = wraps ? name.size() : line + name.size() + 2;
-    names += name;
-  }
+  for (const std::string& name : builtInProfiles()) names += (names.empty() ? "" : ", ") + name;
   return names;
 }
 
@@ -36,28 +31,48 @@ Result<std::vector<TeamSetup>> loadTeams(const std::vector<std::string>& files) 
 void addListenOptions(CLI::App& command, ListenOptions& options) {
   command
       .add_option("--bind", options.bind,
-                  "Address to receive at; 0.0.0.0 is every interface, with broadcasts")
+                  "Address to receive at; 0.0.0.0 is every interface, including broadcasts")
+      ->type_name("ADDRESS")
       ->capture_default_str();
   command.add_option("--port-base", options.portBase, "Robot n sends to port base + n")
+      ->type_name("PORT")
       ->capture_default_str();
-  command.add_option("--robots", options.robots, "How many ports after the base")
+  command.add_option("--robots", options.robots, "Number of ports after the base")
+      ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
-  command.add_option("--gamecontroller-port", options.refereePort, "Port of the referee's packets")
+  command
+      .add_option("--variables-port-base", options.variablesPortBase,
+                  "Robot n sends its variables (pitchboard-agent) to this port base + n; 0: off")
+      ->type_name("PORT")
       ->capture_default_str();
-  command.add_option(
-      "--profile", options.profile,
-      "What stands in a message: a file (docs/LIVE.md), or one of\n" + profileNames());
+  command
+      .add_option("--catalog", options.catalogs,
+                  "Map of variables that robots send, besides the published one; may be repeated")
+      ->type_name("FILE");
+  command.add_option("--gamecontroller-port", options.refereePort, "Port of the referee's packets")
+      ->type_name("PORT")
+      ->capture_default_str();
+  command
+      .add_option("--profile", options.profile,
+                  "Format of the robots' messages: a file (docs/LIVE.md), or " + profileNames())
+      ->type_name("FILE|NAME");
   command.add_option("--team", options.teams,
                      "Team setup as JSON: ports, senders, profile, colour; may be repeated");
   command
-      .add_option("--gamecontroller-version", options.refereeVersion,
-                  "Only this version of the referee's packets; without it the highest")
+      .add_option(
+          "--gamecontroller-version", options.refereeVersion,
+          "Accept only this version of the referee's packets; default: the highest received")
+      ->type_name("N")
       ->check(CLI::Range(7, 255));
   command.add_option("--from", options.senders,
-                     "Only robots at these addresses or networks; may be repeated");
+                     "Accept only robots at this address or network; may be repeated");
   command.add_option("--referee-from", options.refereeSenders,
-                     "Only a referee at these addresses or networks; may be repeated");
+                     "Accept only a referee at this address or network; may be repeated");
+  shared::addGroup(
+      command, "Network",
+      {"--bind", "--port-base", "--robots", "--variables-port-base", "--catalog",
+       "--gamecontroller-port", "--gamecontroller-version", "--from", "--referee-from"});
 }
 
 Result<link::LiveOptions> liveOptions(const ListenOptions& options) {
@@ -66,6 +81,8 @@ Result<link::LiveOptions> liveOptions(const ListenOptions& options) {
   live.portBase = options.portBase;
   live.robots = options.robots;
   live.refereePort = options.refereePort;
+  live.variablesPortBase = options.variablesPortBase;
+  live.catalogs = options.catalogs;
   live.refereeVersion = options.refereeVersion;
   live.team.teams = TRY(loadTeams(options.teams));
   if (!options.profile.empty()) live.profile = TRY(loadProfile(options.profile));
@@ -89,8 +106,13 @@ Result<link::LiveDetails> whenListening(const link::LiveWatch& watch) {
 void sayListening(const link::LiveOptions& options, const ReceiverStatus& network) {
   const std::string address = options.bind.text();
   if (options.team.teams.empty()) {
-    std::fprintf(stderr, "listening at %s on UDP ports %d to %d and %d\n", address.c_str(),
-                 options.portBase + 1, options.portBase + options.robots, options.refereePort);
+    const int variables = options.variablesPortBase;
+    std::fprintf(stderr, "listening at %s on UDP ports %d to %d and %d%s\n", address.c_str(),
+                 options.portBase + 1, options.portBase + options.robots, options.refereePort,
+                 variables == 0 ? ""
+                                : ("; variables on " + std::to_string(variables + 1) + " to " +
+                                   std::to_string(variables + options.robots))
+                                      .c_str());
     return;
   }
   std::string text;
@@ -120,6 +142,7 @@ std::string refusedText(const link::LiveDetails& details) {
     out += (out.empty() ? "; refused: " : ", ") + std::to_string(count) + what;
   };
   add(details.team.refusedByFilter, " of senders that --from does not name");
+  add(details.refusedVariables, " with variables of senders that --from does not name");
   add(details.refusedReferees, " of referees that --referee-from does not name");
   add(details.team.refusedRobots, " of more robots than are kept");
   add(details.rows.rows, " rows beyond the limits");

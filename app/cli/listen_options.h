@@ -18,13 +18,15 @@ struct ListenOptions {
   int portBase = 1240;
   int robots = 16;
   int refereePort = 3838;
+  int variablesPortBase = telemetry::pb2PortBase;
+  std::vector<std::string> catalogs;
   std::string profile;
   std::vector<std::string> teams;
   std::vector<std::string> senders, refereeSenders;
   int refereeVersion = 0;
 };
 
-/// "b-human, barelangfc, ...": the profiles that are part of the program, over several lines.
+/// "b-human, barelangfc, ...": the profiles that are part of the program.
 std::string profileNames();
 /// The first error of any of the files.
 Result<std::vector<telemetry::TeamSetup>> loadTeams(const std::vector<std::string>& files);

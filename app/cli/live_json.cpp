@@ -116,6 +116,49 @@ std::string telemetryLine(const link::LiveDatagram& datagram, const std::string&
   return out + "] " + printable(datagram.view.payload, 120);
 }
 
+Json variablesJson(const link::LiveDatagram& datagram, const std::string& robot) {
+  if (!*datagram.variables) {
+    return {{"robot", nullptr},
+            {"error", datagram.variables->error().text()},
+            {"text", printable(datagram.view.payload)}};
+  }
+  const Pb2Message& message = **datagram.variables;
+  Json json{{"robot", message.robot},
+            {"name", robot},
+            {"sequence", message.sequence},
+            {"milliseconds", message.milliseconds}};
+  Json values = Json::object();
+  for (const Pb2Value& value : message.values) {
+    const std::string name(value.name);
+    if (value.whole) {
+      values[name] = static_cast<std::int64_t>(value.value);
+    } else {
+      values[name] = std::isfinite(value.value) ? Json(value.value) : Json(nullptr);
+    }
+  }
+  json["values"] = std::move(values);
+  if (message.status.refresh_ms) json["refresh"] = *message.status.refresh_ms;
+  if (message.status.waiting) json["waiting"] = *message.status.waiting;
+  if (message.status.blackboard) json["blackboard"] = *message.status.blackboard;
+  json["late"] = datagram.variablesVerdict == link::SentBoards::Verdict::Late;
+  json["duplicate"] = datagram.variablesVerdict == link::SentBoards::Verdict::Duplicate;
+  return json;
+}
+
+std::string variablesLine(const link::LiveDatagram& datagram, const std::string& robot) {
+  if (!*datagram.variables) {
+    return "[" + datagram.variables->error().text() + "] " + printable(datagram.view.payload, 120);
+  }
+  const Pb2Message& message = **datagram.variables;
+  std::string out = robot + "  variables " + std::to_string(message.sequence);
+  for (const Pb2Value& value : message.values) {
+    out += "  " + std::string(value.name) + " " +
+           std::string(value.whole ? Pb2Number(static_cast<std::int64_t>(value.value)).text()
+                                   : Pb2Number(static_cast<float>(value.value)).text());
+  }
+  return out;
+}
+
 std::string refereeLine(const RefereePacket& packet) {
   if (const auto* state = std::get_if<RefereeState>(&packet)) return stateLine(*state);
   if (const auto* reply = std::get_if<RobotReply>(&packet)) return replyLine(*reply);
@@ -128,11 +171,13 @@ std::string refereeLine(const RefereePacket& packet) {
 
 const char* typeOf(const link::LiveDatagram& datagram) {
   if (datagram.referee) return "referee";
+  if (datagram.variables) return "variables";
   return datagram.decoded ? "telemetry" : "drawing";
 }
 
 bool isGood(const link::LiveDatagram& datagram) {
   if (datagram.referee) return datagram.referee->has_value();
+  if (datagram.variables) return datagram.variables->has_value();
   return datagram.decoded ? datagram.decoded->accepted() : !datagram.drawingProblem;
 }
 
@@ -148,6 +193,7 @@ Json messageJson(const link::LiveDatagram& datagram, const link::LiveOptions& op
             {"text", printable(datagram.view.payload)}};
   }
   const std::string robot = nameOf(datagram.robot, datagram.teams);
+  if (datagram.variables) return variablesJson(datagram, robot);
   if (datagram.decoded) return telemetryJson(datagram, teamOf(datagram.robot, options), robot);
   Json json{{"robot", robot.empty() ? Json(nullptr) : Json(datagram.robot.number)}};
   if (!robot.empty()) json["name"] = robot;
@@ -162,6 +208,7 @@ std::string messageLine(const link::LiveDatagram& datagram, const link::LiveOpti
                              : "[" + datagram.referee->error().message + "]";
   }
   const std::string robot = nameOf(datagram.robot, datagram.teams);
+  if (datagram.variables) return variablesLine(datagram, robot);
   if (datagram.decoded) return telemetryLine(datagram, teamOf(datagram.robot, options), robot);
   if (datagram.drawingProblem) return "[drawing: " + *datagram.drawingProblem + "]";
   return robot + "  drawing, " + std::to_string(datagram.view.payload.size()) + " bytes";
@@ -203,6 +250,54 @@ std::string healthLine(const RobotStatus& robot, const std::string& name) {
   }
   out += ", " + std::to_string(robot.duplicates) + " twice";
   if (robot.loss) out += ", " + std::to_string(robot.late) + " late";
+  return out;
+}
+
+Json healthJson(const link::SentStatus& sent, WallTime now) {
+  const LinkHealth& link = sent.link;
+  const auto said = [](const std::optional<std::int64_t>& value) {
+    return value ? Json(*value) : Json(nullptr);
+  };
+  return {{"type", "variablesHealth"},
+          {"robot", sent.robot.number},
+          {"name", sent.name},
+          {"variables", sent.variables},
+          {"catalog", sent.catalog},
+          {"unknown", sent.unknown},
+          {"received", link.messages},
+          {"lost", link.lost},
+          {"duplicates", link.duplicates},
+          {"late", link.late},
+          {"loss", link.loss.value_or(0.0)},
+          {"rate", link.rate},
+          {"jitter", link.jitter},
+          {"clockOffset", sent.clockOffset},
+          {"age", secondsOf(link.age)},
+          {"timedOut", link.timedOut},
+          {"restarts", sent.restarts},
+          {"refresh", said(sent.refresh_ms)},
+          {"waiting", said(sent.waiting)},
+          {"blackboard", sent.blackboard},
+          {"bytes", link.bytes},
+          {"sender", link.sender.text()},
+          {"time", unixSeconds(now)}};
+}
+
+std::string healthLine(const link::SentStatus& sent) {
+  const LinkHealth& link = sent.link;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                ": %zu from %s, %llu received, %llu lost (%.1f %%), %llu twice, %llu late, "
+                "jitter %.1f ms",
+                sent.variables, link.sender.address.text().c_str(),
+                static_cast<unsigned long long>(link.messages),
+                static_cast<unsigned long long>(link.lost), link.loss.value_or(0.0) * 100.0,
+                static_cast<unsigned long long>(link.duplicates),
+                static_cast<unsigned long long>(link.late), link.jitter * 1000.0);
+  std::string out = sent.name + " variables" + text;
+  if (!sent.unknown.empty()) {
+    out += ", " + std::to_string(sent.unknown.size()) + " unknown (--catalog FILE names them)";
+  }
   return out;
 }
 

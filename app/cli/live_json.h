@@ -13,7 +13,7 @@ namespace pitchboard::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// "telemetry", "drawing" or "referee".
+/// "telemetry", "variables", "drawing" or "referee".
 const char* typeOf(const link::LiveDatagram& datagram);
 /// It could be read.
 bool isGood(const link::LiveDatagram& datagram);
@@ -28,6 +28,11 @@ Json healthJson(const telemetry::RobotStatus& robot, const std::string& name,
                 telemetry::WallTime now);
 /// "B1: 900 received, 300 lost (25.0 %), 0 twice, 0 late"
 std::string healthLine(const telemetry::RobotStatus& robot, const std::string& name);
+
+/// {"type": "variablesHealth", "robot": 1, "name": "B1", "received": 900, ...}: docs/LIVE.md.
+Json healthJson(const link::SentStatus& sent, telemetry::WallTime now);
+/// "B1 variables: 205 from 192.168.0.1, 900 received, ..."
+std::string healthLine(const link::SentStatus& sent);
 
 /// Text of any bytes: what is not UTF-8 is replaced.
 std::string dump(const Json& json);

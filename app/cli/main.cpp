@@ -6,11 +6,15 @@
 int main(int argc, char** argv) {
   using namespace pitchboard::cli;
   CLI::App app{
-      "Pitchboard without a display: simulate matches, look at blackboards, check recorded runs.\n"
-      "Example: pitchboard-cli simulate --scenario match-3v3 --duration 60 --speed max"};
+      "Pitchboard on the command line: simulate matches, listen to robots, read blackboards, "
+      "record "
+      "and export.\n"
+      "Examples: pitchboard-cli simulate --scenario match-3v3 --duration 60\n"
+      "          pitchboard-cli record --live -o training.mcap\n"
+      "          pitchboard-cli export training.mcap --to csv-wide -o training.csv"};
   app.name("pitchboard-cli");
   app.require_subcommand(1);
-  app.set_version_flag("--version", PITCHBOARD_VERSION);
+  app.set_version_flag("--version", PITCHBOARD_VERSION, "Print the version");
 
   int exitCode = 0;
   constexpr std::array commands{&addSimulateCommand, &addConformanceCommand, &addBlackboardCommands,

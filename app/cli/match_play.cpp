@@ -9,6 +9,7 @@
 #include <thread>
 
 #include <app/command_line.h>
+#include <app/usage.h>
 #include <base/try.h>
 #include <robotlink/processes/team_program.h>
 #include <robotlink/scenario/referee_rule_sets.h>
@@ -32,7 +33,7 @@ constexpr std::array<CognitionName, 3> cognitions{{{"inline", link::Cognition::I
                                                    {"external", link::Cognition::Separate},
                                                    {"none", link::Cognition::None}}};
 
-/// Says which processes ended before the match did.
+/// Prints what processes write, and what happens to them.
 class ProcessNews : public link::TickObserver {
  public:
   void ticked(const link::SimulatedMatch& /*match*/, std::chrono::nanoseconds /*time*/) override {}
@@ -46,6 +47,10 @@ class ProcessNews : public link::TickObserver {
       std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
                    link::sentenceOf(event).c_str());
     }
+  }
+  void logged(const LogLine& line) override {
+    if (line.level < LogLevel::Info) return;
+    std::fprintf(stderr, "%s: %s\n", line.origin.c_str(), line.text.c_str());
   }
 };
 
@@ -67,6 +72,7 @@ class Playing {
       const auto now = Clock::now();
       if (next > now) std::this_thread::sleep_until(std::min(next, now + pollInterval));
     }
+    m_player.lookAfterProcesses(Clock::now());  // their last lines
     Outcome outcome;
     outcome.ticks = m_player.currentTick() - first;
     outcome.simulatedSeconds =
@@ -82,14 +88,8 @@ class Playing {
     const auto now = Clock::now();
     if (now - m_lastPoll >= pollInterval) {
       m_lastPoll = now;
-      pollProcesses();
+      m_player.lookAfterProcesses(now);
     }
-  }
-
-  void pollProcesses() {
-    m_match.pace().lookAfterProcesses(Clock::now());
-    (void)m_match.robots().processes().takeLines();
-    m_player.tellEvents();
   }
 
   link::MatchPlayer& m_player;
@@ -103,31 +103,43 @@ void addPlayOptions(CLI::App& command, PlayOptions& o) {
   shared::addScenarioOptions(command, o.match);
   command
       .add_option("--speed", o.speed,
-                  "Times real time, or max; default: max for inline cognition, else 1")
+                  "Speed relative to real time, or max; default: max with inline cognition, 1 with "
+                  "separate processes or --obey-referee")
       ->type_name("X|max");
+  command.add_flag("--keep-speed", o.keepSpeed,
+                   "Do not slow down to team programs that cannot keep up");
   command
       .add_option("--cognition", o.cognition,
-                  "inline: decision in this program; external: robot processes on System V "
-                  "blackboards; none: blackboards for your own processes")
+                  "Who decides: this program (inline), separate processes on System V blackboards "
+                  "(external), or only processes that you start (none)")
       ->type_name("inline|external|none")
       ->capture_default_str();
   std::string ruleSets;
   for (const link::RuleSetInfo& set : link::refereeRuleSets()) ruleSets += ", " + set.name;
   command
-      .add_option("--referee", o.rules,
-                  "Rules of the match instead of the scenario's: " + ruleSets.substr(2) +
-                      "; published is no referee")
+      .add_option(
+          "--referee", o.rules,
+          "Rules instead of the scenario's: " + ruleSets.substr(2) + " (published: no referee)")
       ->type_name("RULES");
   command
       .add_option("--obey-referee", o.obeyReferee,
-                  "Obey the GameController that is heard on this UDP port")
+                  "Obey the GameController that sends to this UDP port")
       ->type_name("PORT")
       ->check(CLI::Range(1, 65535));
+  command
+      .add_option("--answer-referee", o.answerReferee,
+                  "Robots answer that GameController (RGrt), on this UDP port of its computer; 0: "
+                  "that of its version, 3838 or 3939")
+      ->type_name("PORT")
+      ->check(CLI::Range(0, 65535))
+      ->needs("--obey-referee");
   shared::addRobotsOptions(command, o.robots);
   command
       .add_option("--robot-program", o.robotProgram,
-                  "Program of the external processes; default: pitchboard-robot beside this one")
+                  "Program of separate processes; default: pitchboard-robot beside this program")
       ->type_name("FILE");
+  shared::addGroup(command, "Robot processes", {"--robot-program", "--keep-speed"});
+  shared::addGroup(command, "Referee", {"--obey-referee", "--answer-referee"});
 }
 
 Result<link::Cognition> cognitionOf(const PlayOptions& options) {
@@ -140,7 +152,10 @@ Result<link::Cognition> cognitionOf(const PlayOptions& options) {
 
 Result<double> speedOf(const PlayOptions& options, link::Cognition cognition) {
   const std::string& text = options.speed;
-  if (text.empty()) return cognition == link::Cognition::Inline ? 0.0 : 1.0;
+  if (text.empty()) {
+    const bool ownPace = cognition == link::Cognition::Inline && !options.obeyReferee;
+    return ownPace ? 0.0 : 1.0;
+  }
   if (text == "max") return 0.0;
   const std::optional<double> speed = shared::numberFrom(text);
   if (!speed || !(*speed >= 0.001 && *speed <= 1e6)) {
@@ -178,11 +193,13 @@ Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario, const P
   shared::warnOfIgnoredSettings(scenario);
   link::MatchOptions made;
   made.speed = speed;
+  made.waitForTeamPrograms = !options.keepSpeed;
   made.cognition = cognition;
   shared::apply(options.robots, made);
   made.robotProgram = options.robotProgram.empty() ? link::besideTeamProgram("pitchboard-robot")
                                                    : options.robotProgram;
   made.obeyReferee = options.obeyReferee;
+  made.answerReferee = options.answerReferee;
   auto match = link::SimulatedMatch::create(scenario, made);
   if (!match) return match;
   if (const std::string notice = shared::numberNotice(*match); !notice.empty()) {

@@ -25,10 +25,12 @@ struct PlayOptions {
   shared::RobotsOptions robots;
   std::optional<double> duration;  ///< s
   std::string speed;               ///< "max" or a number; empty: depends on the cognition
+  bool keepSpeed = false;          ///< also when team programs cannot keep up
   std::string cognition = "inline";
   std::string rules;         ///< of the referee; empty: the scenario's
   std::string robotProgram;  ///< empty: pitchboard-robot beside this program
   std::optional<int> obeyReferee;
+  std::optional<int> answerReferee;
 };
 
 /// Everything above but --duration, which every command words in its own way.

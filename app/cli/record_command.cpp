@@ -156,28 +156,30 @@ void addRecordCommand(CLI::App& parent, int& exitCode) {
   RecordOptions& o = *options;
   CLI::App* command = parent.add_subcommand(
       "record",
-      "Play a match (as fast as possible by default), or listen to live robots, and record "
-      "everything.\n"
+      "Record a simulated match or live robots. Simulated matches run as fast as possible unless "
+      "--speed is given.\n"
       "Examples: pitchboard-cli record --scenario match-3v3 --duration 10:00 -o match.mcap\n"
       "          pitchboard-cli record --scenario match --referee humanoid-soccer-2026 -o "
       "final.mcap\n"
       "          pitchboard-cli record --live -o training.mcap");
-  command->add_option("-o,--output", o.output, "A new session")->required()->type_name("FILE.mcap");
+  command->add_option("-o,--output", o.output, "Write this new recording")
+      ->required()
+      ->type_name("FILE.mcap");
   shared::addDuration(
       *command, "--duration", o.play.duration,
-      "How long; default: the scenario's stop conditions or the final whistle, else "
-      "60 s of the match; live: until Ctrl+C");
+      "Stop after this time; by default when the scenario says so, at the final whistle, or "
+      "after 60 s of the match; live: at Ctrl+C");
   addPlayOptions(*command, o.play);
   CLI::Option* live =
       command->add_flag("--live", o.live, "Record what robots and the referee send");
   for (const char* ofAMatch :
        {"--scenario", "--seed", "--noise", "--physics", "--robot-model", "--speed", "--cognition",
-        "--referee", "--obey-referee", "--match", "--key-base", "--runtime"}) {
+        "--referee", "--obey-referee", "--answer-referee", "--match", "--key-base", "--runtime"}) {
     live->excludes(command->get_option(ofAMatch));
   }
   addListenOptions(*command, o.network);
   command->add_flag("--progress", o.progress,
-                    "Say on stderr how far it is, also without a terminal");
+                    "Print progress to stderr even if it is not a terminal");
   whenChosen(*command, options, exitCode, record);
 }
 

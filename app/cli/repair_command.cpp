@@ -44,7 +44,7 @@ void addRepairCommand(CLI::App& parent, int& exitCode) {
       ->required()
       ->type_name("OUT");
   command->add_flag("--progress", options->progress,
-                    "Say on stderr how far it is, also without a terminal");
+                    "Print progress to stderr even if it is not a terminal");
   command->callback([options, &exitCode] { exitCode = repairSession(*options); });
 }
 

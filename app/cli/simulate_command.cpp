@@ -207,18 +207,21 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
   Arguments& a = *arguments;
   CLI::App* command = parent.add_subcommand(
       "simulate",
-      "plays a match and prints how it ended\n"
+      "Play a match and print how it ended.\n"
       "Examples: pitchboard-cli simulate --scenario match-3v3 --seed 7 --noise paper --json\n"
       "          pitchboard-cli simulate --scenario my.json --cognition external --speed 1\n"
       "          echo '{\"do\": \"create\", \"worlds\": 2}' | pitchboard-cli simulate --stdio");
   addPlayOptions(*command, a.play);
   CLI::Option* from =
       command
-          ->add_option("--from", a.session,
-                       "Go on from a recorded moment, exactly; the robots' processes start anew")
+          ->add_option(
+              "--from", a.session,
+              "Continue a recorded match from --at, exactly; the robots' processes start anew")
           ->type_name("FILE.mcap");
   CLI::Option* at =
-      command->add_option("--at", a.at, std::string("The moment: ") + telemetry::sessionTimeForms)
+      command
+          ->add_option("--at", a.at,
+                       std::string("Time in the session: ") + telemetry::sessionTimeForms)
           ->type_name("T")
           ->needs(from);
   from->needs(at);
@@ -226,27 +229,29 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       ->needs(at);
   shared::addDuration(
       *command, "--duration", a.play.duration,
-      "Simulated time; default: the scenario's stop conditions or the final whistle, else 60 s "
-      "(with --cognition none: until Ctrl+C)");
-  command->add_option("--trace", a.trace, "Write one CSV row per tick")->type_name("FILE.csv");
-  command
-      ->add_option("--save-moment", a.moment,
-                   "Save the last moment as a scenario, to go on from or to draw")
+      "Stop after this simulated time; by default when the scenario says so, at the final whistle, "
+      "or after 60 s (with --cognition none: at Ctrl+C)");
+  command->add_option("--trace", a.trace, "Write a CSV file with one row per tick")
+      ->type_name("FILE.csv");
+  command->add_option("--save-moment", a.moment, "Save the last moment as a scenario file")
       ->type_name("FILE.json");
-  command->add_flag("--force", a.force, "Overwrite the trace or the moment if it exists");
-  command->add_flag("--json", a.json, "Print the outcome as one JSON object");
-  command->add_flag("--list", a.list, "Print the built-in scenarios");
+  command->add_flag("--force", a.force, "Overwrite existing files");
+  command->add_flag("--json", a.json, "Print the result as a JSON object");
+  command->add_flag("--list", a.list, "List the built-in scenarios");
   CLI::Option* stdio =
       command->add_flag("--stdio", a.stdio,
-                        "Serve lines of JSON on standard input: worlds that another program steps, "
-                        "reads and commands (docs/LEARNING.md)");
+                        "Let another program step worlds by lines of JSON on standard input "
+                        "(docs/LEARNING.md)");
   for (const char* other : {"--scenario", "--seed", "--noise", "--physics"}) {
     from->excludes(command->get_option(other));
   }
-  for (const char* other : {"--from", "--trace", "--save-moment", "--json", "--speed",
-                            "--cognition", "--obey-referee", "--match", "--runtime"}) {
+  for (const char* other :
+       {"--from", "--trace", "--save-moment", "--json", "--speed", "--cognition", "--obey-referee",
+        "--answer-referee", "--match", "--runtime"}) {
     stdio->excludes(command->get_option(other));
   }
+  addGroup(*command, "Continue a recording", {"--from", "--at", "--clock"});
+  addGroup(*command, "Other output", {"--trace", "--force", "--stdio"});
   command->callback([arguments, &exitCode] {
     if (arguments->list) return listScenarios();
     if (arguments->stdio) {

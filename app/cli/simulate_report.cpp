@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace pitchboard::cli {
 namespace {
@@ -18,6 +19,37 @@ std::string hashText(std::uint64_t hash) {
 
 double speedOf(const Outcome& outcome) {
   return outcome.wallSeconds > 0 ? outcome.simulatedSeconds / outcome.wallSeconds : 0.0;
+}
+
+/// The team's programs that were started for the match.
+std::vector<link::ProcessStatus> teamPrograms(const link::SimulatedMatch& match) {
+  auto all = match.robots().processes().statuses();
+  std::erase_if(all, [](const link::ProcessStatus& one) { return !one.foreign; });
+  return all;
+}
+
+std::string robotName(const link::SimulatedMatch& match, RobotId id) {
+  const auto index = match.simulation().indexOf(id);
+  return index ? match.simulation().state().robots[*index].name() : std::to_string(id.value);
+}
+
+/// Share of the cycles that it would have done if it had kept up.
+double keptOf(const link::ProcessStatus& program) {
+  const auto all = static_cast<double>(program.cycles + program.missedCycles);
+  return all > 0.0 ? static_cast<double>(program.cycles) / all : 1.0;
+}
+
+nlohmann::ordered_json programsJson(const link::SimulatedMatch& match) {
+  auto programs = nlohmann::ordered_json::array();
+  for (const link::ProcessStatus& one : teamPrograms(match)) {
+    programs.push_back({{"name", robotName(match, one.robot) + ' ' + one.name},
+                        {"clock", one.clock == link::ProcessClock::Match ? "match" : "real"},
+                        {"speed", one.achieved > 0.0 ? one.achieved : one.speed},
+                        {"kept", keptOf(one)},
+                        {"cycles", one.cycles},
+                        {"missed_cycles", one.missedCycles}});
+  }
+  return programs;
 }
 
 const char* reasonText(const std::string& finishedBy) {
@@ -85,6 +117,13 @@ void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
   std::printf("  Time       %.2f s simulated in %.2f s, %" PRIu64 " ticks, %.1f x real time\n",
               outcome.simulatedSeconds, outcome.wallSeconds, outcome.ticks, speedOf(outcome));
   std::printf("  State hash %s\n", hashText(match.simulation().hash()).c_str());
+  for (const link::ProcessStatus& one : teamPrograms(match)) {
+    if (one.missedCycles == 0) continue;
+    std::printf("  Missed     %" PRIu64 " of %" PRIu64
+                " cycles by %s %s, which reaches %.1f x real time\n",
+                one.missedCycles, one.cycles + one.missedCycles,
+                robotName(match, one.robot).c_str(), one.name.c_str(), one.achieved);
+  }
   if (now.robots.empty()) return;
   std::printf("  Robot   walked   kicks  falls  unknown actions\n");
   for (const sim::RobotSnapshot& robot : now.robots) {
@@ -114,19 +153,21 @@ void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
     one["score"] = team.score;
     teams.push_back(std::move(one));
   }
-  const Json out{{"scenario", match.scenario().name},
-                 {"seed", settings.seed},
-                 {"physics", settings.physics},
-                 {"noise", outcome.noise},
-                 {"ticks", outcome.ticks},
-                 {"simulated_seconds", outcome.simulatedSeconds},
-                 {"wall_seconds", outcome.wallSeconds},
-                 {"speed", speedOf(outcome)},
-                 {"score", {{"left", now.score.left}, {"right", now.score.right}}},
-                 {"teams", std::move(teams)},
-                 {"robots", std::move(robots)},
-                 {"finished_by", outcome.finishedBy},
-                 {"state_hash", hashText(match.simulation().hash())}};
+  Json out{{"scenario", match.scenario().name},
+           {"seed", settings.seed},
+           {"physics", settings.physics},
+           {"noise", outcome.noise},
+           {"ticks", outcome.ticks},
+           {"simulated_seconds", outcome.simulatedSeconds},
+           {"wall_seconds", outcome.wallSeconds},
+           {"speed", speedOf(outcome)},
+           {"score", {{"left", now.score.left}, {"right", now.score.right}}},
+           {"teams", std::move(teams)},
+           {"robots", std::move(robots)},
+           {"finished_by", outcome.finishedBy},
+           {"state_hash", hashText(match.simulation().hash())},
+           {"repeatable", match.isRepeatable()}};
+  if (Json programs = programsJson(match); !programs.empty()) out["programs"] = std::move(programs);
   std::printf("%s\n", out.dump().c_str());
 }
 

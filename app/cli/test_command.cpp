@@ -156,9 +156,8 @@ void addTestCommand(CLI::App& parent, int& exitCode) {
   TestOptions& o = *options;
   CLI::App* command = parent.add_subcommand(
       "test",
-      "Play situations with assertions (experiment files) and print which of them hold. Exits with "
-      "1 if one does not, with 2 if a file cannot be read or played (the others are played all the "
-      "same)\n"
+      "Play situations with assertions and print which pass. Exits with 1 if an assertion fails, "
+      "with 2 if a file cannot be read or played; the others are still played.\n"
       "Examples: pitchboard-cli test situations --junit results.xml\n"
       "          pitchboard-cli test striker-scores");
   command

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <app/usage.h>
 #include <base/try.h>
 #include <robotlink/blackboard/match_number.h>
 #include <robotlink/blackboard/system_v.h>
@@ -185,6 +186,12 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->capture_default_str();
   command.add_flag("--published-localization", a.process.publishedLocalization,
                    "Localization with the published filter's parameters");
+  shared::addGroup(
+      command, "Network",
+      {"--udp-address", "--telemetry-port-base", "--telemetry-rate", "--team-port-base", "--team",
+       "--referee-team", "--shirt", "--referee-port", "--debug-port"});
+  shared::addGroup(command, "Tuning",
+                   {"--distance-to-kick", "--particles", "--seed", "--published-localization"});
 }
 
 std::vector<std::string> givenOptions(const CLI::App& command) {

@@ -83,12 +83,12 @@ void printList() {
 
 int parseAndRun(int argc, char** argv) {
   CLI::App app{
-      "The reference processes of a robot. Each attaches to the robot's blackboard, like a team's\n"
-      "own process, and runs until it gets SIGTERM or Ctrl+C.\n"
+      "The reference processes of a robot. Each attaches to the robot's blackboard like a team's "
+      "own process and runs until SIGTERM or Ctrl+C.\n"
       "Example: pitchboard-robot decision --robot 1 --behaviour striker"};
   app.name("pitchboard-robot");
   app.require_subcommand(1);
-  app.set_version_flag("--version", PITCHBOARD_VERSION);
+  app.set_version_flag("--version", PITCHBOARD_VERSION, "Print the version");
 
   Arguments arguments;
   const auto add = [&](std::string_view name, std::string_view description,
@@ -103,8 +103,8 @@ int parseAndRun(int argc, char** argv) {
   }
   CLI::App* management = add("management", managementDescription,
                              "pitchboard-robot management --robot 1 --behaviour keeper");
-  CLI::App* list = app.add_subcommand(
-      "list", "shows the processes and behaviours\nExample: pitchboard-robot list");
+  CLI::App* list =
+      app.add_subcommand("list", "List processes and behaviours.\nExample: pitchboard-robot list");
 
   if (const auto ended = shared::parse(app, argc, argv)) return *ended;
   CLI::App* chosen = app.get_subcommands().front();

@@ -99,7 +99,9 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
     process.delay = config.timing.startInterval.count();
     process.silentAfter = config.timing.silentAfter;
     process.heartbeat = link::workingFlagOf(name);
+    // A program of the team's own may block for as long as it wants.
     process.watch = link::isPresent(process.heartbeat) ? link::ManagedProcess::Watch::Variable
+                    : process.spec.foreign             ? link::ManagedProcess::Watch::Nobody
                                                        : link::ManagedProcess::Watch::Sleeps;
     process.clears = !clearedByOther;
     processes.push_back(std::move(process));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <app/command_line.h>
+#include <app/usage.h>
 
 #include <charconv>
 #include <cstdio>
@@ -14,12 +15,26 @@ int reportError(const Error& error) {
 }
 
 std::optional<int> parse(CLI::App& app, int argc, char** argv) {
+  addHelp(app);
+  app.add_option_function<std::string>(
+         "--completion",
+         [&app](const std::string& shell) {
+           std::string script = completionScript(app, shell);
+           if (script.empty()) throw CLI::ValidationError("--completion must be bash or zsh");
+           script.pop_back();
+           throw CLI::CallForVersion(script, 0);  // prints it and ends the program
+         },
+         "Print a script for bash or zsh that completes commands and options")
+      ->type_name("bash|zsh")
+      ->group("");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "error: %s\nRun with --help for the options and an example.\n",
-                 error.what());
+    const CLI::App* command = &app;
+    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    std::fprintf(stderr, "error: %s\nRun \"%s --help\" for the options and examples.\n",
+                 problemText(app, error).c_str(), fullName(*command).c_str());
     return exitRefused;
   }
   return {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <app/robots_options.h>
+#include <app/usage.h>
 
 #include <algorithm>
 
@@ -9,29 +10,33 @@ namespace pitchboard::shared {
 
 void addRobotsOptions(CLI::App& command, RobotsOptions& options) {
   command
-      .add_option("--match", options.match,
-                  "Number of the match on this computer, from which keys and ports follow; "
-                  "default: the next free one, 0 as published")
+      .add_option(
+          "--match", options.match,
+          "Number of the match on this computer; sets blackboard keys and ports. Default: the "
+          "next free one (0 uses the published keys and ports)")
       ->type_name("N")
       ->check(CLI::Range(0, link::MatchNumber::most));
   command
       .add_option("--key-base", options.keyBase,
-                  "Added to 100 x robot number for a blackboard's key; default: the match's")
+                  "Blackboard keys are this + 100 x robot number; default: the match's")
       ->type_name("B")
       ->check(CLI::Range(0, 2'000'000'000));
   command
-      .add_option("--pace", options.pace,
-                  "Separate reference processes at speed 1: the match waits for them in every "
-                  "tick, or they run freely, as on the field")
+      .add_option(
+          "--pace", options.pace,
+          "How separate reference processes run at speed 1: the match waits for them in every "
+          "tick (lock-step), or they run freely, as on the field")
       ->type_name("lock-step|free")
       ->capture_default_str()
       ->check(CLI::IsMember({"lock-step", "free"}));
   command
-      .add_option("--runtime", options.runtimes,
-                  "Who runs: a runtime profile (reference, own, published-tree:folder=..., a file) "
-                  "or program=FILE in place of decision; for one team or robot with blue= or B1= "
-                  "in front")
+      .add_option(
+          "--runtime", options.runtimes,
+          "Programs of the robots: a runtime profile (reference, own, "
+          "published-tree:folder=..., a file) or program=FILE instead of decision; put blue= or "
+          "B1= in front for one team or robot; may be repeated")
       ->type_name("[WHO=]PROFILE");
+  addGroup(command, "Robot processes", {"--match", "--key-base", "--pace", "--runtime"});
 }
 
 Result<link::Scenario> withRuntimes(link::Scenario scenario, const RobotsOptions& options) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <app/scenario_options.h>
+#include <app/usage.h>
 #include <base/try.h>
 #include <robotlink/models/robot_models.h>
 
@@ -37,22 +38,24 @@ Result<void> chooseModel(link::Scenario& scenario, const std::string& text) {
 }  // namespace
 
 void addScenarioOptions(CLI::App& command, ScenarioOptions& options) {
-  command.add_option("--scenario", options.scenario, "Built-in name or a JSON file")
+  command.add_option("--scenario", options.scenario, "Built-in scenario or a JSON file")
       ->type_name("NAME|FILE")
       ->capture_default_str();
-  command.add_option("--seed", options.seed, "Seed of all noise; default: the scenario's")
+  command.add_option("--seed", options.seed, "Seed of the noise; default: the scenario's")
+      ->check(CLI::NonNegativeNumber)
       ->type_name("N");
   command
       .add_option("--noise", options.noise,
-                  "none, published, paper, realistic, or robot: each robot has that of its model")
+                  "Noise: none, published, paper, realistic, or robot (that of each robot's model)")
       ->type_name("PRESET");
-  command.add_option("--physics", options.physics, "rigid-body or published")->type_name("MODEL");
+  command.add_option("--physics", options.physics, "Physics engine: rigid-body or published")
+      ->type_name("MODEL");
   command
-      .add_option(
-          "--robot-model", options.robotModels,
-          "Which kind of robot all are, or those of a team: published, darwin-op, kid-size, "
-          "adult-size or a file, as in --robot-model kid-size --robot-model red=mine.json")
+      .add_option("--robot-model", options.robotModels,
+                  "Model of all robots, or with blue= or red= of one team: published, darwin-op, "
+                  "kid-size, adult-size or a file; may be repeated")
       ->type_name("[TEAM=]NAME|FILE");
+  addGroup(command, "Models", {"--physics", "--robot-model"});
 }
 
 Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& options) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <app/command_line.h>
+#include <app/usage.h>
 #include <robotlink/match/match_runner.h>
 
 namespace pitchboard::studio {
@@ -55,9 +56,12 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_flag(
       "--live", a.live,
       "Start with what robots and referee send; no match is simulated unless --scenario is given");
-  app.add_flag("--overlay", a.overlay, "Show simulated and heard robots side by side");
+  app.add_flag("--overlay", a.overlay, "Show live robots over simulated ones");
   app.add_option("--bind", a.bind, "Live: address to receive at")->type_name("ADDRESS");
   app.add_option("--port-base", a.portBase, "Live: robot n sends to port base + n")->type_name("P");
+  app.add_option("--variables-port-base", a.variablesPortBase,
+                 "Live: robot n sends variables to this port base + n; 0: off")
+      ->type_name("P");
   app.add_option("--robots", a.robots, "Live: how many ports after the base")
       ->type_name("N")
       ->check(CLI::Range(1, 64));
@@ -104,6 +108,13 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->type_name("NAMES")
       ->delimiter(',')
       ->needs(paint);
+  shared::addGroup(app, "Live",
+                   {"--bind", "--port-base", "--variables-port-base", "--robots",
+                    "--gamecontroller-port", "--our-team", "--profile", "--team", "--attach"});
+  shared::addGroup(app, "Pictures and videos",
+                   {"--screenshot-to", "--after", "--play-to", "--size", "--render-scenario",
+                    "--paint", "--picture", "--from", "--until", "--rate", "--only"});
+  shared::addGroup(app, "Window", {"--theme", "--settings", "--new-window"});
 }
 
 /// A file named without an option is a scenario when it ends in .json, else a session. False when
@@ -129,11 +140,11 @@ bool onlyGiven(const CLI::App& app, const std::vector<std::string>& names) {
 
 std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app{
-      "Pitchboard: simulate humanoid soccer robots and watch what they believe.\n"
+      "Pitchboard: simulate humanoid soccer robots, watch real ones, and see what they believe.\n"
       "Examples: pitchboard --scenario match-3v3 --noise realistic --speed 2\n"
       "          pitchboard --live --our-team 12 --record semifinal.mcap"};
   app.name("pitchboard");
-  app.set_version_flag("--version", PITCHBOARD_VERSION);
+  app.set_version_flag("--version", PITCHBOARD_VERSION, "Print the version");
   addOptions(app, arguments);
   if (const auto ended = shared::parse(app, argc, argv)) return ended;
   if (!takeFile(app, arguments)) {
@@ -214,6 +225,7 @@ Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOp
     saved.bind = *address;
   }
   saved.portBase = arguments.portBase.value_or(saved.portBase);
+  saved.variablesPortBase = arguments.variablesPortBase.value_or(saved.variablesPortBase);
   saved.robots = arguments.robots.value_or(saved.robots);
   saved.refereePort = arguments.refereePort.value_or(saved.refereePort);
   saved.ourTeam = arguments.ourTeam.value_or(saved.ourTeam);

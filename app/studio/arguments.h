@@ -46,7 +46,7 @@ struct Arguments {
   bool scenarioGiven = false;  ///< else Live starts without a simulated match
   // Of Live, instead of the saved settings; empty: as saved.
   std::string bind;
-  std::optional<int> portBase, robots, refereePort, ourTeam;
+  std::optional<int> portBase, variablesPortBase, robots, refereePort, ourTeam;
   std::string profile;
   std::vector<std::string> teams;     ///< team setups
   std::vector<std::string> attached;  ///< blackboards: KEY[,catalog=FILE][,size=BYTES][,robot=N]

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole studio in Live under the load of 16 senders: what is lost where, how often the window
 // is painted meanwhile, what it costs in memory (docs/PERFORMANCE.md). The senders are a process of
-// their own. Arguments: datagrams per second (50000), seconds (10).
+// their own. Arguments: datagrams per second (50000), seconds (10). `agents [SECONDS]` instead: 22
+// times pitchboard-agent at 20 Hz, with every tenth variable changing all the time.
 #include <QApplication>
 #include <QEventLoop>
 #include <QGraphicsView>
+#include <QProcess>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QThread>
@@ -13,11 +15,16 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <memory>
+#include <string_view>
 #include <vector>
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/blackboard/variable_catalog.h>
 #include <telemetry/series/series_store.h>
 #include <telemetry/wire/text_protocol.h>
 #include <ui/base/theme.h>
@@ -71,6 +78,62 @@ double residentMib() {
   return static_cast<double>(resident) * 4 / 1024;
 }
 
+double cpuSeconds() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// Robots 1 to 22 on one blackboard.
+class Agents {
+ public:
+  static constexpr int robots = 22;
+
+  explicit Agents(int portBase) {
+    auto made = link::SystemVSegments::open(key, link::AttachMode::AttachOrCreate);
+    if (!made) qFatal("%s", made.error().text().c_str());
+    m_board = std::make_unique<link::Blackboard>(std::move(*made));
+    for (int robot = 1; robot <= robots; ++robot) {
+      auto process = std::make_unique<QProcess>();
+      process->start(QStringLiteral(PITCHBOARD_BIN "/pitchboard-agent"),
+                     {"--robot", QString::number(robot), "--key", QString::number(key), "--to",
+                      QStringLiteral("127.0.0.1:%1").arg(portBase + robot)});
+      m_processes.push_back(std::move(process));
+    }
+    QObject::connect(&m_change, &QTimer::timeout, [this] {
+      ++m_round;
+      int place = 0;
+      for (const link::Variable& variable : link::VariableCatalog::published().variables()) {
+        if (place++ % 10 != 0) continue;
+        if (variable.type == link::VariableType::Int) {
+          m_board->write(link::IntVar{variable.index}, m_round % 1000);
+        } else {
+          m_board->write(link::FloatVar{variable.index}, 0.01F * static_cast<float>(m_round));
+        }
+      }
+    });
+    m_change.start(20);
+  }
+  ~Agents() {
+    for (const auto& process : m_processes) {
+      process->kill();
+      process->waitForFinished();
+    }
+    m_board.reset();
+    (void)link::SystemVSegments::remove(key);
+  }
+
+ private:
+  const int key = 100 * (10'000'000 + static_cast<int>(getpid()));
+  std::unique_ptr<link::Blackboard> m_board;
+  std::vector<std::unique_ptr<QProcess>> m_processes;
+  QTimer m_change;
+  int m_round = 0;
+};
+
 struct Paints : QObject {
   int count = 0;
   bool eventFilter(QObject*, QEvent* event) override {
@@ -82,6 +145,7 @@ struct Paints : QObject {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const bool ofAgents = argc > 1 && std::string_view(argv[1]) == "agents";
   const int perSecond = argc > 1 ? std::atoi(argv[1]) : 50'000;
   const int seconds = argc > 2 ? std::atoi(argv[2]) : 10;
   const int portBase = 10000 + static_cast<int>(getpid() % 900) * 20;
@@ -90,6 +154,7 @@ int main(int argc, char** argv) {
   if (pipe(pipes) != 0 || pipe(go) != 0) return 1;
   const pid_t child = fork();
   if (child == 0) {
+    if (ofAgents) _exit(0);
     char byte = 0;
     if (read(go[0], &byte, 1) != 1) _exit(1);
     sendLoad(portBase, perSecond, seconds, pipes[1]);
@@ -107,6 +172,11 @@ int main(int argc, char** argv) {
   options.bind = {INADDR_LOOPBACK};
   options.portBase = portBase;
   options.refereePort = portBase + 19;
+  if (ofAgents) {
+    options.robots = Agents::robots;
+    options.refereePort = portBase + 60;
+    options.variablesPortBase = portBase + 30;
+  }
   window.live()->setOptions(options);
   window.showSource(ui::SourceKind::Live);
   Paints paints;
@@ -118,6 +188,24 @@ int main(int argc, char** argv) {
     loop.exec();
   };
   spin(std::chrono::seconds(1));
+  if (ofAgents) {
+    const Agents agents(options.variablesPortBase);
+    spin(std::chrono::seconds(3));
+    const double cpu = cpuSeconds();
+    const auto begin = Clock::now();
+    spin(std::chrono::seconds(seconds));
+    const double passed = std::chrono::duration<double>(Clock::now() - begin).count();
+    const link::LiveDetails details = window.live()->details();
+    std::uint64_t received = 0, lost = 0;
+    for (const link::SentStatus& sent : details.sent) {
+      received += sent.link.messages;
+      lost += sent.link.lost;
+    }
+    std::printf("%zu robots, %llu datagrams, lost %llu; CPU of the studio %.1f %% of a core\n",
+                details.sent.size(), static_cast<unsigned long long>(received),
+                static_cast<unsigned long long>(lost), 100.0 * (cpuSeconds() - cpu) / passed);
+    return lost == 0 ? 0 : 1;
+  }
   [[maybe_unused]] const auto told = write(go[1], "g", 1);
   spin(std::chrono::seconds(2));  // everything has its size by then
   const double early = residentMib();

@@ -73,7 +73,7 @@ inline const QList<Module>& table() {
         {models, {base, world, "resources"}, {"nlohmann/"}},
         {cognition, {base, world, wire, board, processes, models}, {"Eigen/", "nlohmann/"}},
         {scenario,
-         {base, world, simulation, board, processes, models, cognition, "resources"},
+         {base, world, simulation, wire, board, processes, models, cognition, "resources"},
          {"nlohmann/"}},
         {frame, {base, world, series, wire, board, processes, cognition}, {}},
         {match,

@@ -324,8 +324,9 @@ class TestCliSessions : public QObject {
     const QList<QByteArray> lines = run.err.trimmed().split('\n');
     QVERIFY2(lines[0].startsWith("error: ") && lines[0].contains(words.toUtf8()),
              run.err.constData());
-    QVERIFY2(lines.size() == 1 || (lines.size() == 2 && lines[1].startsWith("Run with --help")),
-             run.err.constData());
+    QVERIFY2(
+        lines.size() == 1 || (lines.size() == 2 && lines[1].startsWith("Run \"pitchboard-cli ")),
+        run.err.constData());
     QVERIFY(contents(m_session) == before);
     QVERIFY(!QFile::exists(m_folder.filePath("fresh")));
   }

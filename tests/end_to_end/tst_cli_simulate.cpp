@@ -14,6 +14,7 @@
 
 #include "../support/program_run.h"
 #include "../support/segment_keys.h"
+#include "../support/test_socket.h"
 
 namespace tst_cli_simulate {
 
@@ -37,6 +38,17 @@ QString shortMatch(const QTemporaryDir& dir) {
     "score": {"left": 0, "right": 4}, "ball": {"x": 0, "y": 0},
     "robots": [{"team": "blue", "number": 1, "x": -3, "y": 2, "behaviour": "none"},
                {"team": "red", "number": 1, "x": 3, "y": 2, "behaviour": "none"}]})");
+  return file.fileName();
+}
+
+/// A runtime profile whose only process is this one.
+QString ownDecision(const QTemporaryDir& dir, const QStringList& command) {
+  QFile file(dir.filePath("profile.json"));
+  if (!file.open(QIODevice::WriteOnly)) qFatal("cannot write");
+  const QJsonObject process{{"name", "decision"}, {"command", QJsonArray::fromStringList(command)}};
+  file.write(QJsonDocument(
+                 QJsonObject{{"version", 1}, {"name", "own"}, {"processes", QJsonArray{process}}})
+                 .toJson());
   return file.fileName();
 }
 
@@ -122,6 +134,47 @@ class TestCliSimulate : public QObject {
     run = record({"--cognition", "external", "--speed", "max", "--key-base",
                   QString::number(testKeyBase() + 60)});
     QVERIFY2(run.exitCode == 0 && run.out.contains(": 2.000 s,"), run.err + run.out);
+  }
+
+  // With its clock, score, set play and penalties: PLAYING at 07:31 goes on in PLAYING at 07:31.
+  void savedMomentOfAMatchGoesOn() {
+    QTemporaryDir dir;
+    const QString path = dir.filePath("moment.json");
+    const QString session = dir.filePath("match.mcap");
+    QVERIFY(simulate({"--duration", "149", "--save-moment", path}).exitCode == 0);
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QJsonObject saved = QJsonDocument::fromJson(file.readAll()).object();
+    const QJsonObject game = saved["game"].toObject();
+    QCOMPARE(game["state"].toString(), QString("playing"));
+    const double clock = game["clock"].toDouble();
+    QVERIFY(clock > 400 && clock < 590);
+    QVERIFY(!saved.contains("score") && !saved.contains("clock"));
+    const QString second = dir.filePath("second.json");
+    QCOMPARE(simulate({"--scenario", path, "--duration", "1", "--save-moment", second}).exitCode,
+             0);
+    QFile then(second);
+    QVERIFY(then.open(QIODevice::ReadOnly));
+    const QJsonObject later = QJsonDocument::fromJson(then.readAll()).object()["game"].toObject();
+    QCOMPARE(later["state"].toString(), QString("playing"));
+    QVERIFY(std::abs(clock - 1 - later["clock"].toDouble()) < 1e-3);
+    QCOMPARE(later["score"], game["score"]);
+  }
+
+  // A GameController counts real seconds.
+  void obeyingKeepsRealTime() {
+    const TestSocket free;
+    const QStringList obey{"--obey-referee", QString::number(free.port()), "--json"};
+    const auto speed = [](const Run& run) {
+      return QJsonDocument::fromJson(run.out).object()["speed"].toDouble();
+    };
+    const Run paced = simulate(obey + QStringList{"--duration", "2"});
+    QVERIFY2(paced.exitCode == 0, paced.err.constData());
+    QVERIFY2(speed(paced) < 1.5, paced.out.constData());
+    QVERIFY(speed(simulate(obey + QStringList{"--duration", "20", "--speed", "max"})) > 1.5);
+    const Run alone = simulate({"--answer-referee", "0", "--duration", "1"});
+    QVERIFY(alone.exitCode != 0 && alone.err.contains("--obey-referee"));
+    QVERIFY(simulate({"--seed", "-1", "--duration", "1"}).exitCode != 0);
   }
 
   void savedMomentGoesOn() {
@@ -211,12 +264,7 @@ class TestCliSimulate : public QObject {
       file.write(QJsonDocument(json).toJson());
       return file.fileName();
     };
-    const QString profile = write(
-        "profile.json",
-        {{"version", 1},
-         {"name", "own"},
-         {"processes", QJsonArray{QJsonObject{{"name", "decision"},
-                                              {"command", QJsonArray::fromStringList(command)}}}}});
+    const QString profile = ownDecision(dir, command);
     const QString scenario =
         write("scenario.json",
               {{"version", 1},
@@ -239,6 +287,61 @@ class TestCliSimulate : public QObject {
     QByteArray said = run.err;
     if (said.startsWith("match ")) said.remove(0, said.indexOf('\n') + 1);
     QCOMPARE(said, plays ? QByteArray() : told);
+  }
+
+  // A second of Python's work in ten of its own: "max" is what it manages.
+  void maxSlowsDownToPrograms() {
+    QTemporaryDir dir;
+    const QString profile =
+        ownDecision(dir, {"python3", "-c",
+                          "import ctypes, sys, time\n"
+                          "c = ctypes.CDLL(None)\n"
+                          "c.shmat(c.shmget(int(sys.argv[1]), 2048, 0o600), None, 0)\n"
+                          "while True:\n end = time.thread_time() + 0.02\n"
+                          " while time.thread_time() < end: pass\n time.sleep(0.18)\n",
+                          "${key}"});
+    const auto play = [&](const QStringList& more) {
+      return simulate(QStringList{"--scenario", "one-robot", "--cognition", "external", "--speed",
+                                  "max", "--duration", "20", "--json", "--runtime", profile,
+                                  "--key-base", QString::number(testKeyBase() + 80)} +
+                      more);
+    };
+    const Run run = play({});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    const QJsonObject out = QJsonDocument::fromJson(run.out).object();
+    // 0.02 s of work in 0.2 s: not more than ten times.
+    QVERIFY2(out["speed"].toDouble() < 10.0, run.out.constData());
+    const QJsonObject program = out["programs"].toArray().at(0).toObject();
+    QCOMPARE(program["name"], QJsonValue("B1 decision"));
+    QCOMPARE(program["clock"], QJsonValue("match"));
+    QVERIFY2(program["kept"].toDouble() > 0.3 && program["cycles"].toInt() > 10,
+             run.out.constData());
+    QVERIFY(program["missed_cycles"].isDouble() && program["speed"].toDouble() > 0.5);
+    const Run fast = play({"--keep-speed"});
+    QVERIFY2(QJsonDocument::fromJson(fast.out)["speed"].toDouble() > 20.0, fast.out.constData());
+  }
+
+  void outputOfProgramsIsShownAndKept() {
+    QTemporaryDir dir;
+    const QString profile = ownDecision(
+        dir,
+        {"/bin/sh", "-c", "echo ready to play ${team} ${shirt} as robot ${robot}; exec sleep 600"});
+    const QStringList match{"--scenario", "one-robot",  "--cognition",
+                            "external",   "--speed",    "4",
+                            "--duration", "4",          "--runtime",
+                            profile,      "--key-base", QString::number(testKeyBase() + 80)};
+    const Run run = simulate(match);
+    QVERIFY2(
+        run.exitCode == 0 && run.err.contains("B1 decision: ready to play blue 1 as robot 1\n"),
+        run.err.constData());
+    const QString session = dir.filePath("match.mcap"), text = dir.filePath("match.jsonl");
+    const Run record = runProgram("pitchboard-cli", QStringList{"record", "-o", session} + match);
+    QVERIFY2(record.exitCode == 0, record.err.constData());
+    const Run exported =
+        runProgram("pitchboard-cli", {"export", session, "--to", "jsonl", "-o", text});
+    QVERIFY2(exported.exitCode == 0, exported.err.constData());
+    QFile file(text);
+    QVERIFY(file.open(QIODevice::ReadOnly) && file.readAll().contains("ready to play"));
   }
 
   void aSignalEndsProcessesAndRemovesSegments() {

@@ -193,6 +193,23 @@ class TestManagement : public QObject {
     endsWithoutRemains();
   }
 
+  // A receiver may wait for its next packet for as long as it wants.
+  void aReceiverThatBlocksLives() {
+    start(
+        "processes = own, decision\nsilent_after = 0.5\nstart_interval = 0.05\n"
+        "command.own = python3 -c \"import socket; s = socket.socket(socket.AF_INET, "
+        "socket.SOCK_DGRAM); s.bind(('127.0.0.1', 0)); s.recv(1)\"\n");
+    QTRY_VERIFY(!pidsOf("decision").empty());
+    QElapsedTimer timer;
+    timer.start();
+    while (timer.elapsed() < 2500) {
+      QTest::qWait(50);
+      QVERIFY2(!said("own showed"), output().constData());
+    }
+    QCOMPARE(pidsOf("own").size(), std::size_t{1});
+    endsWithoutRemains();
+  }
+
   void childrenEndWithAManagerThatIsKilled() {
     start("start_interval = 0.05\n");
     QTRY_VERIFY(!pidsOf("communication").empty());

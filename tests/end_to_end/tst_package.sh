@@ -36,6 +36,8 @@ bin=$root/usr/bin share=$root/usr/share id=org.pitchboard.Pitchboard
 for program in pitchboard pitchboard-cli pitchboard-robot; do
   [ "$("$bin/$program" --version)" = "$version" ] || fail "$program --version is not $version"
   [ -s "$share/man/man1/$program.1.gz" ] || fail "$program has no manual page"
+  [ -s "$share/bash-completion/completions/$program" ] && [ -s "$share/zsh/vendor-completions/_$program" ] ||
+    fail "$program has no completion"
 done
 [[ $(zcat "$share/man/man1/pitchboard-cli-simulate.1.gz") == *"Pitchboard $version"*save* ]] ||
   fail "the manual page of simulate is not made from its --help"

@@ -198,7 +198,7 @@ class TestRobotProgram : public QObject {
          {QStringList{"--help"}, {"decision", "--help"}, {"communication", "--help"}}) {
       const ProgramRun output = robot(arguments);
       QCOMPARE(output.exitCode, 0);
-      QVERIFY2(output.out.contains("Example: pitchboard-robot "), output.out.data());
+      QVERIFY2(output.out.contains("Example:\n  pitchboard-robot "), output.out.data());
     }
   }
 

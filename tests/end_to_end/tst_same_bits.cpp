@@ -47,7 +47,7 @@ class TestSameBits : public QObject {
                        "--duration",    "300"}
         << QStringLiteral("0x20aa2b4ff4ff5a99");
     QTest::newRow("with a referee") << QStringList{"--scenario", "match-4v4", "--duration", "300"}
-                                    << QStringLiteral("0x22e10b59f014b3c9");
+                                    << QStringLiteral("0x5036e6369c54b43a");
   }
   void withAndWithoutFusedMultiplyAdd() {
     QFETCH(QStringList, match);

@@ -135,7 +135,7 @@ class TestStudioProcess : public QObject {
     QVERIFY(studio.launch({QStringLiteral("--help")}));
     QVERIFY(studio.waitForFinished(60'000));
     QCOMPARE(studio.exitCode(), 0);
-    QVERIFY(studio.readAllStandardOutput().contains("Examples: pitchboard "));
+    QVERIFY(studio.readAllStandardOutput().contains("Examples:\n  pitchboard "));
   }
 };
 

@@ -52,7 +52,8 @@ class TestUnchangedProcess : public QObject {
 
   /// A match of one robot, a metre behind the ball, whose processes are those of the profile.
   std::unique_ptr<MatchRunner> startWith(const QByteArray& profile, bool paused, double speed = 1.0,
-                                         std::optional<double> duration = {}) const {
+                                         std::optional<double> duration = {},
+                                         bool waits = true) const {
     QFile file(m_folder.filePath("profile.json"));
     if (!file.open(QIODevice::WriteOnly)) qFatal("no profile can be written");
     file.write(profile);
@@ -70,9 +71,29 @@ class TestUnchangedProcess : public QObject {
     options.keyBase = m_base;
     options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
     options.speed = speed;
+    options.waitForTeamPrograms = waits;
     auto runner = MatchRunner::start(scenario, options, paused);
     if (!runner) qFatal("%s", runner.error().text().c_str());
     return std::move(*runner);
+  }
+
+  static void waitsAsLong(MatchRunner& runner, const std::vector<std::string>& lines) {
+    std::vector<std::string> said;
+    std::vector<double> times;  // of the match
+    const auto isDone = [&] {
+      for (const LogLine& line : runner.takeLog()) {
+        said.push_back(line.text);
+        times.push_back(line.time);
+      }
+      return said.size() >= lines.size();
+    };
+    // A wait that does not return fails here.
+    QTRY_VERIFY2_WITH_TIMEOUT(isDone(), said.empty() ? "nothing" : said.back().c_str(), 60'000);
+    QCOMPARE(said, lines);
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      const double waited = times[i] - times[i - 1];
+      QVERIFY2(waited > 0.3 && waited < 20.0, qPrintable(QString::number(waited)));
+    }
   }
 
  private slots:
@@ -204,7 +225,8 @@ class TestUnchangedProcess : public QObject {
     QVERIFY(!SystemVSegments::info(m_base + 100));
   }
 
-  // At ×1 nothing stands between a program and the system, so every kind of wait returns.
+  // With "clock": "real" nothing stands between a program and the system; the clock of the match
+  // lets every call of a program at ×1 through as it is.
   void timedWaitsReturnAtRealTime_data() {
     QTest::addColumn<QStringList>("program");
     QTest::addColumn<std::vector<std::string>>("lines");
@@ -218,43 +240,52 @@ class TestUnchangedProcess : public QObject {
   void timedWaitsReturnAtRealTime() {
     QFETCH(QStringList, program);
     QFETCH(std::vector<std::string>, lines);
-    const auto runner = startWith(profileOf(program), false);
-    QCOMPARE(timeVariables(*runner), QByteArray());
-    std::vector<std::string> said;
-    std::vector<double> times;  // of the match
-    const auto isDone = [&] {
+    {
+      const auto real = startWith(profileOf(program, R"(, "clock": "real")"), false);
+      QTRY_VERIFY(firstProgram(*real).pid != 0);
+      QCOMPARE(timeVariables(*real), QByteArray());
+      waitsAsLong(*real, lines);
+    }
+    const auto match = startWith(profileOf(program), false);
+    QTRY_VERIFY(timeVariables(*match).contains("libpitchboard_time"));
+    waitsAsLong(*match, lines);
+  }
+  // A program that is started at ×1 goes along with every later speed.
+  void aProgramStartedAtOneFollowsLater() {
+    const auto runner = startWith(
+        profileOf({"python3", "-u", "-c",
+                   "import time\nwhile True:\n time.sleep(0.5)\n print(time.monotonic())"}),
+        false);
+    std::vector<std::pair<double, double>> times;  // of the match, of the program
+    const auto hasLines = [&](std::size_t count) {
       for (const LogLine& line : runner->takeLog()) {
-        said.push_back(line.text);
-        times.push_back(line.time);
+        times.emplace_back(line.time, std::stod(line.text));
       }
-      return said.size() >= lines.size();
+      return times.size() >= count;
     };
-    // A wait that does not return fails here.
-    QTRY_VERIFY2_WITH_TIMEOUT(isDone(), said.empty() ? "nothing" : said.back().c_str(), 60'000);
-    QCOMPARE(said, lines);
-    for (std::size_t i = 1; i < times.size(); ++i) {
-      const double waited = times[i] - times[i - 1];
-      QVERIFY2(waited > 0.3 && waited < 20.0, qPrintable(QString::number(waited)));
+    QTRY_VERIFY(hasLines(2));
+    const pid_t pid = firstProgram(*runner).pid;
+    runner->setSpeed(8.0);
+    times.clear();
+    QTRY_VERIFY(hasLines(50));
+    const double match = times.back().first - times.front().first;
+    const double program = times.back().second - times.front().second;
+    // Lines are collected 20 times a second, 0.4 s of the match.
+    QVERIFY2(std::abs(match - program) < 0.05 * match + 0.4,
+             qPrintable(QStringLiteral("%1 s, its clock %2 s").arg(match).arg(program)));
+    QCOMPARE(firstProgram(*runner).pid, pid);
+    QCOMPARE(firstProgram(*runner).whyRealTime, std::string());
+    for (const MatchEvent& event : runner->takeEvents()) {
+      QVERIFY(event.kind != MatchEventKind::ProcessRealTime);
     }
   }
 
   // Who keeps real time has nothing loaded, and is named as soon as the match does not.
-  void whoKeepsRealTimeIsNamed_data() {
-    QTest::addColumn<QByteArray>("more");
-    QTest::addColumn<double>("startedAt");
-    QTest::addColumn<QString>("sentence");
-    QTest::newRow("started at ×1")
-        << QByteArray() << 1.0
-        << "B1 decision keeps real time: restart to follow the match's speed";
-    QTest::newRow("clock real")
-        << QByteArray(R"(, "clock": "real")") << 8.0
-        << R"(B1 decision keeps real time: its runtime profile says "clock": "real")";
-  }
   void whoKeepsRealTimeIsNamed() {
-    QFETCH(QByteArray, more);
-    QFETCH(double, startedAt);
-    QFETCH(QString, sentence);
-    const auto runner = startWith(profileOf({"/bin/sleep", "600"}, more), false, startedAt);
+    const QString sentence =
+        R"(B1 decision keeps real time: its runtime profile says "clock": "real")";
+    const auto runner =
+        startWith(profileOf({"/bin/sleep", "600"}, R"(, "clock": "real")"), false, 8.0, {}, false);
     QTRY_VERIFY(firstProgram(*runner).pid != 0);
     QCOMPARE(timeVariables(*runner), QByteArray());
     QStringList told;
@@ -265,8 +296,6 @@ class TestUnchangedProcess : public QObject {
       }
       return !told.isEmpty();
     };
-    if (startedAt == 1.0) QVERIFY(!isTold());
-    runner->setSpeed(8.0);
     QTRY_VERIFY_WITH_TIMEOUT(isTold(), 30'000);
     QTRY_COMPARE_WITH_TIMEOUT(runner->latest()->slowestTeamProgram, std::optional(1.0), 30'000);
     // A match that waits for its programs does not leave it behind.
@@ -283,14 +312,6 @@ class TestUnchangedProcess : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).speed, 4.0, 30'000);
     (void)isTold();
     QCOMPARE(told, QStringList{sentence});
-    // Started again it follows, unless it is not to.
-    runner->execute([](SimulatedMatch& match) {
-      ProcessManager& processes = match.robots().processes();
-      processes.restart(processes.statuses().front().id, std::chrono::steady_clock::now());
-      return Changed::No;
-    });
-    QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).restarts, 1, 30'000);
-    QCOMPARE(timeVariables(*runner).contains("libpitchboard_time"), startedAt == 1.0);
   }
 
   // A minute is played in no time: without waiting it would be over before Python runs.
@@ -312,7 +333,7 @@ class TestUnchangedProcess : public QObject {
     auto runner = startWith(R"json({"version": 1, "name": "slow", "processes": [{"name":
       "decision", "command": ["python3", "-c",
         "import time\nwhile True:\n sum(range(300000))\n time.sleep(0.5)"]}]})json",
-                            false, wanted);
+                            false, wanted, {}, false);
     const auto program = [&runner] { return firstProgram(*runner); };
     runner->setSpeed(1.0);
     // At x1 it is learned what the program does in a second of its own.
@@ -335,6 +356,50 @@ class TestUnchangedProcess : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(program().speed, wanted, 60'000);
     runner.reset();
     QVERIFY(!SystemVSegments::info(m_base + 100));
+  }
+
+  // A program with threads, a queue and select() walks as far at any speed.
+  void theDrillTakesAsLongAtEightTimes() {
+    struct Drill {
+      double walked = 0.0, seconds = 0.0;
+    };
+    const auto play = [this](double speed) {
+      const auto runner =
+          startWith(profileOf({"python3", PITCHBOARD_SOURCE_DIR "/tests/end_to_end/drill_robot.py",
+                               "${key}"}),
+                    false, speed);
+      Drill drill;
+      double began = 0.0;
+      const auto isDone = [&] {
+        for (const LogLine& line : runner->takeLog()) {
+          if (line.text == "began") began = line.time;
+          if (line.text != "done") continue;
+          drill.seconds = line.time - began;
+          drill.walked = runner->latest()->robots[0].statistics.distanceWalked;
+          return true;
+        }
+        return false;
+      };
+      if (!QTest::qWaitFor(isDone, 60'000)) qWarning("the drill does not end");
+      return drill;
+    };
+    // One of three may meet a busy moment of the computer.
+    std::array<std::array<double, 3>, 2> walked{}, seconds{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (const std::size_t fast : {0, 1}) {
+        const Drill drill = play(fast == 1 ? 8.0 : 1.0);
+        walked[fast][i] = drill.walked;
+        seconds[fast][i] = drill.seconds;
+      }
+    }
+    const auto differ = [](std::array<std::array<double, 3>, 2>& values) {
+      for (auto& all : values) std::ranges::sort(all);
+      return std::abs(values[1][1] / values[0][1] - 1.0);
+    };
+    QVERIFY(walked[0][1] > 0.5);
+    QVERIFY2(differ(walked) < 0.05, qPrintable(QString::number(differ(walked))));
+    // Lines are collected 20 times a second, 0.4 s of the match.
+    QVERIFY2(differ(seconds) < 0.05 + 0.4 / 12.5, qPrintable(QString::number(differ(seconds))));
   }
 };
 

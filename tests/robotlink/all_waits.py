@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Waits for as many seconds as the argument says in every way that Python knows, one after the other.
+"""Waits for as many whole seconds as the first argument says in every way that Python knows, side by side.
 
-A line each: what it was, and how long it took by two of this program's clocks.
+A line each, as every_wait.h describes it.
 """
 import asyncio
+import os
 import queue
 import select
 import signal
@@ -14,7 +15,7 @@ import sys
 import threading
 import time
 
-SECONDS = float(sys.argv[1])
+SECONDS = int(sys.argv[1])
 
 
 def get_from_queue():
@@ -36,6 +37,13 @@ def acquire_lock():
     lock.acquire(timeout=SECONDS)
 
 
+async def wait_in_asyncio():
+    try:
+        await asyncio.wait_for(asyncio.Event().wait(), SECONDS)
+    except asyncio.TimeoutError:
+        pass
+
+
 def poll_socket():
     ours, _theirs = socket.socketpair()
     poll = select.poll()
@@ -53,7 +61,7 @@ def epoll_socket():
 def receive(option):
     ours, _theirs = socket.socketpair()
     if option:
-        ours.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, struct.pack("ll", int(SECONDS), 0))
+        ours.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, struct.pack("ll", SECONDS, 0))
     else:
         ours.settimeout(SECONDS)
     try:
@@ -62,9 +70,14 @@ def receive(option):
         pass
 
 
+# What sleeps in a child, which is started before: that takes its time, too.
+CHILDREN = {"subprocess_timeout": 1000, "subprocess_that_sleeps": SECONDS}
+children = []
+
+
 def wait_for_child():
     try:
-        subprocess.run(["sleep", "1000"], timeout=SECONDS)
+        children[0].wait(SECONDS)
     except subprocess.TimeoutExpired:
         pass
 
@@ -88,14 +101,43 @@ WAYS = {
     "socket.settimeout": lambda: receive(option=False),
     "SO_RCVTIMEO": lambda: receive(option=True),
     "asyncio.sleep": lambda: asyncio.run(asyncio.sleep(SECONDS)),
+    "asyncio.wait_for": lambda: asyncio.run(wait_in_asyncio()),
     "subprocess_timeout": wait_for_child,
-    "subprocess_that_sleeps": lambda: subprocess.run(["sleep", str(SECONDS)]),
+    "subprocess_that_sleeps": lambda: children[0].wait(),
     "setitimer": wait_for_alarm,
     "sigtimedwait": lambda: signal.sigtimedwait([signal.SIGUSR1], SECONDS),
 }
 
-signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGUSR1])
-for name, wait in WAYS.items():
-    began, wall = time.monotonic(), time.time()
+
+
+def uptime():
+    with open("/proc/uptime") as file:
+        return float(file.read().split()[0])
+
+
+def run(name, wait):
+    if name in CHILDREN:
+        children.append(subprocess.Popen(["sleep", str(CHILDREN[name])]))
+    began = uptime()
+    clocks = time.CLOCK_MONOTONIC, time.CLOCK_REALTIME, time.CLOCK_BOOTTIME
+    before = [time.clock_gettime(clock) for clock in clocks] + [time.time()]
     wait()
-    print(name, f"{time.monotonic() - began:.3f} {time.time() - wall:.3f}", flush=True)
+    after = [time.clock_gettime(clock) for clock in clocks] + [time.time()]
+    passed = [f"{b - a:.4f}" for a, b in zip(before, after)]
+    whole = int(after[3]) - int(before[3])
+    line = f"{name} {' '.join(passed)} {whole} {began:.2f} {uptime():.2f} {after[0]:.2f}\n"
+    os.write(1, line.encode())
+    for child in children:
+        child.kill()
+
+
+signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGUSR1])
+print("ready", flush=True)
+while not os.path.exists(sys.argv[2]):
+    time.sleep(0.001)
+for way, wait_for_it in WAYS.items():
+    if os.fork() == 0:
+        run(way, wait_for_it)
+        os._exit(0)
+for _ in WAYS:
+    os.wait()

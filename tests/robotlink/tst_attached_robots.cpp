@@ -15,6 +15,7 @@
 #include <thread>
 
 #include <robotlink/blackboard/system_v.h>
+#include <robotlink/frame/join_boards.h>
 #include <robotlink/live/attached_robots.h>
 #include <robotlink/session/recorded_frame.h>
 #include <telemetry/series/series_store.h>
@@ -101,7 +102,7 @@ class TestAttachedRobots : public QObject {
     MatchFrame frame;
     const auto hasRobot = [&] {
       frame.robots.clear();
-      robots.addTo(frame);
+      joinBoards(frame, robots.robots(frame.settings->field));
       return frame.robots.size() == 1;
     };
     QTRY_VERIFY(hasRobot());
@@ -109,7 +110,7 @@ class TestAttachedRobots : public QObject {
     QCOMPARE(robot.identity.name(), std::string("R4"));
     QCOMPARE(robot.boardKey.value_or(-1), key);
     QVERIFY(robot.battery && std::abs(robot.battery->volts - 16.0) < 1e-9);
-    QVERIFY(robot.lamps[1].state == telemetry::ProcessState::Working);
+    QVERIFY(robot.lamps[1].state == telemetry::HeartbeatState::Working);
     QVERIFY(robot.poseKnown() && !robot.timedOut());
     // The corner of a field of 9 by 6 m: 1.5 m to the right of its centre, 0.5 m below.
     QCOMPARE(robot.pose.position.x, 1.5);
@@ -167,15 +168,16 @@ class TestAttachedRobots : public QObject {
     };
     QTRY_VERIFY(take());
     MatchFrame seen;
-    robots.addTo(seen);
+    joinBoards(seen, robots.robots(seen.settings->field));
     QCOMPARE(seen.robots.size(), std::size_t(1));
     QCOMPARE(store->view(0)->info().name, std::string("Y7"));
 
     RecordedFrames recorded(*seen.settings);
     const double last = store->view(0)->range()->end;
-    const auto again = recorded.attachedAt(*store, last);
-    QCOMPARE(again.size(), std::size_t(1));
-    const RobotFrame &then = seen.robots[0], &now = again[0];
+    MatchFrame again;
+    joinBoards(again, recorded.boardsAt(*store, last));
+    QCOMPARE(again.robots.size(), std::size_t(1));
+    const RobotFrame &then = seen.robots[0], &now = again.robots[0];
     QVERIFY(now.key == then.key);
     QCOMPARE(now.identity.name(), then.identity.name());
     QCOMPARE(now.action, then.action);
@@ -189,7 +191,7 @@ class TestAttachedRobots : public QObject {
       QVERIFY(now.lamps[i].state == then.lamps[i].state);
     }
     // Ten seconds later nothing has come any more.
-    const auto later = recorded.attachedAt(*store, last + 10.0);
+    const auto later = recorded.boardsAt(*store, last + 10.0);
     QCOMPARE(later.size(), std::size_t(1));
     QVERIFY(later[0].link->timedOut);
   }

@@ -238,7 +238,7 @@ class TestCognitionDebug : public QObject {
     auto runner = MatchRunner::start(match(2), options).value();
     if (!asked) {
       QTRY_VERIFY(runner->latest() && !runner->latest()->robots.empty() &&
-                  runner->latest()->robots[0].lamps[3].state == telemetry::ProcessState::Working);
+                  runner->latest()->robots[0].lamps[3].state == telemetry::HeartbeatState::Working);
       QVERIFY(!runner->latest()->robots[0].cognitionDebug &&
               !runner->latest()->robots[1].cognitionDebug);
       return;

@@ -170,7 +170,7 @@ class TestLiveFrame : public QObject {
     status.recoveries = 2;
     status.lost = 11;
     status.conflict = true;
-    status.processes[3] = {telemetry::ProcessState::Silent, 0.1, 8s};
+    status.processes[3] = {telemetry::HeartbeatState::Silent, 0.1, 8s};
     status.battery = telemetry::batteryAt(15.9, telemetry::usualBattery);
     const RobotFrame robot = Received({status}).frame().robots.at(0);
     const telemetry::LinkHealth& health = *robot.link;
@@ -185,7 +185,7 @@ class TestLiveFrame : public QObject {
     QCOMPARE(health.recoveries, status.recoveries);
     QCOMPARE(health.lost, status.lost);
     QVERIFY(health.conflict && robot.battery->low);
-    QVERIFY(robot.lamps[3].state == telemetry::ProcessState::Silent);
+    QVERIFY(robot.lamps[3].state == telemetry::HeartbeatState::Silent);
     QCOMPARE(robot.lamps[3].since, status.processes[3].since);
   }
 
@@ -255,13 +255,13 @@ class TestLiveFrame : public QObject {
     }
     telemetry::SeriesStore store;
     store.append(store.addGroup(group), {1.0, {}, row});
-    const std::vector<RobotFrame> read = RecordedFrames().attachedAt(store, 1.0);
+    const std::vector<RobotFrame> read = RecordedFrames().boardsAt(store, 1.0);
     QCOMPARE(read.size(), std::size_t{1});
     QVERIFY(read[0].belief == said.belief && read[0].pose == said.pose);
     QVERIFY(read[0].sigma == said.sigma && read[0].ball == said.ball && said.ball);
     QVERIFY(read[0].decided == said.decided);
-    for (const telemetry::ProcessStatus& lamp : read[0].lamps) {
-      QVERIFY(lamp.state == telemetry::ProcessState::Working);
+    for (const telemetry::ProcessHeartbeat& lamp : read[0].lamps) {
+      QVERIFY(lamp.state == telemetry::HeartbeatState::Working);
     }
     // What is lost, or seen by a vision that does not work, is no ball.
     for (const char* name : {"VISION_LOST", "VISION_WORKING"}) {
@@ -270,32 +270,32 @@ class TestLiveFrame : public QObject {
       const auto at = std::distance(variables.begin(), variables.find(name));
       changed[static_cast<std::size_t>(at)] = 1.0 - changed[static_cast<std::size_t>(at)];
       other.append(other.addGroup(group), {1.0, {}, changed});
-      QVERIFY(!RecordedFrames().attachedAt(other, 1.0).at(0).ball);
+      QVERIFY(!RecordedFrames().boardsAt(other, 1.0).at(0).ball);
     }
   }
 
   void aLampIsSilentOnlyWhenItHasWorked() {
     using telemetry::FieldMeaning;
-    using telemetry::ProcessState;
+    using telemetry::HeartbeatState;
     LampMemory memory;
     double vision = 0.0;
     const RobotReader reader = [&vision](FieldMeaning meaning) -> std::optional<double> {
       if (meaning == FieldMeaning::Vision) return vision;
       return std::nullopt;
     };
-    QVERIFY(memory.note(reader, 0.0)[1].state == ProcessState::Unknown);
+    QVERIFY(memory.note(reader, 0.0)[1].state == HeartbeatState::Unknown);
     vision = 1.0;
-    QVERIFY(memory.note(reader, 1.0)[1].state == ProcessState::Working);
+    QVERIFY(memory.note(reader, 1.0)[1].state == HeartbeatState::Working);
     vision = 0.0;
-    QVERIFY(memory.note(reader, 1.9)[1].state == ProcessState::Working);
-    QVERIFY(memory.note(reader, 2.5)[1].state == ProcessState::Silent);
+    QVERIFY(memory.note(reader, 1.9)[1].state == HeartbeatState::Working);
+    QVERIFY(memory.note(reader, 2.5)[1].state == HeartbeatState::Silent);
     const auto& lamps = memory.note(reader, 10.5);
     QCOMPARE(telemetry::secondsOf(lamps[1].since), 8.0);
-    QVERIFY(lamps[0].state == ProcessState::Unknown);
+    QVERIFY(lamps[0].state == HeartbeatState::Unknown);
     memory.jump();
-    QVERIFY(memory.note(reader, 3.0)[1].state == ProcessState::Silent);
+    QVERIFY(memory.note(reader, 3.0)[1].state == HeartbeatState::Silent);
     memory.saw(1, 2.5);
-    QVERIFY(memory.note(reader, 3.0)[1].state == ProcessState::Working);
+    QVERIFY(memory.note(reader, 3.0)[1].state == HeartbeatState::Working);
   }
 
   void aCentimetreIsNotCutOff() {

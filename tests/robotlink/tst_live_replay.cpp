@@ -168,7 +168,7 @@ class TestLiveReplay : public QObject {
     QVERIFY(any([](const RobotFrame& r) { return r.link->errorCount > 0; }));
     QVERIFY(any([](const RobotFrame& r) { return r.battery && r.battery->low; }));
     QVERIFY(any(
-        [](const RobotFrame& r) { return r.lamps[1].state == telemetry::ProcessState::Silent; }));
+        [](const RobotFrame& r) { return r.lamps[1].state == telemetry::HeartbeatState::Silent; }));
     QVERIFY(last.robots[0].identity.team != m_frames.front().robots[0].identity.team);
     QVERIFY(m_frames.front().robots[0].link->messages >= 1);
   }

@@ -87,22 +87,28 @@ class TestLiveTeams : public QObject {
     QVERIFY(found);
   }
 
-  /// An attached blackboard is the robot; who is heard beside it is told apart.
-  void attachedBlackboardsHaveTheNameOfASimulation() {
-    LiveOptions options = twoTeams();
+  /// Its variables have the name of the robot.
+  void messagesOfARobotWithABlackboardStandBesideIt() {
+    const LiveOptions options = twoTeams();
+    auto store = std::make_shared<SeriesStore>();
+    const std::map<RobotKey, std::string> boards{{{1, 3, 0}, "B3"}};
+    LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start, boards));
+    TeamMonitor monitor(options.profile, monitorOptions(options));
+    QCOMPARE(monitor.take(from("10.0.0.3", 1243, words)), TeamMonitor::Verdict::Used);
+    rows.take(from("10.0.0.3", 1243, words), monitor.decoded(), monitor.decoder(), monitor.used());
+    QVERIFY(store->findGroup("B3 telemetry") && store->findGroup("B3 link"));
+    QVERIFY(!store->findGroup("B3"));
+    rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), {});
+    QVERIFY(store->findGroup("B3") && !store->findGroup("B3 telemetry"));
+  }
+
+  void attachedBlackboardsAreReadBack() {
     AttachedBoard board;
     board.key = 300;
     AttachedBoard other = board;
     other.key = 7000;
     other.robot = 3;
     QCOMPARE(boardNames({board, other}), (std::vector<std::string>{"B3", "B3 key 7000"}));
-    options.boards = {board};
-    auto store = std::make_shared<SeriesStore>();
-    LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
-    TeamMonitor monitor(options.profile, monitorOptions(options));
-    QCOMPARE(monitor.take(from("10.0.0.3", 1243, words)), TeamMonitor::Verdict::Used);
-    rows.take(from("10.0.0.3", 1243, words), monitor.decoded(), monitor.decoder(), monitor.used());
-    QVERIFY(store->findGroup("B3 (2)") && !store->findGroup("B3"));
     for (const AttachedBoard& one : {board, other}) {
       const auto again = parseAttachedBoard(attachedBoardText(one));
       QVERIFY(again && *again == one);

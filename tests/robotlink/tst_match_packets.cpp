@@ -2,7 +2,10 @@
 // The GameController's packets of a simulated match, in every version: sent in the rhythm of the
 // controllers, and obeyed by another match that hears them.
 #include <QtTest>
+
+#include <cmath>
 #include <map>
+#include <set>
 
 #include <robotlink/cognition/referee_orders.h>
 #include <robotlink/match/referee_packet.h>
@@ -243,6 +246,152 @@ class TestMatchPackets : public QObject {
     call({.kind = sim::CallKind::NextHalf});
     QTRY_VERIFY(agrees([&] { return game.half == 2 && game.swapped; }));
     QCOMPARE(game.teams[1].score, 1);
+  }
+
+  // At ten times real time five seconds of the match go by from one packet to the next.
+  void aPenaltyIsTheControllersAtAnySpeed() {
+    const int port = TestSocket().port();
+    MatchOptions options;
+    options.process.particles = 100;
+    options.obeyReferee = port;
+    auto obeying = SimulatedMatch::create(scenarioFor(12, 688), options).value();
+    SimulatedMatch controller = sending(12, 688, port);
+    const RobotId robot{2};
+    const auto call = [&](const sim::RefereeCall& one) {
+      QVERIFY(controller.simulation().call(one));
+    };
+    const auto penalty = [&](const SimulatedMatch& match) {
+      return match.simulation().state().game->teams[0].players[1].penalty;
+    };
+    const auto hears = [&](sim::PenaltyKind kind) {
+      play(controller, 0.5);
+      obeying.tick();
+      return penalty(obeying) == kind;
+    };
+    call({.kind = sim::CallKind::State, .state = sim::PlayState::Ready});
+    call({.kind = sim::CallKind::State, .state = sim::PlayState::Set});
+    call({.kind = sim::CallKind::State, .state = sim::PlayState::Playing});
+    call({.kind = sim::CallKind::Penalise, .robot = robot, .penalty = sim::PenaltyKind::Pushing});
+    QTRY_VERIFY(hears(sim::PenaltyKind::Pushing));
+    play(obeying, 5.0);
+    const Pose beside = *obeying.simulation().robotPose(robot);
+    QVERIFY(std::abs(beside.position.y) > obeying.simulation().state().settings.field.halfWidth());
+    for (int packet = 0; packet < 12; ++packet) {
+      play(controller, 0.5);
+      // On the other side of the ball as well.
+      QVERIFY(obeying.simulation().placeBall({0.0, packet % 2 == 0 ? 1.0 : -1.0}));
+      for (int tick = 0; tick < 5 * tickRate; ++tick) {
+        obeying.tick();
+        QCOMPARE(penalty(obeying), sim::PenaltyKind::Pushing);
+      }
+      QVERIFY(distance(obeying.simulation().robotPose(robot)->position, beside.position) < 0.05);
+    }
+    call({.kind = sim::CallKind::Pardon, .robot = robot});
+    QTRY_VERIFY(hears(sim::PenaltyKind::None));
+  }
+
+  // Of robots that know the extension of the map: whose set play it is.
+  void robotsAreToldOfSetPlays() {
+    Scenario scenario = scenarioFor(12, 688);
+    scenario.robots[0].behaviour = "striker";
+    auto match = SimulatedMatch::create(scenario, {}).value();
+    const VariableCatalog& map = VariableCatalog::extended();
+    const auto words = [&](int robot) {
+      const Blackboard& board = *match.blackboard(RobotId{robot});
+      return std::pair(board.read(*map.intVar("COM_SET_PLAY")),
+                       board.read(*map.intVar("COM_SET_PLAY_OURS")));
+    };
+    const auto call = [&](const sim::RefereeCall& one) {
+      QVERIFY(match.simulation().call(one));
+      play(match, 0.6);
+    };
+    for (const auto state : {sim::PlayState::Ready, sim::PlayState::Set, sim::PlayState::Playing}) {
+      call({.kind = sim::CallKind::State, .state = state});
+    }
+    QCOMPARE(words(1), std::pair(0, 0));
+    call({.kind = sim::CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::GoalKick});
+    QCOMPARE(words(1), std::pair(5, 1));
+    call({.kind = sim::CallKind::SetPlay, .team = 1, .setPlay = sim::SetPlay::ThrowIn});
+    QCOMPARE(words(1), std::pair(4, 0));
+    call({.kind = sim::CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::None});
+    QCOMPARE(words(1), std::pair(0, 0));
+  }
+
+  // Teams in the order of their colours: only the half tells who defends which goal.
+  void version7ChangesSides() {
+    SimulatedMatch match = SimulatedMatch::create(scenarioFor(12, 688), {}).value();
+    sim::WorldState world = match.simulation().state();
+    const auto hears = [&](int half, int state, int secState) {
+      telemetry::RefereeState packet = telemetry::asVersion7(refereePacket(world, 1));
+      packet.firstHalf = half == 1 ? 1 : 0;
+      packet.state = state;
+      packet.secState = secState;
+      adoptPacket(packet, world);
+      return world.game->swapped;
+    };
+    QVERIFY(!hears(1, 3, 0));
+    QVERIFY(hears(2, 0, 0));
+    QVERIFY(hears(2, 3, 0));
+    QVERIFY(world.robots[0].imuStartsAt180);
+    // In a shoot-out the sides change with each shot after the first.
+    QVERIFY(hears(2, 0, 1));
+    QVERIFY(hears(2, 2, 1));
+    QVERIFY(hears(2, 3, 1));
+    QVERIFY(hears(2, 4, 1));
+    QVERIFY(!hears(2, 2, 1));
+    QVERIFY(!hears(2, 3, 1));
+  }
+
+  void itIsAnswered_data() {
+    QTest::addColumn<int>("version");
+    QTest::addColumn<int>("size");
+    QTest::addColumn<int>("bytes");
+    QTest::newRow("v7") << 7 << 116 << 16;
+    QTest::newRow("v9") << 9 << 244 << 8;
+    QTest::newRow("v12") << 12 << 688 << 8;
+    QTest::newRow("v18") << 18 << 118 << 32;
+    QTest::newRow("v20") << 20 << 158 << 32;
+  }
+  void itIsAnswered() {
+    QFETCH(int, version);
+    QFETCH(int, size);
+    QFETCH(int, bytes);
+    const TestSocket screen;
+    const int port = TestSocket().port();
+    MatchOptions options;
+    options.process.particles = 100;
+    options.obeyReferee = port;
+    auto silent = SimulatedMatch::create(scenarioFor(12, 688), options).value();
+    SimulatedMatch controller = sending(version, size, port);
+    const auto isObeyed = [&](SimulatedMatch& match) {
+      play(controller, 0.5);
+      match.tick();
+      return match.simulation().state().game->obeyed;
+    };
+    QTRY_VERIFY(isObeyed(silent));
+    QVERIFY(!screen.received());
+    options.obeyReferee = TestSocket().port();
+    options.answerReferee = screen.port();
+    auto answering = SimulatedMatch::create(scenarioFor(12, 688), options).value();
+    controller = sending(version, size, *options.obeyReferee);
+    QTRY_VERIFY(isObeyed(answering));
+    QTRY_VERIFY(screen.received());
+    std::set<std::pair<int, int>> robots;
+    for (std::string text = screen.take(); !text.empty(); text = screen.take()) {
+      QCOMPARE(int(text.size()), bytes);
+      const auto reply =
+          std::get<telemetry::RobotReply>(telemetry::decodeReferee(std::string_view(text)).value());
+      robots.insert({reply.team, reply.player});
+      if (reply.message) QCOMPARE(*reply.message, 2);  // alive; others change the game
+      if (bytes == 32) {
+        QCOMPARE(*reply.fallen, 0);
+        // Blue and red see themselves in their own half.
+        QVERIFY((*reply.pose)[0] < 0.0F);
+        QVERIFY(std::isfinite(*reply.ballAge));
+      }
+    }
+    QCOMPARE(robots.size(), std::size_t{6});
+    QVERIFY(robots.contains({1, 1}) && robots.contains({2, 3}));
   }
 };
 

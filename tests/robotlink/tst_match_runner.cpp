@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sys/syscall.h>
 #include <unistd.h>
+#include <QFile>
+#include <QTemporaryDir>
 #include <QtTest>
+#include <thread>
 
 #include <robotlink/match/match_runner.h>
 #include <robotlink/match/pacer.h>
+
+#include "../support/segment_keys.h"
 
 namespace tst_match_runner {
 
@@ -255,6 +260,54 @@ class TestMatchRunner : public QObject {
     QCOMPARE(pacer.target(begin + 2s), std::uint64_t{80});
     QVERIFY(pacer.wake(begin + 1s, 20) > begin + 1016ms);
     QVERIFY(pacer.wake(begin + 1s, 20) < begin + 1018ms);
+  }
+
+  // A match that was asked for more than this computer can give takes its programs along.
+  void clocksOfProgramsFollowWhatIsReached() {
+    constexpr double reached = 10.0;
+    class Slow : public TickObserver {
+      void ticked(const SimulatedMatch& /*match*/, std::chrono::nanoseconds /*tickTime*/) override {
+        m_next = std::max(m_next + 1'000'000us / static_cast<int>(60 * reached),
+                          std::chrono::steady_clock::now() - 50ms);
+        std::this_thread::sleep_until(m_next);
+      }
+      std::chrono::steady_clock::time_point m_next{};
+    };
+    const QTemporaryDir folder;
+    QFile file(folder.filePath("team.json"));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(R"json({"version": 1, "name": "team", "processes": [{"name": "decision", "command":
+      ["python3", "-u", "-c", "import time\nwhile True:\n time.sleep(1)\n print(time.monotonic())"]}]})json");
+    file.close();
+    Scenario scenario = builtIn("one-robot");
+    scenario.robots[0].runtime.profile = file.fileName().toStdString();
+    MatchOptions options;
+    options.keyBase = testKeyBase();
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    options.speed = 10 * reached;
+    options.waitForTeamPrograms = false;
+    auto runner = MatchRunner::start(scenario, options, false, VariableCatalog::published(),
+                                     {std::make_shared<Slow>()});
+    QVERIFY(runner);
+    std::vector<std::pair<double, double>> times;  // of the match, of the program
+    double settled = 0.0;                          // s of the match
+    const auto isLongEnough = [&] {
+      for (const LogLine& line : (*runner)->takeLog()) {
+        times.emplace_back(line.time, std::stod(line.text));
+      }
+      // Once it is known what is reached.
+      if (times.empty() || times.back().first < 4 * reached) return false;
+      if (settled == 0.0) {
+        times.erase(times.begin(), times.end() - 1);
+        settled = times.front().first;
+      }
+      return times.back().first > settled + 40.0;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(isLongEnough(), 60'000);
+    const double match = times.back().first - times.front().first;
+    const double program = times.back().second - times.front().second;
+    QVERIFY2(std::abs(program - match) < 0.05 * match,
+             qPrintable(QStringLiteral("%1 s, its clock %2 s").arg(match).arg(program)));
   }
 };
 

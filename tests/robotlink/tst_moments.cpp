@@ -139,7 +139,7 @@ class TestMoments : public QObject {
       const MatchFrame frame = frames.frameAt(m_match->store, static_cast<double>(tick) * oneTick);
       compareFrame(frame, m_match->witness->seen.at(tick));
       if (tick < 60) continue;
-      QVERIFY(frame.robots[0].lamps[1].state == telemetry::ProcessState::Working);
+      QVERIFY(frame.robots[0].lamps[1].state == telemetry::HeartbeatState::Working);
       QVERIFY(!frame.robots[0].behaviour.empty());
     }
   }

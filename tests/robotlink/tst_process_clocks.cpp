@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The clocks and waits of real programs follow the match, and who cannot follow is named.
+#include <QTemporaryDir>
 #include <QtTest>
+#include <ctime>
+#include <functional>
+#include <map>
 
 #include <robotlink/processes/process_manager.h>
 
@@ -46,6 +50,123 @@ class TestProcessClocks : public QObject {
   }
   const ProcessStatus& status(int id) { return *m_manager->status(id); }
 
+  /// How long a wait took, s.
+  struct Waited {
+    double match = 0.0;
+    /// CLOCK_MONOTONIC, CLOCK_REALTIME, CLOCK_BOOTTIME, gettimeofday(), time()
+    std::array<double, 5> clocks{};
+  };
+  static bool medianIsRight(std::vector<Waited> waits, int seconds) {
+    constexpr double most = 0.05;
+    const auto isRight = [&](auto measure, double rounding) {
+      std::ranges::sort(waits, {}, measure);
+      return std::abs(std::invoke(measure, waits[waits.size() / 2]) - seconds) <=
+             most * seconds + rounding;
+    };
+    bool right = isRight([](const Waited& one) { return one.match; }, 0.0);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const double rounding = i == 4 ? 1.0 : 0.0;
+      right = right && isRight([i](const Waited& one) { return one.clocks[i]; }, rounding);
+    }
+    return right;
+  }
+  /// Programs in C, C++ and Python wait in a match that is played at these speeds, one after the
+  /// other, from when all of them are ready.
+  void waitInEveryWay(int seconds, const std::vector<std::pair<double, double>>& speeds,
+                      bool ownTime, std::map<QByteArray, std::vector<Waited>>& waits) {
+    const QTemporaryDir folder;
+    const std::string programs = QCoreApplication::applicationDirPath().toStdString();
+    const std::vector<std::vector<std::string>> commands{
+        {programs + "/all_waits_c"},
+        {programs + "/all_waits"},
+        {"python3", PITCHBOARD_SOURCE_DIR "/tests/robotlink/all_waits.py"}};
+    m_manager = std::make_unique<ProcessManager>(PITCHBOARD_BIN "/pitchboard-robot");
+    const auto uptime = [] {
+      timespec t{};
+      ::clock_gettime(CLOCK_BOOTTIME, &t);
+      return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec) * 1e-9;
+    };
+    std::vector<std::pair<double, double>> played{{uptime(), 0.0}};  // uptime, s of the match
+    double speed = speeds.front().first;
+    const auto play = [&] {
+      const double now = uptime();
+      const auto [before, match] = played.back();
+      played.emplace_back(now, match + speed * (now - before));
+      if (speed > 0.0) m_manager->setTime(played.back().second, speed, SteadyClock::now());
+    };
+    const auto matchAt = [&played](double moment) {
+      const auto after =
+          std::ranges::lower_bound(played, moment, {}, &std::pair<double, double>::first);
+      if (after == played.begin() || after == played.end()) return played.back().second;
+      const auto& [t0, m0] = *(after - 1);
+      return m0 + (after->second - m0) * (moment - t0) / (after->first - t0);
+    };
+    std::map<std::string, QByteArrayList> lines;
+    const auto lookAtAll = [&] {
+      play();
+      (void)m_manager->step(SteadyClock::now());
+      for (const ProcessLine& line : m_manager->takeLines()) {
+        lines[line.process] << QByteArray::fromStdString(line.text);
+      }
+    };
+    play();
+    for (const auto& command : commands) {
+      ManagedProcess process = python({});
+      process.spec.command = command;
+      process.spec.command.push_back(std::to_string(seconds));
+      process.spec.command.push_back(folder.filePath("go").toStdString());
+      process.spec.name = command.back().substr(command.back().rfind('/') + 1);
+      process.ownTime = ownTime;
+      QVERIFY(add(process) != 0);
+    }
+    QTRY_VERIFY((lookAtAll(), lines.size() == commands.size()));
+    for (const ProcessStatus& one : m_manager->statuses()) {
+      QFile environment(QStringLiteral("/proc/%1/environ").arg(one.pid));
+      QVERIFY(environment.open(QIODevice::ReadOnly));
+      const QByteArray all = environment.readAll();
+      QCOMPARE(all.contains("libpitchboard_time"), ownTime);
+      QCOMPARE(all.contains("PITCHBOARD_TIME="), ownTime);
+    }
+    QFile go(folder.filePath("go"));
+    QVERIFY(go.open(QIODevice::WriteOnly));
+    const auto over = [this] {
+      const auto all = m_manager->statuses();
+      return std::ranges::all_of(all,
+                                 [](const auto& one) { return one.state == ProcessState::Ended; });
+    };
+    for (const auto& [next, duration] : speeds) {
+      play();
+      speed = next;
+      m_manager->setPaused(speed == 0.0, SteadyClock::now());
+      play();
+      for (const double until = uptime() + duration; uptime() < until && !over();) {
+        QTest::qWait(20);
+        lookAtAll();
+        QVERIFY2(uptime() - played.front().first < 100.0, "somebody waits for ever");
+      }
+    }
+    for (const ProcessStatus& one : m_manager->statuses()) {
+      QCOMPARE(one.detail, std::string("exit code 0"));
+    }
+    for (const auto& [program, all] : lines) {
+      for (const QByteArray& line : all) {
+        if (line == "ready") continue;
+        char way[64]{};
+        double began = 0.0, ended = 0.0, now = 0.0;
+        Waited one;
+        auto& c = one.clocks;
+        QVERIFY2(std::sscanf(line.constData(), "%63s %lf %lf %lf %lf %lf %lf %lf %lf", way, &c[0],
+                             &c[1], &c[2], &c[3], &c[4], &began, &ended, &now) == 9,
+                 line.constData());
+        one.match = matchAt(ended) - matchAt(began);
+        // It stays an uptime that a computer may have.
+        constexpr double day = 86'400.0;
+        QVERIFY2(now > 0.0 && now < ended + day, line.constData());
+        waits[QByteArray::fromStdString(program) + ' ' + way].push_back(one);
+      }
+    }
+  }
+
  private slots:
   void init() {
     m_manager = std::make_unique<ProcessManager>(PITCHBOARD_BIN "/pitchboard-robot");
@@ -60,8 +181,7 @@ class TestProcessClocks : public QObject {
                                      "import time\nt = time.time(); m = time.monotonic()\n"
                                      "while True:\n time.sleep(1)\n print(round(time.time() - t), "
                                      "round(time.monotonic() - m))\n"});
-    m_manager->setClocksFollow(true);
-    m_manager->setSpeed(50.0, SteadyClock::now());
+    m_manager->setTime(0.0, 50.0, SteadyClock::now());
     const int id = add(process);
     QTRY_VERIFY_WITH_TIMEOUT(m_lines.size() > 60 || (look(), false), 40'000);
     // Sixty sleeps of a second; a busy computer wakes it late, but both of its clocks agree.
@@ -85,57 +205,127 @@ class TestProcessClocks : public QObject {
   void whatAProgramCannotKeepUpWithIsTold() {
     ManagedProcess process =
         python({"-c", "import time\nwhile True:\n sum(range(300000))\n time.sleep(0.5)\n"});
-    m_manager->setClocksFollow(true);
     const int id = add(process);
     QTRY_VERIFY_WITH_TIMEOUT((look(), status(id).achieved == 1.0), 30'000);
-    m_manager->setSpeed(1000.0, SteadyClock::now());
+    m_manager->setTime(0.0, 1000.0, SteadyClock::now());
     QCOMPARE(status(id).achieved, 0.0);
+    QCOMPARE(status(id).missedCycles, std::uint64_t{0});
     QTRY_VERIFY_WITH_TIMEOUT((look(), status(id).achieved > 0.0 && status(id).achieved < 900.0),
                              20'000);
     QCOMPARE(status(id).speed, 1000.0);
+    // Two cycles in a second of its own would be 2000 a second.
+    QTRY_VERIFY((look(), status(id).missedCycles > 100));
+    QVERIFY(status(id).cycles > 0);
   }
 
-  // Each line is a way to wait, and how long the program waited by its own clock. A wait that is
-  // not scaled lasts 8 times as long as it should at \u00d78, and less than it should after a
-  // pause.
-  void everyWayToWaitFollowsTheMatch_data() {
-    QTest::addColumn<bool>("changes");
-    QTest::newRow("at x8") << false;
-    QTest::newRow("speed changes and pauses") << true;
+  // Every wait takes as long in the match as it should, by the match's time and by five of the
+  // program's clocks; a second of the computer at least, so that waking up late matters little.
+  void everyWayToWaitTakesMatchTime_data() {
+    using Speeds = std::vector<std::pair<double, double>>;  // times real time, for how many seconds
+    QTest::addColumn<int>("seconds");
+    QTest::addColumn<Speeds>("speeds");
+    QTest::addColumn<bool>("ownTime");
+    const double on = 1e9;
+    QTest::newRow("x0.1") << 2 << Speeds{{0.1, on}} << true;
+    QTest::newRow("x1") << 4 << Speeds{{1.0, on}} << true;
+    QTest::newRow("x8") << 16 << Speeds{{8.0, on}} << true;
+    QTest::newRow("a change of speed") << 8 << Speeds{{8.0, 0.3}, {1.0, 1.0}, {4.0, on}} << true;
+    QTest::newRow("a pause of 5 s") << 8 << Speeds{{4.0, 1.0}, {0.0, 5.0}, {2.0, on}} << true;
+    QTest::newRow("real time, without the studio's clock") << 4 << Speeds{{1.0, on}} << false;
   }
-  void everyWayToWaitFollowsTheMatch() {
-    QFETCH(bool, changes);
-    constexpr double seconds = 2.0;
-    constexpr std::size_t ways = 30 + 16;  // in C and C++, and in Python
-    m_manager->setClocksFollow(true);
-    m_manager->setSpeed(8.0, SteadyClock::now());
-    ManagedProcess process = python({PITCHBOARD_SOURCE_DIR "/tests/robotlink/all_waits.py", "2"});
-    const int inPython = add(process);
-    process.spec.command = {(QCoreApplication::applicationDirPath() + "/all_waits").toStdString(),
-                            "2"};
-    const int compiled = add(process);
-    const auto runs = [this](int id) { return status(id).state != ProcessState::Ended; };
-    const std::array speeds{8.0, 1.0, 0.0, 4.0};
-    for (std::size_t turn = 0; runs(inPython) || runs(compiled); ++turn) {
-      const double speed = speeds[turn % speeds.size()];
-      if (changes) {
-        m_manager->setPaused(speed == 0.0, SteadyClock::now());
-        if (speed > 0.0) m_manager->setSpeed(speed, SteadyClock::now());
+  void everyWayToWaitTakesMatchTime() {
+    using Speeds = std::vector<std::pair<double, double>>;
+    QFETCH(int, seconds);
+    QFETCH(Speeds, speeds);
+    QFETCH(bool, ownTime);
+    constexpr std::size_t ways = 24 + 31 + 17, mostAttempts = 3;
+    std::map<QByteArray, std::vector<Waited>> waits;  // by program and way
+    std::vector<QByteArray> wrong;
+    // A busy computer wakes one of many programs late; the median decides.
+    for (std::size_t attempt = 0; attempt < mostAttempts && (attempt == 0 || !wrong.empty());
+         ++attempt) {
+      waitInEveryWay(seconds, speeds, ownTime, waits);
+      if (QTest::currentTestFailed()) return;
+      wrong.clear();
+      for (const auto& [way, all] : waits) {
+        if (!medianIsRight(all, seconds)) wrong.push_back(way);
       }
+    }
+    QCOMPARE(waits.size(), ways);
+    for (const QByteArray& way : wrong) {
+      for (const Waited& one : waits[way]) {
+        qWarning("%s: %.3f s of the match, by its clocks %.3f %.3f %.3f %.3f %.0f", way.constData(),
+                 one.match, one.clocks[0], one.clocks[1], one.clocks[2], one.clocks[3],
+                 one.clocks[4]);
+      }
+    }
+    QVERIFY(wrong.empty());
+  }
+
+  // Half a second without a sign of life is one of the match.
+  void silenceCountsMatchTime_data() {
+    QTest::addColumn<double>("speed");
+    QTest::addColumn<bool>("stops");
+    QTest::newRow("slow motion") << 0.1 << false;
+    QTest::newRow("fast, and it hangs") << 10.0 << true;
+  }
+  void silenceCountsMatchTime() {
+    QFETCH(double, speed);
+    QFETCH(bool, stops);
+    ManagedProcess process = python({"-c", "import time\ntime.sleep(1000)\n"});
+    process.restart.policy = RestartPolicy::Always;
+    process.watch = ManagedProcess::Watch::Variable;
+    process.heartbeat = IntVar{104};
+    process.clears = true;
+    process.silentAfter = RestartRule::Seconds(stops ? 20.0 : 0.5);
+    const auto begin = SteadyClock::now();
+    const auto seconds = [begin] {
+      return std::chrono::duration<double>(SteadyClock::now() - begin).count();
+    };
+    const auto play = [&] {
+      m_manager->setTime(speed * seconds(), speed, SteadyClock::now());
       look();
-      QTest::qWait(60);
+    };
+    play();
+    const int id = add(process);
+    const pid_t pid = status(id).pid;
+    m_board.write(IntVar{104}, 1);
+    play();
+    if (stops) {
+      QTRY_VERIFY((play(), status(id).pid != pid));
+      QVERIFY(seconds() > 1.9);
+    } else {
+      // Longer than it may be silent, but not in the match.
+      while (seconds() < 2.5) {
+        QTest::qWait(20);
+        play();
+      }
+      QCOMPARE(status(id).pid, pid);
     }
-    look();
-    QCOMPARE(status(inPython).detail, std::string("exit code 0"));
-    QCOMPARE(status(compiled).detail, std::string("exit code 0"));
-    QCOMPARE(m_lines.size(), ways);
-    for (const std::string& line : m_lines) {
-      char way[64]{};
-      double monotonic = 0.0, wall = 0.0;
-      QCOMPARE(std::sscanf(line.c_str(), "%63s %lf %lf", way, &monotonic, &wall), 3);
-      QVERIFY2(monotonic > 0.99 * seconds && monotonic < 2.0 * seconds, line.c_str());
-      QVERIFY2(std::abs(wall - monotonic) < 0.1, line.c_str());
-    }
+  }
+
+  // A match that is slower than it was asked to be takes the program's clock with it.
+  void theClockIsSteeredToTheMatch() {
+    const auto clock = ProgramClock::create();
+    QVERIFY(clock);
+    const auto begin = SteadyClock::now();
+    const auto at = [begin](double seconds) {
+      return begin + std::chrono::duration_cast<SteadyClock::duration>(
+                         std::chrono::duration<double>(seconds));
+    };
+    (void)(*clock)->start(8.0, begin);
+    QCOMPARE((*clock)->seconds(at(2.0)), 16.0);
+    (*clock)->setRate(0.0, at(2.0));
+    QCOMPARE((*clock)->seconds(at(7.0)), 16.0);
+    (*clock)->setRate(1.0, at(7.0));
+    QCOMPARE((*clock)->seconds(at(8.0)), 17.0);
+    // Passed through while it is right; else a little faster or slower, and never backwards.
+    QCOMPARE(ProgramClock::rateFor(0.019, 1.0), 1.0);
+    QCOMPARE(ProgramClock::rateFor(-0.1, 1.0), 0.9);
+    QCOMPARE(ProgramClock::rateFor(0.1, 8.0), 8.0);
+    QCOMPARE(ProgramClock::rateFor(1.0, 8.0), 9.0);
+    QCOMPARE(ProgramClock::rateFor(-100.0, 8.0), 4.0);
+    QCOMPARE(ProgramClock::rateFor(100.0, 8.0), 16.0);
   }
 
   // Nothing can be loaded into it.
@@ -143,8 +333,7 @@ class TestProcessClocks : public QObject {
     ManagedProcess process = python({});
     process.spec.command = {
         (QCoreApplication::applicationDirPath() + "/static_sleeper").toStdString()};
-    m_manager->setClocksFollow(true);
-    m_manager->setSpeed(8.0, SteadyClock::now());
+    m_manager->setTime(0.0, 8.0, SteadyClock::now());
     const int id = add(process);
     QTRY_VERIFY((look(), !m_realTime.empty()));
     QCOMPARE(m_realTime.front().detail, std::string(whyRealTime(ProcessClock::RealNotLoaded)));

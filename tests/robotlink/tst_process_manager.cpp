@@ -185,6 +185,25 @@ class TestProcessManager : public QObject {
     }
   }
 
+  // It may wait for the kick-off, or for a packet, before its first cycle.
+  void whoNeverBeatIsNotKilled() {
+    ManagedProcess process = shell("exec sleep 600");
+    process.watch = ManagedProcess::Watch::Variable;
+    process.heartbeat = IntVar{104};
+    process.silentAfter = RestartRule::Seconds(0.05);
+    m_board.write(IntVar{104}, 1);  // left by an earlier one
+    const int id = add(process);
+    for (int i = 0; i < 30; ++i) {
+      QTest::qWait(10);
+      QCOMPARE(count(Kind::Silent), 0);
+    }
+    QCOMPARE(status(id).state, ProcessState::Running);
+    m_board.write(IntVar{104}, 1);
+    look();
+    m_board.write(IntVar{104}, 0);
+    QTRY_COMPARE(count(Kind::Silent), 1);
+  }
+
   void withoutAHeartbeatASilentProcessIsNoAlarm() {
     ManagedProcess process = shell("exec sleep 600");
     process.silentAfter = RestartRule::Seconds(0.05);

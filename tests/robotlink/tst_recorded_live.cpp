@@ -66,7 +66,7 @@ class TestRecordedLive : public QObject {
     QCOMPARE(seen.robots.size(), std::size_t{1});
     const RobotFrame& robot = seen.robots[0];
     QVERIFY(std::hypot(robot.pose.position.x - 0.1, robot.pose.position.y) < 1e-9);
-    QVERIFY(robot.lamps[3].state == telemetry::ProcessState::Working);
+    QVERIFY(robot.lamps[3].state == telemetry::HeartbeatState::Working);
     QVERIFY(robot.link && robot.ball && !robot.timedOut());
     // What it said stands in the frame as it did in Live.
     const telemetry::TeamStatus team =
@@ -81,7 +81,7 @@ class TestRecordedLive : public QObject {
     // The packet itself was none that can be read; what others read decoded says nothing here.
     QVERIFY(!seen.referee);
     QVERIFY(frames.frameAt(session, 1.1).robots[0].lamps[3].state !=
-            telemetry::ProcessState::Working);
+            telemetry::HeartbeatState::Working);
     QCOMPARE(momentFromSession(session, 2.0, VariableCatalog::published()).error().code,
              ErrorCode::NotFound);
     const MomentScenario made = scenarioFromMoment(seen);

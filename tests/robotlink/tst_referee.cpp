@@ -332,6 +332,266 @@ class TestReferee : public QObject {
     QVERIFY(game.happened(sim::EventKind::FinalWhistle));
   }
 
+  void allShotsOfAShootOutGoToTheSameGoal() {
+    Game game("humanoid-2021", true);
+    sim::RefereeRules rules = *game.simulation->state().settings.referee;
+    rules.shotTime = 5;
+    rules.shots = 3;
+    rules.placedAfter = 1;
+    QVERIFY(game.simulation->setReferee(rules));
+    QVERIFY(game.simulation->startGame({.state = PlayState::Finished, .half = 2}));
+    QVERIFY(game.call({.kind = CallKind::ShootOut}));
+    std::set<double> marks;
+    std::set<int> shooters, leftTeams;
+    for (int i = 0; i < 60 * 600 && !game.game().over; ++i) {
+      game.tick();
+      if (game.game().state != PlayState::Set || game.game().stateTicks != 60) continue;
+      marks.insert(std::round(game.simulation->snapshot().ball.x * 10));
+      shooters.insert(game.game().shooter);
+      leftTeams.insert(int(game.game().leftTeam()));
+      // teams[0] of the packets is who defends the left goal: not the side of the shot.
+      const int shooter = game.game().teams[std::size_t(game.game().shooter)].number;
+      QCOMPARE(game.packet().teams[0].number == shooter, marks.contains(30.0));
+    }
+    QCOMPARE(shooters.size(), std::size_t{2});
+    QCOMPARE(leftTeams.size(), std::size_t{2});
+    QCOMPARE(marks.size(), std::size_t{1});
+  }
+
+  void aHalfEndsInReady_data() {
+    QTest::addColumn<QString>("rules");
+    QTest::addColumn<int>("state");
+    for (const char* rules : {"humanoid-2014", "humanoid-2021", "humanoid-soccer-2026"}) {
+      QTest::addRow("%s, READY", rules) << rules << int(PlayState::Ready);
+      QTest::addRow("%s, SET", rules) << rules << int(PlayState::Set);
+    }
+  }
+  void aHalfEndsInReady() {
+    QFETCH(QString, rules);
+    QFETCH(int, state);
+    Game game(rules.toLatin1().constData(), true);
+    sim::GameStart start;
+    start.state = PlayState(state);
+    start.half = 2;
+    start.clock = 1.0;
+    QVERIFY(game.simulation->startGame(start));
+    game.runTo(3.5);
+    QCOMPARE(game.game().state, PlayState::Finished);
+    QVERIFY(game.game().clock > -150);
+    // A half that has not begun does not run out.
+    start.clock.reset();
+    QVERIFY(game.simulation->startGame(start));
+    const int full = game.game().clock;
+    game.runTo(6.5);
+    QVERIFY(game.game().state != PlayState::Finished);
+    QCOMPARE(game.game().clock, full);
+  }
+
+  void aDoubleTouchIsAFreeKick_data() {
+    QTest::addColumn<QString>("rules");
+    QTest::addColumn<bool>("passes");
+    QTest::addColumn<bool>("isFoul");
+    QTest::newRow("2026") << "humanoid-soccer-2026" << false << true;
+    QTest::newRow("2026, after another robot") << "humanoid-soccer-2026" << true << false;
+    QTest::newRow("2021") << "humanoid-2021" << false << false;
+  }
+  void aDoubleTouchIsAFreeKick() {
+    QFETCH(QString, rules);
+    QFETCH(bool, passes);
+    QFETCH(bool, isFoul);
+    Game game(rules.toLatin1().constData(), true);
+    sim::GameStart start;
+    start.state = PlayState::Playing;
+    start.clock = 300;
+    start.setPlay = sim::GameStart::Taking{SetPlay::ThrowIn, TeamColor::Blue,
+                                           sim::Restart::Step::Taking, Point{-2.5, 2.3}};
+    QVERIFY(game.simulation->placeBall({-2.5, 2.0 + game.atTheBall()}));  // blue 2 has it
+    QVERIFY(game.simulation->startGame(start));
+    game.runTo(0.1);
+    const auto touchedBy = [&](int robot, double at) {
+      const Point place{-1.0 + at, 0.0};
+      QVERIFY(game.simulation->placeBall({place.x, place.y}));
+      game.runTo(game.now() + 0.5);
+      QVERIFY(game.simulation->placeRobot(RobotId{robot},
+                                          {{place.x, place.y - game.atTheBall()}, 0.0}));
+      game.runTo(game.now() + 0.1);
+      QVERIFY(game.simulation->placeRobot(RobotId{robot}, {{-3.0, -1.5}, 0.0}));
+    };
+    if (passes) touchedBy(3, 0.5);
+    touchedBy(2, 0.0);
+    QCOMPARE(game.game().setPlay() == SetPlay::IndirectFreeKick, isFoul);
+    if (isFoul) QCOMPARE(game.game().setPlayTeam(), 1);
+  }
+
+  void theFourthInTheGoalAreaGoes() {
+    Game game("humanoid-soccer-2026", true);
+    QVERIFY(game.simulation->addRobot({RobotId{7}, TeamColor::Blue, 4, false}, {{0, -2.5}, 0}));
+    game.commands.resize(7);
+    game.percepts.resize(7);
+    sim::GameStart start;
+    start.state = PlayState::Playing;
+    start.clock = 300;
+    QVERIFY(game.simulation->startGame(start));
+    game.runTo(0.5);
+    const double x = -4.2;
+    for (const auto& [robot, y] : {std::pair(2, 0.9), std::pair(3, -0.9)}) {
+      QVERIFY(game.simulation->placeRobot(RobotId{robot}, {{x, y}, 0.0}));
+      game.runTo(game.now() + 0.5);
+    }
+    game.runTo(game.now() + 2.0);
+    QVERIFY(!game.happened(sim::EventKind::Penalised));  // three may
+    QVERIFY(game.simulation->placeRobot(RobotId{7}, {{x, 0.45}, 0.0}));
+    game.runTo(game.now() + 0.5);
+    QVERIFY(!game.happened(sim::EventKind::Penalised));
+    game.runTo(game.now() + 1.0);
+    QCOMPARE(game.game().teams[0].players[3].penalty, sim::PenaltyKind::IllegalPosition);
+    for (const int other : {0, 1, 2}) {
+      QCOMPARE(game.game().teams[0].players[std::size_t(other)].penalty, sim::PenaltyKind::None);
+    }
+  }
+
+  void theRefereesTimeoutIsLonger() {
+    for (const auto& [rules, seconds] :
+         {std::pair("humanoid-2014", 120), std::pair("humanoid-2021", 600),
+          std::pair("humanoid-soccer-2026", 600)}) {
+      Game game(rules);
+      QVERIFY(game.call({.kind = CallKind::Timeout, .team = sim::GameState::nobody}));
+      QCOMPARE(game.packet().secondaryTime, std::optional<int>(seconds));
+    }
+    Game game("humanoid-2021");
+    QVERIFY(game.call({.kind = CallKind::Timeout, .team = 0}));
+    QCOMPARE(game.packet().secondaryTime, std::optional<int>(120));
+  }
+
+  void gettingUpIsNoRemoval() {
+    // As adult-size robots: half a second until they notice, then 19.6 s. Lying counts, getting up
+    // does not.
+    for (const bool getsUp : {true, false}) {
+      Game game("humanoid-2021", true);
+      sim::GameStart start;
+      start.state = PlayState::Playing;
+      start.clock = 300;
+      QVERIFY(game.simulation->startGame(start));
+      auto& body = std::get<sim::RigidBodyState>(game.simulation->editState().physics).robots[1];
+      body.posture = getsUp ? sim::Posture::GettingUp : sim::Posture::OnFront;
+      body.getUpRemaining = 25;
+      game.runTo(22);
+      QCOMPARE(game.game().teams[0].players[1].penalty,
+               getsUp ? sim::PenaltyKind::None : sim::PenaltyKind::Incapable);
+    }
+  }
+
+  void whoComesBackIsNotLeaving() {
+    Game game("humanoid-soccer-2026", true);
+    sim::GameStart start;
+    start.state = PlayState::Playing;
+    start.clock = 300;
+    start.robots[RobotId{2}] = {.penalty = sim::PenaltyKind::Pushing, .left = 1.0, .outside = true};
+    QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-3, 3.6}, -1.57}));
+    QVERIFY(game.simulation->placeRobot(RobotId{3}, {{1, 2.0}, -1.57}));  // cares for the ball
+    QVERIFY(game.simulation->placeBall({1, 1.2}));
+    QVERIFY(game.simulation->startGame(start));
+    game.runTo(40);
+    const sim::GamePlayer& back = game.game().teams[0].players[1];
+    QCOMPARE(back.penalty, sim::PenaltyKind::None);
+    // Once it was inside, it leaves as everybody else does.
+    QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-3, 2.0}, -1.57}));
+    game.runTo(41);
+    QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-3, 3.6}, -1.57}));
+    game.runTo(62);
+    QCOMPARE(back.penalty, sim::PenaltyKind::Leaving);
+  }
+
+  void aRobotIsNotRemovedFromAHeapTwice() {
+    Game game("humanoid-soccer-2026", true);
+    sim::GameStart start;
+    start.state = PlayState::Playing;
+    start.clock = 300;
+    QVERIFY(game.simulation->placeBall({-1, 0}));
+    QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-1, 0.4}, 0}));
+    QVERIFY(game.simulation->placeRobot(RobotId{3}, {{-1, -0.45}, 0}));
+    QVERIFY(game.simulation->startGame(start));
+    const sim::GamePlayer& nearest = game.game().teams[0].players[1];
+    const sim::GamePlayer& other = game.game().teams[0].players[2];
+    game.runTo(10.2);
+    QCOMPARE(nearest.penalty, sim::PenaltyKind::LocalStuck);
+    QVERIFY(game.call({.kind = CallKind::Pardon, .robot = RobotId{2}}));
+    QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-1, 0.4}, 0}));
+    game.runTo(19);
+    QCOMPARE(other.penalty, sim::PenaltyKind::None);  // ten seconds more after a removal
+    game.runTo(31);
+    QCOMPARE(nearest.penalty, sim::PenaltyKind::None);
+    QCOMPARE(other.penalty, sim::PenaltyKind::LocalStuck);
+  }
+
+  void readyEndsWhenAllStand() {
+    for (const double still : {0.0, 5.0}) {
+      sim::RefereeRules rules = Game::named("humanoid-2021", true);
+      rules.readyStillTime = still;
+      Game game(rules);
+      QVERIFY(game.simulation->startGame({.state = PlayState::Ready}));
+      game.runTo(3);
+      // Somebody still turns.
+      QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-2.5, 2.0}, 0.5}));
+      game.runTo(7.9);
+      QCOMPARE(game.game().state, PlayState::Ready);
+      game.runTo(8.2);
+      QCOMPARE(game.game().state, still > 0.0 ? PlayState::Set : PlayState::Ready);
+      // Who stands in the other half is waited for.
+      QVERIFY(game.simulation->placeRobot(RobotId{2}, {{1.5, 2.0}, 0.5}));
+      QVERIFY(game.simulation->startGame({.state = PlayState::Ready}));
+      game.runTo(game.now() + 44.9);
+      QCOMPARE(game.game().state, PlayState::Ready);
+      game.runTo(game.now() + 0.2);
+      QCOMPARE(game.game().state, PlayState::Set);
+    }
+  }
+
+  void goalsAreCountedByHalf() {
+    Game game("humanoid-2021");
+    sim::GameStart start;
+    start.state = PlayState::Playing;
+    start.half = 2;
+    start.teams[TeamColor::Blue] = {.score = 1, .byHalf = std::array{1, 0, 0, 0}};
+    QVERIFY(game.simulation->startGame(start));
+    QVERIFY(goalOfTeam1(game));
+    QCOMPARE(game.game().teams[0].byHalf, (std::array{1, 1, 0, 0}));
+    const sim::RefereeCall takenBack{.kind = CallKind::Goal, .team = 0, .value = -1};
+    QVERIFY(game.call(takenBack) && game.call(takenBack));
+    QCOMPARE(game.game().teams[0].byHalf, (std::array{0, 0, 0, 0}));
+    QCOMPARE(game.game().teams[0].score, 0);
+  }
+
+  void aGameBeginsInAnyState() {
+    Game game("humanoid-soccer-2026", true);
+    // A goal kick as by the call: the ball goes to the front corner of the goal area.
+    sim::GameStart start;
+    start.state = PlayState::Playing;
+    start.clock = 60;
+    start.setPlay = sim::GameStart::Taking{SetPlay::GoalKick, TeamColor::Blue, {}, Point{-4.6, 2}};
+    start.robots[RobotId{5}] = {.penalty = sim::PenaltyKind::SentOff, .red = 1};
+    QVERIFY(game.simulation->startGame(start));
+    QCOMPARE(game.game().setPlay(), SetPlay::GoalKick);
+    QVERIFY(game.game().stopped);
+    QCOMPARE(game.packet().secsRemaining, 60);
+    game.runTo(6);
+    const Point ball = game.simulation->snapshot().ball;
+    QVERIFY2(distance(ball, {-3.5, 1.5}) < 0.01,
+             qPrintable(QString("%1, %2").arg(ball.x).arg(ball.y)));
+    QVERIFY(std::abs(game.simulation->snapshot().robots[4].pose.position.y) > 3.0);
+    // A penalty kick has its own READY by these rules.
+    start.setPlay = sim::GameStart::Taking{SetPlay::PenaltyKick, TeamColor::Red, {}, {}};
+    QVERIFY(game.simulation->startGame(start));
+    QCOMPARE(game.game().state, PlayState::Ready);
+    QCOMPARE(game.game().setPlayTeam(), 1);
+    // Whoever does not play is named, and nothing has changed.
+    const sim::GameState before = game.game();
+    start.left = TeamColor::Orange;
+    const auto refused = game.simulation->startGame(start);
+    QVERIFY(!refused && refused.error().message.find("orange") != std::string::npos);
+    QVERIFY(game.game() == before);
+  }
+
   void aSavedMomentGoesOnAsItDid() {
     Game game("humanoid-2021", true);
     game.runTo(62);

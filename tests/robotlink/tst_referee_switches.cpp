@@ -155,6 +155,26 @@ std::map<std::string, Situation> situations() {
                          },
                          "0",
                          "1"};
+  all["double_touch"] = {
+      {},
+      [](Game& g) {
+        sim::GameStart start;
+        start.state = PlayState::Playing;
+        start.setPlay = sim::GameStart::Taking{
+            .kind = SetPlay::ThrowIn, .team = TeamColor::Blue, .step = sim::Restart::Step::Taking};
+        (void)g.simulation->placeBall({0.0, 2.9});
+        (void)g.simulation->startGame(start);
+        for (const Point& ball : {Point{0.0, 2.7}, Point{0.0, 2.0}}) {
+          g.runTo(g.now() + 0.5);
+          (void)g.simulation->placeBall(ball);
+          (void)g.simulation->placeRobot(RobotId{2}, {{ball.x - g.atTheBall(), ball.y}, 0.0});
+          g.runTo(g.now() + 0.1);
+          (void)g.simulation->placeRobot(RobotId{2}, {{-2.5, 2.0}, 0.0});
+        }
+        return words(g.game().setPlay());
+      },
+      "indirect free kick",
+      "none"};
   all["change_sides"] = {shortHalves,
                          [](Game& g) {
                            g.runTo(82);
@@ -292,6 +312,24 @@ std::map<std::string, Situation> situations() {
                           "motion in SET",
                           "none",
                           0.2};
+  all["goal_area_most"] = {{},
+                           [](Game& g) {
+                             g.runTo(80);
+                             (void)g.simulation->placeRobot(RobotId{2}, {{-4.2, 0.9}, 0.0});
+                             g.runTo(82);
+                             return penaltyOf(g, 0, 1);
+                           },
+                           "illegal position",
+                           "none",
+                           1.0};
+  all["ready_still_time"] = {{},
+                             [](Game& g) {
+                               g.runTo(15);
+                               return words(g.game().state);
+                             },
+                             "SET",
+                             "READY",
+                             2.0};
   all["mercy"] = {{},
                   [](Game& g) {
                     g.runTo(80);

@@ -72,7 +72,7 @@ class TestRuntimeProfile : public QObject {
 
   void everyKeyIsRead() {
     const auto profile = runtimeProfileFromJson(R"({"version": 1, "name": "team", "title": "Ours",
-      "values": {"side": "left"},
+      "values": {"side": "left"}, "cycle": "MATCH_CYCLE",
       "processes": [{"name": "decide", "command": ["./decide", "--key", "${key}"],
         "directory": "/home/robot", "environment": {"SIDE": "${side}"}, "delay": 0.5,
         "heartbeat": "DECISION_WORKING", "silent_after": 2, "restart": "on_failure",
@@ -81,6 +81,7 @@ class TestRuntimeProfile : public QObject {
         "clock": "real"}]})",
                                                 "team.json");
     QVERIFY2(profile, profile ? "" : profile.error().text().c_str());
+    QCOMPARE(profile->cycle, std::string("MATCH_CYCLE"));
     const ProfileProcess& process = profile->processes.front();
     QCOMPARE(process.command.size(), std::size_t{3});
     QCOMPARE(process.directory, std::string("/home/robot"));

@@ -48,6 +48,89 @@ class TestScenario : public QObject {
     }
   }
 
+  void sizesThatNoVersionHasAreRefused_data() {
+    QTest::addColumn<QString>("rules");
+    QTest::addColumn<QString>("wrong");
+    QTest::newRow("a size that version 12 has") << "\"packet_version\": 12, \"packet_size\": 640"
+                                                << "";
+    QTest::newRow("a version, its own size") << "\"packet_version\": 13"
+                                             << "";
+    QTest::newRow("a size that none has") << "\"packet_size\": 100"
+                                          << "packet_size";
+    QTest::newRow("a size of another version") << "\"packet_version\": 20, \"packet_size\": 688"
+                                               << "packet_size";
+    QTest::newRow("no whole version") << "\"packet_version\": 12.5"
+                                      << "packet_version";
+    QTest::newRow("no whole count") << "\"shots\": 2.5"
+                                    << "shots";
+  }
+  void sizesThatNoVersionHasAreRefused() {
+    QFETCH(QString, rules);
+    QFETCH(QString, wrong);
+    const auto scenario = read("{\"version\": 1, \"referee\": {\"rules\": \"humanoid-2021\", " +
+                               rules.toStdString() + "}}");
+    QCOMPARE(scenario.has_value(), wrong.isEmpty());
+    if (!scenario) {
+      const QString said = QString::fromStdString(scenario.error().text());
+      QVERIFY2(said.contains("referee." + wrong), qPrintable(said));
+      return;
+    }
+    const sim::RefereeRules& read = *scenario->settings.referee;
+    QVERIFY(read.packetSize == (read.packetVersion == 12 ? 640 : 54));
+  }
+
+  void aGameIsRead() {
+    const auto scenario = read(R"({"version": 1, "referee": "humanoid-2021",
+      "game": {"state": "playing", "half": 2, "clock": 60, "kick_off": null,
+               "score": {"blue": 2, "red": 1}, "by_half": {"blue": [1, 1]},
+               "set_play": {"kind": "goal_kick", "team": "red"}},
+      "robots": [{"team": "blue", "number": 2, "x": 0, "y": 0,
+                  "penalty": {"kind": "sent_off"}, "cards": {"red": 1}},
+                 {"team": "red", "number": 5, "x": 1, "y": 0, "goalkeeper": true,
+                  "belief": {"x": 1, "y": 0, "heading": 180, "sigma": 0.1}}]})");
+    QVERIFY2(scenario, scenario ? "" : scenario.error().text().c_str());
+    const sim::GameStart& game = *scenario->game;
+    QCOMPARE(game.state, sim::PlayState::Playing);
+    QCOMPARE(game.clock, std::optional<double>(60.0));
+    QVERIFY(game.kickOff && !game.kickOff->team);
+    QCOMPARE(game.teams.at(TeamColor::Blue).score, 2);
+    QCOMPARE((*game.teams.at(TeamColor::Blue).byHalf)[1], 1);
+    QCOMPARE(game.setPlay->kind, sim::SetPlay::GoalKick);
+    QCOMPARE(game.robots.at(RobotId{1}).penalty, sim::PenaltyKind::SentOff);
+    QCOMPARE(game.robots.at(RobotId{2}).goalkeeper, std::optional<bool>(true));
+    QCOMPARE(scenario->robots[1].belief->sigma, 0.1);
+    const auto again = read(scenarioToJson(*scenario));
+    QVERIFY2(again, again ? "" : again.error().text().c_str());
+    QVERIFY(*again == *scenario);
+  }
+
+  void wrongGamesAreNamed_data() {
+    QTest::addColumn<QString>("keys");
+    QTest::addColumn<QString>("said");
+    const auto row = [](const char* name, const char* keys, const char* said) {
+      QTest::newRow(name) << QString::fromUtf8(keys) << QString::fromUtf8(said);
+    };
+    row("no referee", R"("game": {"state": "set"})", "game: a game, penalties and cards need");
+    row("state", R"("referee": "humanoid-2021", "game": {"state": "playin"})",
+        "game.state: there is no state of the game \"playin\"; did you mean \"playing\"?");
+    row("score twice", R"("referee": "humanoid-2021", "game": {}, "score": {"left": 1})",
+        "score: is said in \"game\"");
+    row("robot", R"("referee": "humanoid-2021", "game": {"touch": {"robot": "B7"}})",
+        "game.touch.robot: there is no robot \"B7\"");
+    row("place", R"("referee": "humanoid-2021", "game": {"ball_still": {"x": 1}})",
+        "game.ball_still.y");
+    row("goals", R"("referee": "humanoid-2021", "game": {"by_half": {"red": [-1]}})",
+        "game.by_half.red: must be a list of goals");
+  }
+  void wrongGamesAreNamed() {
+    QFETCH(QString, keys);
+    QFETCH(QString, said);
+    const auto scenario = read("{\"version\": 1, " + keys.toStdString() + "}");
+    QVERIFY(!scenario);
+    const QString text = QString::fromStdString(scenario.error().text());
+    QVERIFY2(text.contains(said), qPrintable(text));
+  }
+
   void noisePresetsAreValid() {
     std::size_t files = 0;
     for (const Resource& resource : resources()) files += resource.path.starts_with("noise/");

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QtTest>
 
+#include <random>
+#include <set>
+
 #include <robotlink/match/simulated_match.h>
+#include <robotlink/scenario/referee_rule_sets.h>
+#include <simcore/rules/game_start.h>
 
 #include "../support/allocation_counter.h"
 #include "../support/segment_keys.h"
@@ -27,6 +32,25 @@ MatchOptions shared(Cognition cognition) {
   options.keyBase = testKeyBase();
   options.robotProgram = "/bin/false-pitchboard";
   return options;
+}
+
+/// Two halves of two minutes by these rules, four against four.
+Scenario shortMatch(const QString& rules) {
+  Scenario scenario = builtIn("match-4v4");
+  sim::RefereeRules& set = scenario.settings.referee.emplace();
+  set = refereeRuleSet(rules.toStdString()).value().value();
+  set.halfTime = 120;
+  set.breakTime = 10;
+  set.readyTime = 20;
+  scenario.stop = {};
+  return scenario;
+}
+
+void ruleSets() {
+  QTest::addColumn<QString>("rules");
+  for (const char* rules : {"humanoid-2014", "humanoid-2021", "humanoid-soccer-2026"}) {
+    QTest::newRow(rules) << rules;
+  }
 }
 
 BlackboardWrite writeAt(double time, int robot, const char* variable, double value) {
@@ -209,6 +233,98 @@ class TestSimulatedMatch : public QObject {
     QVERIFY2(match.error().text().find("false-pitchboard") != std::string::npos,
              match.error().text().c_str());
     QVERIFY(!SystemVSegments::info(blackboardKey(RobotId{1}, *options.keyBase)));
+  }
+
+  void aGameComesBackFromItsText_data() { ruleSets(); }
+  void aGameComesBackFromItsText() {
+    QFETCH(QString, rules);
+    SimulatedMatch match = make(shortMatch(rules));
+    std::mt19937 random(7);
+    std::set<sim::PlayState> states;
+    int seen = 0;
+    for (int i = 0; i < 60 * 900 && !match.finished(); ++i) {
+      match.tick();
+      if (random() % 80 != 0) continue;
+      ++seen;
+      const sim::GameState& game = *match.simulation().state().game;
+      states.insert(game.state);
+      const auto text = scenarioToJson(match.toScenario());
+      const auto read = scenarioFromJson(text, "moment");
+      QVERIFY2(read, read ? "" : read.error().text().c_str());
+      auto again = sim::Simulation::create(read->settings).value();
+      QVERIFY(again.placeBall(read->ball, read->ballVelocity));
+      for (const ScenarioRobot& robot : read->robots) {
+        QVERIFY(again.addRobot(robot.identity, robot.pose, robot.model));
+      }
+      QVERIFY(again.setReferee(read->settings.referee));
+      const auto begun = again.startGame(*read->game);
+      QVERIFY2(begun, begun ? "" : begun.error().text().c_str());
+      sim::GameState back = *again.state().game;
+      back.watches = game.watches;  // what a referee remembers of each robot is not kept
+      QVERIFY2(back.teams == game.teams, text.c_str());
+      QVERIFY2(back.restart == game.restart, text.c_str());
+      QVERIFY2(back == game, text.c_str());
+    }
+    QVERIFY(seen > 100);
+    QCOMPARE(states.size(), std::size_t{5});
+  }
+
+  void aSavedMomentGoesOnWhereItWas_data() { ruleSets(); }
+  void aSavedMomentGoesOnWhereItWas() {
+    QFETCH(QString, rules);
+    Scenario scenario = shortMatch(rules);
+    scenario.settings.referee->halfTime = 600;
+    SimulatedMatch match = make(scenario);
+    std::set<sim::PlayState> states;
+    bool inSetPlay = false;
+    for (int i = 0; i < 60 * 900 && (states.size() < 4 || !inSetPlay); ++i) {
+      match.tick();
+      if (match.simulation().state().tick % 30 != 0) continue;  // robots have just heard
+      const sim::GameState& before = *match.simulation().state().game;
+      const bool setPlay = before.restart.isTold();
+      if (!(setPlay && !inSetPlay) && states.contains(before.state)) continue;
+      states.insert(before.state);
+      inSetPlay = inSetPlay || setPlay;
+      const sim::PlayState state = before.state;
+      const int clock = before.clock, countdown = before.countdown.ticks;
+      const auto saved = scenarioFromJson(scenarioToJson(match.toScenario()), "moment");
+      QVERIFY2(saved, saved ? "" : saved.error().text().c_str());
+      SimulatedMatch goesOn = make(*saved);
+      const sim::GameState& now = *goesOn.simulation().state().game;
+      QCOMPARE(now.state, state);
+      QCOMPARE(now.clock, clock);
+      QCOMPARE(now.countdown.ticks, countdown);
+      QVERIFY(now.restart == before.restart);
+      QCOMPARE(goesOn.simulation().state().score, match.simulation().state().score);
+      for (std::size_t robot = 0; robot < saved->robots.size(); ++robot) {
+        const RobotId id = saved->robots[robot].identity.id;
+        const auto word = match.variables().comReferee;
+        QCOMPARE(goesOn.blackboard(id)->read(word), match.blackboard(id)->read(word));
+      }
+      for (int tick = 0; tick < 60; ++tick) goesOn.tick();
+      QVERIFY(goesOn.simulation().state().game->clock <= clock);
+    }
+    QVERIFY(inSetPlay || rules == "humanoid-2014");  // which has none
+    QVERIFY(states.size() >= 4);
+  }
+
+  void robotsOfASavedMomentKnowWhereTheyAre() {
+    SimulatedMatch match = make(builtIn("match-3v3"));
+    for (int i = 0; i < 60 * 30; ++i) match.tick();
+    const Scenario moment = match.toScenario();
+    QVERIFY(moment.robots[0].belief);
+    SimulatedMatch goesOn = make(scenarioFromJson(scenarioToJson(moment), "moment").value());
+    const auto at = [&](const SimulatedMatch& of) {
+      const Blackboard& board = *of.blackboard(RobotId{1});
+      return std::pair(board.read(of.variables().localizationX),
+                       board.read(of.variables().localizationY));
+    };
+    QCOMPARE(at(goesOn), at(match));
+    const float sure = match.blackboard(RobotId{1})->read(match.variables().localizationBelief);
+    for (int i = 0; i < 30; ++i) goesOn.tick();
+    const float then = goesOn.blackboard(RobotId{1})->read(goesOn.variables().localizationBelief);
+    // Who has to find out begins with metres.
+    QVERIFY2(then < 3 * sure + 30, qPrintable(QString("%1 cm, then %2").arg(sure).arg(then)));
   }
 
   void aMomentIsAScenario() {

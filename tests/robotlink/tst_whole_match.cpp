@@ -5,12 +5,14 @@
 #include <robotlink/scenario/referee_rule_sets.h>
 
 #include <QFile>
+#include <QTemporaryDir>
 #include <QtTest>
 #include <map>
 #include <optional>
 
 #include <telemetry/wire/gamecontroller.h>
 
+#include "../support/segment_keys.h"
 #include "../support/test_socket.h"
 #include "../support/whole_match.h"
 
@@ -61,6 +63,40 @@ class TestWholeMatch : public QObject {
     QVERIFY(m.longestStuck <= 60.0);
     QVERIFY(m.seconds > 200.0);
     QVERIFY(match.simulation().state().game->swapped);  // the second half
+  }
+
+  // Ours are told anew where they attack; a team's own programs go on as on a real field.
+  void halfTimeKeepsTeamPrograms() {
+    const QTemporaryDir folder;
+    QFile file(folder.filePath("team.json"));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(R"({"version": 1, "name": "team", "processes": [
+      {"name": "localization", "reference": "localization"},
+      {"name": "decision", "command": ["/bin/sleep", "600"]}]})");
+    file.close();
+    Scenario scenario = shortMatch("humanoid-2021");
+    scenario.settings.referee->halfTime = 5;
+    scenario.settings.referee->breakTime = 1;
+    scenario.settings.referee->beforeMatch = 1;
+    scenario.robots[0].runtime.profile = file.fileName().toStdString();
+    MatchOptions options;
+    options.keyBase = testKeyBase();
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    auto match = SimulatedMatch::create(scenario, options).value();
+    const auto& processes = match.robots().all()[0]->processes;
+    QCOMPARE(processes.size(), std::size_t{2});
+    const CognitiveProcess* const ours = processes[0]->inside.get();
+    const int id = processes[1]->id;
+    const pid_t pid = match.robots().processes().status(id)->pid;
+    QVERIFY(pid != 0);
+    while (!match.simulation().state().game->swapped && !match.finished()) match.tick();
+    match.tick();
+    QVERIFY(match.simulation().state().game->swapped);
+    QCOMPARE(processes.size(), std::size_t{2});
+    QVERIFY(processes[0]->inside.get() != ours);
+    QCOMPARE(processes[1]->id, id);
+    QCOMPARE(match.robots().processes().status(id)->pid, pid);
+    QCOMPARE(match.robots().processes().status(id)->restarts, 0);
   }
 
   void everybodyIsInItsPlaceAtKickOff() {

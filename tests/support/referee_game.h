@@ -43,6 +43,7 @@ struct RefereeGame {
   static sim::RefereeRules named(const char* set, bool automatic) {
     sim::RefereeRules rules = link::refereeRuleSet(set).value().value();
     rules.automatic = automatic;
+    rules.readyStillTime = 0.0;  // they stand from the beginning; READY lasts its time
     return rules;
   }
   const sim::GameState& game() const { return *simulation->state().game; }

@@ -5,6 +5,8 @@
 
 #include <QtTest>
 
+#include <cmath>
+
 #include "../support/recorded_packets.h"
 
 namespace tst_gamecontroller_encoder {
@@ -93,6 +95,37 @@ class TestGameControllerEncoder : public QObject {
       }
     }
     QVERIFY2(pairs >= 8, qPrintable(QString::number(pairs)));
+  }
+
+  // Layouts: docs/reference/gamecontroller.md, "Robots' replies".
+  void repliesOfEveryVersion() {
+    RobotReply reply;
+    reply.team = 12;
+    reply.player = 3;
+    reply.message = 2;
+    reply.version = 1;
+    QCOMPARE(QByteArray::fromStdString(encodeReply(reply).value()).toHex(' '),
+             QByteArray("52 47 72 74 01 00 00 00 0c 00 03 00 02 00 00 00"));
+    reply.version = 2;
+    QCOMPARE(QByteArray::fromStdString(encodeReply(reply).value()).toHex(' '),
+             QByteArray("52 47 72 74 02 0c 03 02"));
+    reply.version = 4;
+    reply.fallen = 1;
+    reply.pose = {1000.0F, -500.0F, 0.5F};
+    reply.ballAge = 0.0F;
+    reply.ball = {250.0F, 0.0F};
+    const std::string bytes = encodeReply(reply).value();
+    QCOMPARE(QByteArray::fromStdString(bytes).toHex(' '),
+             QByteArray("52 47 72 74 04 03 0c 01 00 00 7a 44 00 00 fa c3 00 00 00 3f "
+                        "00 00 00 00 00 00 7a 43 00 00 00 00"));
+    const auto read = std::get<RobotReply>(decodeReferee(std::string_view(bytes)).value());
+    QCOMPARE(read.team, 12);
+    QCOMPARE(read.player, 3);
+    QVERIFY(read.pose == reply.pose && read.ball == reply.ball);
+    reply.pose = {std::nanf(""), 0.0F, 0.0F};
+    QVERIFY(!encodeReply(reply));  // a controller would take it for a broken robot
+    reply.version = 3;
+    QCOMPARE(encodeReply(reply).error().code, pitchboard::ErrorCode::Unsupported);
   }
 };
 

@@ -30,13 +30,13 @@ class TestTeamMonitor : public QObject {
     QVERIFY(!monitor.status(start + 9999ms).robots[0].timedOut);
     const RobotStatus gone = monitor.status(start + 10s).robots[0];
     QVERIFY(gone.timedOut);
-    QVERIFY(gone.processes[0].state == ProcessState::Unknown);
+    QVERIFY(gone.processes[0].state == HeartbeatState::Unknown);
     QCOMPARE(give(monitor, text(3), start + 20s), Verdict::Used);
     const RobotStatus back = monitor.status(start + 20s).robots[0];
     QVERIFY(!back.timedOut);
     QCOMPARE(back.recoveries, std::uint64_t(1));
     QCOMPARE(back.messages, std::uint64_t(2));
-    QVERIFY(back.processes[0].state == ProcessState::Working);
+    QVERIFY(back.processes[0].state == HeartbeatState::Working);
   }
 
   void processesAreFilteredAsPublished() {
@@ -78,13 +78,13 @@ class TestTeamMonitor : public QObject {
     WallTime silentAt{};
     for (int i = 5; i < 15; ++i) {
       give(monitor, text(1, 0), start + i * 1s);
-      const ProcessStatus decision = monitor.status(start + i * 1s).robots[0].processes[3];
-      if (decision.state == ProcessState::Silent && silentAt == WallTime{})
+      const ProcessHeartbeat decision = monitor.status(start + i * 1s).robots[0].processes[3];
+      if (decision.state == HeartbeatState::Silent && silentAt == WallTime{})
         silentAt = start + i * 1s;
     }
     QVERIFY(silentAt != WallTime{});
     const RobotStatus robot = monitor.status(start + 15s).robots[0];
-    QVERIFY(robot.processes[3].state == ProcessState::Silent);
+    QVERIFY(robot.processes[3].state == HeartbeatState::Silent);
     QCOMPARE(robot.processes[3].since, start + 15s - silentAt);
   }
 

@@ -28,6 +28,7 @@ inline pitchboard::link::LiveOptions options(int base = freePortBase()) {
   made.portBase = base;
   made.robots = 16;
   made.refereePort = base + 18;
+  made.variablesPortBase = 0;
   return made;
 }
 

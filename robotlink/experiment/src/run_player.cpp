@@ -168,8 +168,7 @@ Result<void> RunPlayer::loop(MatchPlayer& player, const RunMeasure& measure, std
     if (own || !e.separateProcesses) continue;
     if (const auto now = WallClock::now(); now - looked >= timeBetweenLooks) {
       looked = now;
-      player.match().pace().lookAfterProcesses(now);
-      (void)player.match().robots().processes().takeLines();
+      player.lookAfterProcesses(now);
     }
   }
   return {};

@@ -38,7 +38,7 @@ Result<void> TeamPrograms::begin(const std::atomic<bool>* cancelled) {
   match.pace().setPlaying(m_speed, false, Clock::now());
   while (m_player.awaitPrograms(Clock::now())) {
     if (cancelled && *cancelled) return {};
-    match.pace().lookAfterProcesses(Clock::now());
+    m_player.lookAfterProcesses(Clock::now());
     std::this_thread::sleep_for(glance);
   }
   TRY(missing());
@@ -57,8 +57,7 @@ void TeamPrograms::setSpeed(double speed, Clock::time_point now) {
 void TeamPrograms::look(Clock::time_point now) {
   SimulatedMatch& match = m_player.match();
   m_looked = now;
-  match.pace().lookAfterProcesses(now);
-  (void)match.robots().processes().takeLines();
+  m_player.lookAfterProcesses(now);
   const auto slowest = match.pace().slowestTeamProgram();
   m_kept += slowest ? std::min(1.0, *slowest / m_now) : 1.0;
   m_looks += 1.0;

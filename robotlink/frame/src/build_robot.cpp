@@ -12,7 +12,7 @@ namespace pitchboard::link {
 namespace {
 
 using telemetry::FieldMeaning;
-using telemetry::ProcessState;
+using telemetry::HeartbeatState;
 
 /// Sane numbers for drawing; what was sent stays in `values`.
 constexpr double farAway_cm = 10'000.0;
@@ -70,15 +70,15 @@ const LampMemory::Lamps& LampMemory::note(const RobotReader& reader, double time
     const auto set =
         reader(static_cast<FieldMeaning>(static_cast<std::size_t>(FieldMeaning::Control) + i));
     if (set && *set != 0.0) m_seen[i] = time;
-    ProcessState now = m_lamps[i].state;
+    HeartbeatState now = m_lamps[i].state;
     if (time - m_seen[i] <= flagMemory) {
-      now = ProcessState::Working;
-    } else if (now == ProcessState::Working) {
-      now = ProcessState::Silent;
+      now = HeartbeatState::Working;
+    } else if (now == HeartbeatState::Working) {
+      now = HeartbeatState::Silent;
     }
     if (now != m_lamps[i].state) m_since[i] = time;
     const std::chrono::duration<double> since(std::max(0.0, time - m_since[i]));
-    m_lamps[i] = {now, now == ProcessState::Working ? 1.0 : 0.0,
+    m_lamps[i] = {now, now == HeartbeatState::Working ? 1.0 : 0.0,
                   std::chrono::duration_cast<telemetry::Duration>(since)};
   }
   return m_lamps;
@@ -92,7 +92,7 @@ void buildRobot(const RobotReader& reader, const sim::FieldSpec& field, bool tru
                 RobotFrame& robot) {
   constexpr std::size_t vision = 1, localization = 2;
   const auto works = [&robot](std::size_t lamp) {
-    return robot.lamps[lamp].state == ProcessState::Working;
+    return robot.lamps[lamp].state == HeartbeatState::Working;
   };
   // All that is known of the place is not hidden because the flag is not set.
   robot.belief = truthKnown && !works(localization) ? std::nullopt : beliefOf(reader, field);

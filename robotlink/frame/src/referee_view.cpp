@@ -72,6 +72,7 @@ RefereeTeamView teamView(const RefereeState& state, const RefereeTeam& team) {
 
 RefereeView viewOf(const RefereeState& packet, int ourTeam) {
   RefereeView view;
+  view.packet = packet;
   view.version = packet.version;
   view.state = telemetry::stateName(packet.state);
   describeSetPlay(packet, view.setPlay, view.phase);

@@ -58,7 +58,7 @@ RobotKey keyOfOldId(int id, bool hasTeams) {
   if (id <= 0) return {};
   const bool isAttached = id > attachedStep;
   const int number = (id - 1) % senderStep + 1;
-  RobotKey key{0, number % teamStep, isAttached ? attachedSender : (id - 1) / senderStep};
+  RobotKey key{0, number % teamStep, isAttached ? 0 : (id - 1) / senderStep};
   if (hasTeams) key.team = number / teamStep + 1;
   return key;
 }

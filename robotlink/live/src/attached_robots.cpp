@@ -4,10 +4,7 @@
 #include <time.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <chrono>
-#include <cmath>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -16,9 +13,11 @@
 #include <base/lined_json.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/frame/build_robot.h>
+#include <robotlink/frame/join_boards.h>
 #include <robotlink/live/board_columns.h>
 
 #include "board_map.h"
+#include "board_words.h"
 
 namespace pitchboard::link {
 namespace {
@@ -65,9 +64,7 @@ class AttachedRobots::Reader {
       const int offset = variable.type == VariableType::Int ? 0 : m_map.layout.floatOffset;
       m_places.push_back(static_cast<std::size_t>(variable.index + offset));
     }
-    for (std::size_t i = 0; i < m_wanted.size(); ++i) {
-      m_wanted[i] = columnNamed(telemetry::meaningTable[i].variable);
-    }
+    m_meanings = BoardMeanings(m_group.columns);
     m_thread = std::jthread([this](const std::stop_token& stop) { run(stop); });
   }
 
@@ -84,47 +81,25 @@ class AttachedRobots::Reader {
     return std::exchange(m_rows, {});
   }
 
-  void addTo(MatchFrame& frame) const {
+  std::optional<RobotFrame> robot(const sim::FieldSpec& field) const {
     const std::lock_guard lock(m_mutex);
-    if (m_newest.words.empty()) return;
-    const RobotKey key = frame.freeKey({0, m_board.number(), attachedSender});
-    RobotFrame& robot = frame.robots.emplace_back();
-    robot.key = key;
+    if (m_newest.words.empty()) return std::nullopt;
+    RobotFrame robot;
+    robot.key = {placeByColour, m_board.number(), 0};
     robot.identity.number = m_board.number();
     robot.identity.team = m_board.team;
-    robot.name = robot.identity.name();
     robot.boardKey = m_board.key;
     const bool gone = !m_status.attached;
     robot.link = boardLink(std::max(0.0, m_seconds() - m_newest.time), m_board.rate, gone);
     robot.link->messages = m_status.samples;
     if (!gone) robot.lamps = m_lamps;
-    buildRobot(reader(), frame.settings->field, false, robot);
+    buildRobot(m_meanings.reader(m_newest), field, false, robot);
     robot.action = robot.decided.value_or(0);
+    robot.board = m_meanings.contents(m_newest);
+    return robot;
   }
 
  private:
-  std::optional<std::size_t> columnNamed(std::string_view name) const {
-    const auto& columns = m_columns.columns();
-    const auto found = std::find_if(columns.begin(), columns.end(),
-                                    [name](const auto& column) { return column.name == name; });
-    if (found == columns.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - columns.begin());
-  }
-
-  /// Of the newest sample.
-  RobotReader reader() const {
-    return [this](telemetry::FieldMeaning meaning) -> std::optional<double> {
-      const auto place = m_wanted[static_cast<std::size_t>(meaning)];
-      if (!place) return std::nullopt;
-      const std::uint32_t word = m_newest.words[*place];
-      const bool whole = m_columns.columns()[*place].type == telemetry::ColumnType::Int32;
-      const double value = whole ? std::bit_cast<std::int32_t>(word)
-                                 : static_cast<double>(std::bit_cast<float>(word));
-      if (!std::isfinite(value)) return std::nullopt;
-      return meantBy(meaning, value);
-    };
-  }
-
   void run(const std::stop_token& stop) {
     const auto period = std::chrono::duration_cast<Clock::duration>(
         std::chrono::duration<double>(1.0 / m_board.rate));
@@ -192,7 +167,7 @@ class AttachedRobots::Reader {
     for (const std::size_t place : m_places) row.words.push_back(view.word(place));
     const std::lock_guard lock(m_mutex);
     m_newest = row;
-    m_lamps = m_works.note(reader(), row.time);
+    m_lamps = m_works.note(m_meanings.reader(m_newest), row.time);
     m_columns.makeHoles(row.words);
     if (m_rows.size() == mostRows) {
       m_rows.erase(m_rows.begin(), m_rows.begin() + mostRows / 4);
@@ -208,7 +183,7 @@ class AttachedRobots::Reader {
   const std::function<double()> m_seconds;
   telemetry::GroupInfo m_group;
   std::vector<std::size_t> m_places;  // words of the columns
-  std::array<std::optional<std::size_t>, telemetry::fieldMeaningCount> m_wanted;
+  BoardMeanings m_meanings;
 
   mutable std::mutex m_mutex;  // of what follows
   AttachedStatus m_status{m_board, false, {}, 0, 0, 0.0};
@@ -252,8 +227,12 @@ void AttachedRobots::set(const std::vector<AttachedBoard>& boards,
   }
 }
 
-void AttachedRobots::addTo(MatchFrame& frame) const {
-  for (const auto& reader : m_readers) reader->addTo(frame);
+std::vector<RobotFrame> AttachedRobots::robots(const sim::FieldSpec& field) const {
+  std::vector<RobotFrame> all;
+  for (const auto& reader : m_readers) {
+    if (auto robot = reader->robot(field)) all.push_back(std::move(*robot));
+  }
+  return all;
 }
 
 void AttachedRobots::takeRows(const BoardRowsTaker& take) {
@@ -269,10 +248,18 @@ std::vector<AttachedStatus> AttachedRobots::status() const {
   return all;
 }
 
-void BoardRowKeeper::take(const telemetry::GroupInfo& group, std::span<const BoardRow> rows) {
-  const auto [known, isNew] = m_groups.try_emplace(group.name);
-  if (isNew) known->second = m_sink->addGroup(group);
-  for (const BoardRow& row : rows) m_sink->append(known->second, {row.time, row.words, {}});
+void BoardRowKeeper::take(const std::string& board, const telemetry::GroupInfo& group,
+                          const Name& name, std::span<const BoardRow> rows) {
+  const auto [known, isNew] = m_groups.try_emplace(board);
+  Known& now = known->second;
+  if (isNew || now.name != name || now.columns != group.columns.size()) {
+    telemetry::GroupInfo info = group;
+    info.name = name.name;
+    for (const auto& [key, value] : name.attributes) info.attributes[key] = value;
+    const std::string before = isNew ? info.name : now.name.name;
+    now = {m_sink->renameGroup(before, info), name, group.columns.size()};
+  }
+  for (const BoardRow& row : rows) m_sink->append(now.id, {row.time, row.words, row.values});
 }
 
 }  // namespace pitchboard::link

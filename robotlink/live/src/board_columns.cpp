@@ -13,9 +13,9 @@ constexpr auto hole = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::q
 
 }  // namespace
 
-BoardColumns::BoardColumns(const VariableCatalog& catalog) {
+BoardColumns::BoardColumns(std::span<const Variable> variables) {
   const VariableMeanings& meanings = VariableMeanings::published();
-  for (const Variable& variable : catalog.variables()) {
+  for (const Variable& variable : variables) {
     const bool isInt = variable.type == VariableType::Int;
     telemetry::ColumnInfo column;
     column.name = variable.name;

@@ -76,13 +76,6 @@ std::optional<TeamColor> teamColour(std::string_view words) {
   return std::nullopt;
 }
 
-RobotKey besideBoards(const LiveOptions& options, RobotKey robot, const Teams& teams) {
-  const auto boards = boardNames(options.boards);
-  const std::string first = robotName({robot.team, robot.number, 0}, teams);
-  if (std::ranges::find(boards, first) != boards.end()) ++robot.sender;
-  return robot;
-}
-
 MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& team,
                      const telemetry::RefereeTracker& referee, double time) {
   MatchFrame frame;
@@ -114,7 +107,7 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
     out.identity.id = {};
     out.identity.number = out.key.number;
     out.identity.team = drawnColour(options, robot.key, frame.teams);
-    out.name = robotName(besideBoards(options, robot.key, frame.teams), frame.teams);
+    out.name = robotName(robot.key, frame.teams);
     out.ownName = ownNameOf(options, robot.key);
     out.link = robot;
     out.lamps = robot.processes;

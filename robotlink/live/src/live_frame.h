@@ -13,8 +13,5 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
 
 /// "blue" to Blue; nothing for colours that robots cannot be drawn in.
 std::optional<TeamColor> teamColour(std::string_view words);
-/// For the name of a robot that is heard: where an attached blackboard has the number, the board is
-/// the first sender.
-RobotKey besideBoards(const LiveOptions& options, RobotKey robot, const Teams& teams);
 
 }  // namespace pitchboard::link

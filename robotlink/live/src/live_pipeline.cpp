@@ -2,8 +2,10 @@
 #include <robotlink/live/live_pipeline.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <limits>
 
-#include <robotlink/frame/build_robot.h>
+#include <robotlink/frame/join_boards.h>
 #include <robotlink/live/live_teams.h>
 
 namespace pitchboard::link {
@@ -17,7 +19,28 @@ using telemetry::WallTime;
 constexpr double reportPeriod = 0.25;  // s
 constexpr double snapshotPeriod =
     15.0;  // s; a moment of a recording is made from the books before it
+constexpr double sentReportPeriod = 1.0;  // s
 constexpr std::size_t maxQueued = 10'000;
+
+GroupInfo sentHealthGroup() {
+  GroupInfo group;
+  for (const auto& [name, unit] : {std::pair("AGE", "s"),
+                                   {"RATE", "1/s"},
+                                   {"JITTER", "ms"},
+                                   {"LOSS", ""},
+                                   {"LOST", ""},
+                                   {"DUPLICATES", ""},
+                                   {"LATE", ""},
+                                   {"CLOCK_OFFSET", "s"},
+                                   {"REFRESH", "ms"},
+                                   {"WAITING", ""}}) {
+    telemetry::ColumnInfo& column = group.columns.emplace_back();
+    column.name = name;
+    column.unit = unit;
+    column.category = telemetry::linkCategory;
+  }
+  return group;
+}
 
 }  // namespace
 
@@ -71,19 +94,45 @@ LivePipeline::LivePipeline(LiveOptions options, WallTime zero)
       m_zero(zero),
       m_state(m_options),
       m_rows(m_fan, rowsOptions(m_options, m_teams, zero)),
-      m_boardRows(m_fan) {}
+      m_boardRows(m_fan),
+      m_sentHealth(m_fan) {
+  useCatalogs();
+}
+
+/// What a robot sends is recognized by any map that is known.
+void LivePipeline::useCatalogs() {
+  std::vector<NamedCatalog> known{{"published", VariableCatalog::published()},
+                                  {"extended", VariableCatalog::extended()}};
+  std::vector<std::string> files = m_options.catalogs;
+  for (const AttachedBoard& board : m_options.boards) files.push_back(board.catalogFile);
+  for (const std::string& file : files) {
+    if (file.empty()) continue;
+    // They were valid a moment ago.
+    if (auto read = VariableCatalog::fromFile(file)) {
+      known.push_back({std::filesystem::path(file).filename().string(), std::move(*read)});
+    }
+  }
+  m_sent.setCatalogs(std::move(known));
+  m_sent.setTimeout(m_options.team.timeout);
+}
 
 void LivePipeline::setOptions(LiveOptions options, WallTime now) {
   const LiveOptions old = std::exchange(m_options, std::move(options));
   if (!(old.profile == m_options.profile)) m_state.monitor.setProfile(m_options.profile);
   m_state.setTeams(monitorOptions(m_options));
   m_state.referee.setOptions(LiveState::refereeOptions(m_options));
+  useCatalogs();
   noteTeams(m_state.monitor.renamings());
   sendSnapshot(now);
 }
 
 void LivePipeline::clear(WallTime now) {
   m_state.clear(m_options);
+  m_sent.clear();
+  m_sentRobots.clear();
+  m_boardNames.clear();
+  m_badVariables = m_refusedVariables = 0;
+  m_badReason.clear();
   m_events = {};
   noteTeams({});
   m_rows.clearRefused();
@@ -95,6 +144,9 @@ void LivePipeline::clear(WallTime now) {
 
 void LivePipeline::forget(const RobotKey& robot, WallTime now) {
   m_state.monitor.forget(robot);
+  for (const auto& [sender, key] : m_sentRobots) {
+    if (key == robot) m_sent.forget(sender.second, sender.first);
+  }
   sendSnapshot(now);
 }
 
@@ -118,7 +170,33 @@ void LivePipeline::takeReferee(const DatagramView& datagram) {
         .referee = &packet});
 }
 
+void LivePipeline::takeVariables(const DatagramView& datagram) {
+  const auto place = m_state.monitor.placeOf(datagram.sender.address);
+  if (!place) {
+    ++m_refusedVariables;
+    return;
+  }
+  const auto message = telemetry::parsePb2(datagram.payload);
+  const double time = std::max(0.0, seconds(datagram.time));
+  LiveDatagram taken{.time = time, .view = datagram, .teams = m_teams, .variables = &message};
+  if (message) {
+    taken.variablesVerdict = m_sent.take(*message, datagram, *place, time);
+    if (taken.variablesVerdict == SentBoards::Verdict::TooManyRobots) ++m_refusedVariables;
+    const auto known = m_sentRobots.find({datagram.sender.address, message->robot});
+    taken.robot = known != m_sentRobots.end() ? known->second : RobotKey{*place, message->robot, 0};
+  } else {
+    ++m_badVariables;
+    m_badReason = message.error().text();
+  }
+  tell(taken);
+}
+
 void LivePipeline::take(const DatagramView& datagram) {
+  const int variables = datagram.localPort - m_options.variablesPortBase;
+  if (m_options.variablesPortBase > 0 && variables > 0 && variables <= m_options.robots) {
+    takeVariables(datagram);
+    return;
+  }
   if (datagram.localPort == m_options.refereePort ||
       (m_options.monitor && datagram.localPort == telemetry::robotStatesPort)) {
     takeReferee(datagram);
@@ -154,21 +232,99 @@ MatchFrame LivePipeline::frame(WallTime now, AttachedRobots* boards) {
   const double time = seconds(now);
   MatchFrame frame = m_state.frame(m_options, team, time);
   frame.serial = ++m_serial;
-  if (boards != nullptr) {
-    boards->addTo(frame);
-    frame.teamBalls = agreedBalls(frame.robots);
-    boards->takeRows([this](const GroupInfo& group, std::span<const BoardRow> rows) {
-      if (!m_fan->isEmpty()) m_boardRows.take(group, rows);
-    });
-  }
+  addBoards(frame, boards, now);
   tell(m_events.compare(frame));
   for (const auto& observer : m_observers) observer->frameMade(frame);
   if (time >= m_nextReport) {
     m_nextReport = time + reportPeriod;
     if (!m_fan->isEmpty()) m_rows.report(team);
   }
+  if (time >= m_nextSentReport) reportSent(now);
   if (time >= m_nextSnapshot) sendSnapshot(now);
   return frame;
+}
+
+/// Robots whose blackboards are received join the frame, and their rows get their names.
+void LivePipeline::addBoards(MatchFrame& frame, AttachedRobots* attached, WallTime now) {
+  struct Taken {
+    const GroupInfo* group;
+    std::vector<BoardRow> rows;
+  };
+  std::vector<Taken> taken;
+  const auto keep = [&taken](const GroupInfo& group, std::span<const BoardRow> rows) {
+    taken.push_back({&group, {rows.begin(), rows.end()}});
+  };
+  // Before the robots: who has rows is then one of them.
+  std::vector<RobotFrame> boards;
+  if (attached != nullptr) {
+    attached->takeRows(keep);
+    boards = attached->robots(m_options.field);
+  }
+  m_sent.takeRows(keep);
+  for (RobotFrame& robot : m_sent.robots(now, m_options.field)) {
+    robot.identity.team = drawnColour(m_options, robot.key, frame.teams);
+    robot.ownName = ownNameOf(m_options, robot.key);
+    boards.push_back(std::move(robot));
+  }
+  // A blackboard of this computer is known by its key, one that is sent by address and number.
+  std::vector<std::string> known;
+  std::vector<SentKey> senders;
+  for (const RobotFrame& board : boards) {
+    const telemetry::Address address = board.link->sender.address;
+    senders.emplace_back(address, board.key.number);
+    known.push_back(board.boardKey ? std::to_string(*board.boardKey)
+                                   : address.text() + " " + std::to_string(board.key.number));
+  }
+  const std::vector<RobotKey> keys = joinBoards(frame, std::move(boards));
+  std::map<RobotKey, std::string> names;
+  m_sentRobots.clear();
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    names[keys[i]] = frame.robot(keys[i])->name;
+    m_sentRobots[senders[i]] = keys[i];
+  }
+  // Messages leave the name to the variables before these use it.
+  if (names != m_boardNames) {
+    m_boardNames = std::move(names);
+    noteTeams({});
+  }
+  if (m_fan->isEmpty()) return;
+  for (const Taken& one : taken) {
+    const auto& attributes = one.group->attributes;
+    const auto sent = attributes.find("sent");
+    const std::string board = sent == attributes.end()
+                                  ? attributes.at("key")
+                                  : sent->second + " " + attributes.at("number");
+    const auto place = std::ranges::find(known, board);
+    if (place == known.end()) continue;
+    const RobotKey& key = keys[static_cast<std::size_t>(place - known.begin())];
+    const RobotFrame& robot = *frame.robot(key);
+    BoardRowKeeper::Name name{robot.name, {{"team", std::string(info(robot.identity.team).name)}}};
+    if (sent != attributes.end()) name.attributes["place"] = std::to_string(key.team);
+    if (!robot.ownName.empty()) name.attributes["name"] = robot.ownName;
+    m_boardRows.take(board, *one.group, name, one.rows);
+  }
+}
+
+/// About once a second: how the variables of each robot arrive.
+void LivePipeline::reportSent(WallTime now) {
+  static const GroupInfo group = sentHealthGroup();
+  m_nextSentReport = seconds(now) + sentReportPeriod;
+  if (m_fan->isEmpty()) return;
+  for (const SentStatus& sent : details(now).sent) {
+    const telemetry::LinkHealth& link = sent.link;
+    if (link.age >= m_options.team.timeout) continue;
+    const auto said = [](const std::optional<std::int64_t>& value) {
+      return value ? static_cast<double>(*value) : std::numeric_limits<double>::quiet_NaN();
+    };
+    BoardRow row{seconds(now), {}, {}};
+    row.values = {telemetry::secondsOf(link.age), link.rate,
+                  link.jitter * 1000.0,           link.loss.value_or(0.0),
+                  static_cast<double>(link.lost), static_cast<double>(link.duplicates),
+                  static_cast<double>(link.late), sent.clockOffset,
+                  said(sent.refresh_ms),          said(sent.waiting)};
+    m_sentHealth.take(link.sender.address.text() + " " + std::to_string(sent.robot.number), group,
+                      {sent.name + " agent", {{"link", sent.name}}}, {&row, 1});
+  }
 }
 
 void LivePipeline::noticeClock(telemetry::Duration setBy, double time) {
@@ -189,6 +345,16 @@ LiveDetails LivePipeline::details(WallTime now) const {
   details.unknownRefereeSample = m_unknownSample;
   details.refusedReferees = m_refusedReferees;
   details.rows = m_rows.refused();
+  details.sent = m_sent.status(now);
+  for (SentStatus& sent : details.sent) {
+    const auto known = m_sentRobots.find({sent.link.sender.address, sent.robot.number});
+    if (known != m_sentRobots.end()) sent.robot = known->second;
+    const auto named = m_boardNames.find(sent.robot);
+    sent.name = named != m_boardNames.end() ? named->second : robotName(sent.robot, m_teams);
+  }
+  details.badVariables = m_badVariables;
+  details.badVariablesReason = m_badReason;
+  details.refusedVariables = m_refusedVariables;
   return details;
 }
 
@@ -204,7 +370,9 @@ void LivePipeline::sendSnapshot(WallTime now) {
 /// Teams may be called otherwise from now on, and these robots have other keys.
 void LivePipeline::noteTeams(const std::vector<Renaming>& renamings) {
   m_teams = m_state.teams(m_options);
-  m_rows.setOptions(rowsOptions(m_options, m_teams, m_zero), renamings);
+  pitchboard::rename(m_boardNames, renamings);
+  for (auto& [sender, robot] : m_sentRobots) robot = renamed(robot, renamings);
+  m_rows.setOptions(rowsOptions(m_options, m_teams, m_zero, m_boardNames), renamings);
   if (renamings.empty()) return;
   m_events.rename(renamings);
   m_news.renamings.push_back(renamings);

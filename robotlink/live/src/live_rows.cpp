@@ -48,10 +48,9 @@ std::array<double, healthColumns.size()> healthValues(const RobotStatus& robot) 
           robot.battery && robot.battery->volts == 0.0 ? robot.battery->fraction * 100.0 : nothing};
 }
 
-/// An attached blackboard of the number is the first sender.
-std::string groupNameOf(const LiveRowsOptions& options, RobotKey robot) {
-  if (options.attributes && options.attributes(robot).contains("beside_board")) ++robot.sender;
-  return robotName(robot, options.teams);
+std::string nameOf(const LiveRowsOptions& options, const RobotKey& robot) {
+  const auto board = options.boards.find(robot);
+  return board == options.boards.end() ? robotName(robot, options.teams) : board->second;
 }
 
 GroupInfo linkGroup(const std::string& robot) {
@@ -107,6 +106,7 @@ struct LiveRows::Robot {
   RobotKey key;
   Sender sender;
   std::string name;
+  bool hasBoard = false;  // whose rows have the name
   GroupId group = 0, link = 0;
   Profile profile;  // by which `places` were made
   std::vector<Place> places;
@@ -114,6 +114,8 @@ struct LiveRows::Robot {
   std::vector<double> values;
   double lastTime = never, lastHealth = never;
   bool timedOut = false;
+
+  std::string groupName() const { return hasBoard ? name + " telemetry" : name; }
 };
 
 LiveRows::LiveRows(std::shared_ptr<RowSink> sink, LiveRowsOptions options)
@@ -128,17 +130,19 @@ void LiveRows::setOptions(LiveRowsOptions options, const std::vector<Renaming>& 
   // Where two exchange their names, one has to give way.
   for (Robot& robot : m_robots) {
     const bool isWanted = std::ranges::any_of(m_robots, [&](const Robot& other) {
-      return other.key != robot.key && groupNameOf(m_options, other.key) == robot.name;
+      return other.key != robot.key && nameOf(m_options, other.key) == robot.name;
     });
     if (isWanted) renew(robot, robot.name + " (before)");
   }
-  for (Robot& robot : m_robots) renew(robot, groupNameOf(m_options, robot.key));
+  for (Robot& robot : m_robots) renew(robot, nameOf(m_options, robot.key));
 }
 
 /// Its groups get this name, and the attributes that it has now.
 void LiveRows::renew(Robot& robot, std::string name) {
-  const std::string before = std::exchange(robot.name, std::move(name));
-  robot.link = m_sink->renameGroup(linkGroup(before).name, linkGroup(robot.name));
+  const std::string before = robot.groupName();
+  const std::string link = linkGroup(std::exchange(robot.name, std::move(name))).name;
+  robot.hasBoard = m_options.boards.contains(robot.key);
+  robot.link = m_sink->renameGroup(link, linkGroup(robot.name));
   if (!robot.columns.empty()) robot.group = m_sink->renameGroup(before, groupOf(robot));
   // A group that was there already does not go back.
   robot.lastTime = std::max(robot.lastTime, m_newest);
@@ -159,7 +163,8 @@ LiveRows::Robot* LiveRows::robotOf(const RobotKey& key, const Sender& sender) {
   Robot robot;
   robot.key = key;
   robot.sender = sender;
-  robot.name = groupNameOf(m_options, key);
+  robot.name = nameOf(m_options, key);
+  robot.hasBoard = m_options.boards.contains(key);
   robot.link = m_sink->addGroup(linkGroup(robot.name));
   m_robots.push_back(std::move(robot));
   return &m_robots.back();
@@ -195,7 +200,7 @@ bool LiveRows::describe(Robot& robot, const Profile& profile) {
 }
 
 GroupInfo LiveRows::groupOf(const Robot& robot) const {
-  GroupInfo group{robot.name,
+  GroupInfo group{robot.groupName(),
                   robot.columns,
                   {{"number", std::to_string(robot.key.number)},
                    {"sender", robot.sender.address.text()},
@@ -203,6 +208,7 @@ GroupInfo LiveRows::groupOf(const Robot& robot) const {
   if (const auto colour = link::colourAt(robot.key.team, m_options.teams)) {
     group.attributes["team"] = info(*colour).name;
   }
+  if (robot.hasBoard) group.attributes["link"] = robot.name;
   if (m_options.attributes) group.attributes.merge(m_options.attributes(robot.key));
   return group;
 }

@@ -74,13 +74,13 @@ std::string ownNameOf(const LiveOptions& options, const RobotKey& robot) {
 }
 
 telemetry::LiveRowsOptions rowsOptions(const LiveOptions& options, Teams teams,
-                                       telemetry::WallTime zero) {
-  telemetry::LiveRowsOptions made{zero, std::move(teams), {}};
-  made.attributes = [options, teams = made.teams](const RobotKey& robot) {
+                                       telemetry::WallTime zero,
+                                       std::map<RobotKey, std::string> boards) {
+  telemetry::LiveRowsOptions made{zero, std::move(teams), {}, std::move(boards)};
+  made.attributes = [options](const RobotKey& robot) {
     const TeamSetup* setup = setupOf(options, robot);
     std::map<std::string, std::string> more{
         {"profile", setup != nullptr ? setup->profile.name : options.profile.name}};
-    if (besideBoards(options, robot, teams) != robot) more["beside_board"] = "1";
     if (setup == nullptr) return more;
     more["team_name"] = setup->title();
     if (const std::string own = ownNameOf(options, robot); !own.empty()) more["name"] = own;

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include <base/try.h>
 #include <robotlink/live/live_pipeline.h>
 
 namespace pitchboard::link {
@@ -24,19 +25,42 @@ telemetry::ReceiverOptions receiverOptions(
   telemetry::ReceiverOptions made;
   made.bind = options.bind;
   made.clock = clock;
-  const auto ports = telemetry::teamPorts(options.team.teams, options.portBase, options.robots,
-                                          options.refereePort);
-  if (ports) made.ports = *ports;
-  if (options.monitor) made.ports.push_back(telemetry::robotStatesPort);
+  made.ports = portsOf(options).value_or(std::vector<std::uint16_t>{});
   return made;
 }
 
 }  // namespace
 
+Result<std::vector<std::uint16_t>> portsOf(const LiveOptions& options) {
+  auto ports = TRY(telemetry::teamPorts(options.team.teams, options.portBase, options.robots,
+                                        options.refereePort));
+  if (options.monitor) ports.push_back(telemetry::robotStatesPort);
+  if (options.variablesPortBase == 0) return ports;
+  for (int port = options.variablesPortBase + 1; port <= options.variablesPortBase + options.robots;
+       ++port) {
+    if (port < 1 || port > 65535) {
+      return failure(ErrorCode::InvalidArgument,
+                     "Robots' variables need the UDP ports " +
+                         std::to_string(options.variablesPortBase + 1) + " to " +
+                         std::to_string(options.variablesPortBase + options.robots) +
+                         "; choose a base from 1 to " + std::to_string(65535 - options.robots) +
+                         ", or 0 for none.");
+    }
+    const auto number = static_cast<std::uint16_t>(port);
+    if (std::ranges::find(ports, number) != ports.end()) {
+      return failure(ErrorCode::InvalidArgument,
+                     "UDP " + std::to_string(port) +
+                         " cannot be both a port of robots' variables and of messages; choose "
+                         "another base.");
+    }
+    ports.push_back(number);
+  }
+  return ports;
+}
+
 Result<void> validate(const LiveOptions& options) {
-  const auto ports = telemetry::teamPorts(options.team.teams, options.portBase, options.robots,
-                                          options.refereePort);
-  if (!ports) return tl::unexpected<Error>(ports.error());
+  TRY(portsOf(options));
+  for (const std::string& file : options.catalogs) TRY(VariableCatalog::fromFile(file));
   if (const auto good = telemetry::validate(options.profile); !good) return good;
   if (const auto good = validate(options.boards); !good) return good;
   return sim::validate(options.field);

@@ -16,12 +16,10 @@ using telemetry::FieldMeaning;
 
 constexpr auto debugInterval = 100ms;
 constexpr auto speedWindow = 1s;
-static_assert(static_cast<int>(ProcessState::GivenUp) ==
-              static_cast<int>(ProcessSummary::State::GivenUp));
 
 bool communicationRuns(const RobotFrame& robot) {
   return std::ranges::any_of(robot.processes(), [](const ProcessSummary& one) {
-    return one.name == "communication" && one.state == ProcessSummary::State::Running;
+    return one.name == "communication" && one.state == ProcessState::Running;
   });
 }
 
@@ -108,10 +106,10 @@ void FrameBuilder::takeProcesses(const ProcessManager& processes) {
   if (std::exchange(m_processVersion, processes.version()) == processes.version()) return;
   std::map<RobotId, std::vector<ProcessSummary>> byRobot;
   for (const ProcessStatus& one : processes.statuses()) {
-    byRobot[one.robot].push_back({one.id, one.name, static_cast<ProcessSummary::State>(one.state),
-                                  one.pid, one.restarts, one.detail, one.lastLines, one.started,
-                                  one.cpu, one.memoryBytes, one.heartbeatAge, one.foreign,
-                                  one.speed, one.achieved, whyRealTime(one.clock)});
+    byRobot[one.robot].push_back({one.id, one.name, one.state, one.pid, one.restarts, one.detail,
+                                  one.lastLines, one.started, one.cpu, one.memoryBytes,
+                                  one.heartbeatAge, one.foreign, one.speed, one.achieved,
+                                  whyRealTime(one.clock), one.missedCycles});
   }
   m_processes.clear();
   for (auto& [robot, list] : byRobot) {

@@ -38,6 +38,7 @@ bool isTeam(const SlotProcess& process) {
 }  // namespace
 
 void LockStep::run() {
+  m_pace.countTick();
   const bool inLockStep = m_pace.inLockStep();
   if (m_slots.turns() && inLockStep) takeTurns();
   const std::uint64_t now = m_base.tick();
@@ -52,9 +53,11 @@ void LockStep::run() {
       }
     }
   }
+  m_cycles.run();
 }
 
 void LockStep::jump() {
+  m_cycles.jump();
   for (const auto& slot : m_slots.all()) {
     for (const auto& process : slot->processes) {
       if (process->known) planNext(*process);

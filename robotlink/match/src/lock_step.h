@@ -10,16 +10,18 @@
 #include <robotlink/match/process_pace.h>
 #include <robotlink/match/robot_slots.h>
 
+#include "cycle_wait.h"
+
 namespace pitchboard::link {
 
 class LockStep {
  public:
   /// All outlive it.
   LockStep(const MatchBase& base, RobotSlots& slots, ProcessPace& pace)
-      : m_base(base), m_slots(slots), m_pace(pace) {}
+      : m_base(base), m_slots(slots), m_pace(pace), m_cycles(base, slots, pace) {}
 
   /// After a tick, in the order of the robots: each reference process whose period has passed.
-  /// Waits for separate ones in lock-step, but not for ever.
+  /// Waits for separate ones in lock-step, and for team programs that cooperate, but not for ever.
   void run();
   /// Another moment was put back: what is due follows the simulation's time.
   void jump();
@@ -36,6 +38,7 @@ class LockStep {
   const MatchBase& m_base;
   RobotSlots& m_slots;
   ProcessPace& m_pace;
+  CycleWait m_cycles;
 };
 
 }  // namespace pitchboard::link

@@ -80,6 +80,12 @@ void MatchEvents::notAttached(const sim::WorldState& state, RobotId robot,
   add(std::move(event));
 }
 
+void MatchEvents::lateCycle(const sim::WorldState& state, RobotId robot, const std::string& why) {
+  MatchEvent event = ofProcess(MatchEventKind::ProcessSilent, state, robot, "");
+  event.detail = why + "; the match goes on without it and is not repeatable";
+  add(std::move(event));
+}
+
 void MatchEvents::take(std::vector<MatchEvent>& out) {
   out.insert(out.end(), std::make_move_iterator(m_events.begin()),
              std::make_move_iterator(m_events.end()));

@@ -30,6 +30,8 @@ class MatchEvents {
   /// A team's program, which the match does not wait for any longer.
   void notAttached(const sim::WorldState& state, RobotId robot, const std::string& process,
                    std::string detail);
+  /// A robot's program, which the match does not wait for any longer; `why` as a clause.
+  void lateCycle(const sim::WorldState& state, RobotId robot, const std::string& why);
   /// Appends what came since the last call, at most the newest 1000.
   void take(std::vector<MatchEvent>& out);
 

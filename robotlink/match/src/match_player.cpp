@@ -2,6 +2,7 @@
 #include <robotlink/match/match_player.h>
 
 #include <algorithm>
+#include <string>
 
 namespace pitchboard::link {
 namespace {
@@ -22,21 +23,44 @@ void MatchPlayer::stopObserving(const std::shared_ptr<TickObserver>& observer) {
 }
 
 void MatchPlayer::setSpeed(double timesRealTime, Clock::time_point now) {
+  m_wanted = timesRealTime;
+  m_followed = m_wanted == unlimitedSpeed ? Clock::time_point{} : now;
+  setPace(timesRealTime, now);
+}
+
+void MatchPlayer::setPace(double timesRealTime, Clock::time_point now) {
   m_speed = timesRealTime;
   m_pacer.start(now, currentTick(),
                 std::max(m_speed, 1e-6) * m_match.simulation().state().settings.tickRate);
 }
 
+/// Slower while a team's own programs cannot keep up, and faster again.
+void MatchPlayer::followPrograms(Clock::time_point now) {
+  constexpr std::chrono::seconds searchInterval{1};
+  const bool unlimited = m_wanted == unlimitedSpeed;
+  if (now - m_followed < (unlimited ? searchInterval : ProcessPace::ownPaceInterval)) return;
+  m_followed = now;
+  const double pace = m_match.pace().ownPace(m_wanted, m_speed);
+  if (pace == m_speed) return;
+  setPace(pace, now);
+  m_match.pace().slowTo(pace, now);
+}
+
 MatchPlayer::Played MatchPlayer::play(Clock::time_point now, std::uint64_t lastTick) {
-  const bool paced = m_speed != unlimitedSpeed;
-  const std::uint64_t target = paced ? std::min(m_pacer.target(now), lastTick) : lastTick;
   const auto begin = Clock::now();
   auto reached = begin;
   Played played;
-  if (!paced && currentTick() < target && !m_match.finished() && awaitPrograms(now)) {
+  if (currentTick() < lastTick && !m_match.finished() &&
+      await(m_wanted == unlimitedSpeed ? ProcessPace::Await::Everybody
+                                       : ProcessPace::Await::Cooperating,
+            now)) {
+    setSpeed(m_wanted, now);  // from when they are there
     played.next = now + awaitInterval;
     return played;
   }
+  followPrograms(now);
+  const bool paced = m_speed != unlimitedSpeed;
+  const std::uint64_t target = paced ? std::min(m_pacer.target(now), lastTick) : lastTick;
   while (currentTick() < target && !m_match.finished()) {
     tick();
     ++played.ticks;
@@ -56,7 +80,11 @@ MatchPlayer::Played MatchPlayer::play(Clock::time_point now, std::uint64_t lastT
 }
 
 bool MatchPlayer::awaitPrograms(Clock::time_point now) {
-  const bool awaits = m_match.pace().awaitsPrograms(now);
+  return await(ProcessPace::Await::Everybody, now);
+}
+
+bool MatchPlayer::await(ProcessPace::Await whom, Clock::time_point now) {
+  const bool awaits = m_match.pace().awaitsPrograms(whom, now);
   if (awaits && !m_awaits) tick();
   m_awaits = awaits;
   return awaits;
@@ -68,6 +96,34 @@ void MatchPlayer::tick() {
   const auto tickTime = Clock::now() - begin;
   tellEvents();
   for (const auto& observer : m_observers) observer->ticked(m_match, tickTime);
+}
+
+void MatchPlayer::lookAfterProcesses(Clock::time_point now) {
+  m_match.pace().lookAfterProcesses(now);
+  tellLines(now);
+  tellEvents();
+}
+
+void MatchPlayer::tellLines(Clock::time_point now) {
+  // What our processes say in their first moments is for those who look for it.
+  constexpr std::chrono::seconds startingUp{1};
+  const auto lines = m_match.robots().processes().takeLines();
+  if (lines.empty()) return;
+  const sim::Simulation& simulation = m_match.simulation();
+  const auto all = m_match.robots().processes().statuses();
+  for (const ProcessLine& line : lines) {
+    const auto process = std::ranges::find_if(all, [&line](const ProcessStatus& one) {
+      return one.robot == line.robot && one.name == line.process;
+    });
+    const bool starting =
+        process != all.end() && !process->foreign && now - process->started < startingUp;
+    const auto index = simulation.indexOf(line.robot);
+    const std::string robot = index ? simulation.state().robots[*index].name()
+                                    : "robot " + std::to_string(line.robot.value);
+    const LogLine said{simulation.snapshot().time, robot + ' ' + line.process, line.text,
+                       starting ? LogLevel::Debug : LogLevel::Info};
+    for (const auto& observer : m_observers) observer->logged(said);
+  }
 }
 
 void MatchPlayer::tellEvents() {

@@ -29,6 +29,55 @@ void turnEverybody(sim::Simulation& simulation) {
   }
 }
 
+/// The GameController's port for replies: another one in 2014 and 2015.
+std::uint16_t replyPort(int packetVersion) {
+  constexpr int lastOfOld = 8;
+  constexpr std::uint16_t old = 3838, now = 3939;
+  return packetVersion <= lastOfOld ? old : now;
+}
+
+/// Which form of replies goes with these packets.
+int replyVersion(const telemetry::RefereeState& packet) {
+  constexpr int since2022 = 15;
+  if (packet.version <= 7) return 1;
+  const bool newForm =
+      packet.league == telemetry::League::HumanoidSoccer ||
+      (packet.league == telemetry::League::StandardPlatform && packet.version >= since2022);
+  return newForm ? 4 : 2;
+}
+
+/// "I am alive", and where: what a controller shows, and nothing that changes its game. Nothing
+/// from a robot that does not play.
+std::optional<telemetry::RobotReply> replyOf(const sim::RobotSnapshot& robot, const Point& ball,
+                                             const sim::GameState& game,
+                                             const telemetry::RefereeState& packet) {
+  constexpr int alive = 2;
+  constexpr double millimetres = 1000.0;
+  const sim::GamePlayer* player = game.player(robot.identity.team, robot.identity.number);
+  const int team = game.teamOf(robot.identity.team);
+  if (!player || player->penalty == sim::PenaltyKind::SentOff) return {};
+  const sim::GameTeam& own = game.teams[static_cast<std::size_t>(team)];
+  telemetry::RobotReply reply;
+  reply.version = replyVersion(packet);
+  reply.team = own.number;
+  reply.player = own.slotOf(robot.identity.number);
+  reply.message = alive;
+  reply.fallen = robot.fallen ? 1 : 0;
+  // In the team's frame: +x towards the opponents' goal.
+  const double way = game.attacksRight(static_cast<std::size_t>(team)) ? 1.0 : -1.0;
+  const Pose& pose = robot.pose;
+  const double yaw = wrapToPi(pose.yaw + (way > 0.0 ? 0.0 : std::numbers::pi));
+  reply.pose = {static_cast<float>(way * pose.position.x * millimetres),
+                static_cast<float>(way * pose.position.y * millimetres), static_cast<float>(yaw)};
+  const double dx = ball.x - pose.position.x, dy = ball.y - pose.position.y;
+  const bool sees = std::hypot(dx, dy) < robot.visionRange;
+  reply.ballAge = sees ? 0.0F : -1.0F;
+  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
+  reply.ball = {sees ? static_cast<float>((dx * c + dy * s) * millimetres) : 0.0F,
+                sees ? static_cast<float>((dy * c - dx * s) * millimetres) : 0.0F};
+  return reply;
+}
+
 }  // namespace
 
 Result<void> MatchReferee::sendTo(int port) {
@@ -72,8 +121,27 @@ bool MatchReferee::listen(sim::Simulation& simulation) {
     }
     m_packet = *state;
     received = true;
+    if (m_answerPort) answer(simulation, datagram.sender.address);
   }
   return received;
+}
+
+void MatchReferee::answer(const sim::Simulation& simulation, telemetry::Address controller) {
+  if (!m_answers || m_controller != controller) {
+    auto sender = telemetry::UdpSender::to(controller);
+    if (!sender) return;
+    m_answers.emplace(std::move(*sender));
+    m_controller = controller;
+  }
+  const std::uint16_t port =
+      *m_answerPort > 0 ? static_cast<std::uint16_t>(*m_answerPort) : replyPort(m_packet.version);
+  const sim::GameState& game = *simulation.state().game;
+  const sim::Snapshot now = simulation.snapshot();
+  for (const sim::RobotSnapshot& robot : now.robots) {
+    const auto reply = replyOf(robot, now.ball, game, m_packet);
+    if (!reply) continue;
+    if (const auto bytes = telemetry::encodeReply(*reply)) (void)m_answers->send(port, *bytes);
+  }
 }
 
 bool MatchReferee::tick(sim::Simulation& simulation, bool again) {

@@ -25,6 +25,8 @@ class MatchReferee {
   Result<void> sendTo(int port);
   /// Obeys the GameController that is heard on `port`; the game is refereed by it alone.
   Result<void> obey(int port, sim::Simulation& simulation);
+  /// Robots answer what they obey: to this port of the sender, or 0 for that of the version.
+  void answerTo(int port) { m_answerPort = port; }
 
   /// After a tick: takes what an external referee has said, and sends what is due. True when
   /// robots hear the referee now: packet() is news. A tick that is played `again` hears and sends
@@ -37,6 +39,7 @@ class MatchReferee {
  private:
   void send();
   bool listen(sim::Simulation& simulation);
+  void answer(const sim::Simulation& simulation, telemetry::Address controller);
 
   std::optional<telemetry::UdpSender> m_sender;
   std::uint16_t m_port = 0;
@@ -44,6 +47,9 @@ class MatchReferee {
   telemetry::RefereeTracker m_tracker;
   telemetry::DatagramBatch m_batch;
   telemetry::RefereeState m_packet;
+  std::optional<int> m_answerPort;
+  std::optional<telemetry::UdpSender> m_answers;
+  telemetry::Address m_controller;  // to which m_answers go
   RefereeRhythm m_rhythm;
 };
 

@@ -95,14 +95,16 @@ void FramePool::giveBack(std::unique_ptr<MatchFrame> frame) {
   if (m_free.size() < mostKept) m_free.push_back(std::move(frame));
 }
 
-/// What happened since it was asked last.
+/// What happened, and what processes wrote, since it was asked last.
 class NewEvents : public TickObserver {
  public:
   void ticked(const SimulatedMatch& /*match*/, std::chrono::nanoseconds /*tickTime*/) override {}
   void happened(std::span<const MatchEvent> events) override {
     list.insert(list.end(), events.begin(), events.end());
   }
+  void logged(const LogLine& line) override { lines.push_back(line); }
   std::vector<MatchEvent> list;
+  std::vector<LogLine> lines;
 };
 
 /// What runs on the thread.
@@ -120,10 +122,7 @@ class MatchLoop {
   /// Plays what is due; says when to look again.
   Clock::time_point play(Clock::time_point now);
   void collectEvents();
-  void pollProcesses();
   bool refreshesWhileStill() const;
-  /// Slower while a team's own programs cannot keep up, if that is wanted, and faster again.
-  void followTeamPrograms(Clock::time_point now);
 
   MatchRunner::Shared& m_shared;
   MatchPlayer m_player;
@@ -134,8 +133,6 @@ class MatchLoop {
   Clock::time_point m_lastPublish;
   Clock::time_point m_lastPoll;
   std::uint64_t m_serial = 0;
-  double m_wantedSpeed = 1.0, m_speed = 1.0;
-  Clock::time_point m_lastFollow;
   bool m_still = false;
   bool m_publishWanted = false;
 };
@@ -152,8 +149,8 @@ void MatchLoop::run(const std::stop_token& stop) {
     bool publishNow = carryOutCommands();
     auto now = Clock::now();
     if (now - m_lastPoll >= pollInterval) {
-      pollProcesses();
-      followTeamPrograms(now);
+      m_player.lookAfterProcesses(now);
+      collectEvents();
       m_lastPoll = now;
       publishNow = publishNow || refreshesWhileStill();
     }
@@ -205,8 +202,6 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
   if (std::exchange(m_shared.paceChanged, false) || still != m_still) {
     m_player.setSpeed(speed, now);
     m_match.pace().setPlaying(speed, still, now);
-    m_wantedSpeed = m_speed = speed;
-    m_lastFollow = now;
     m_builder.resetSpeed(now, tick);
     m_publishWanted = true;
   }
@@ -236,27 +231,16 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
 
 void MatchLoop::collectEvents() {
   m_player.tellEvents();
-  if (m_newEvents->list.empty()) return;
+  if (m_newEvents->list.empty() && m_newEvents->lines.empty()) return;
   const std::lock_guard lock(m_shared.mutex);
   for (MatchEvent& event : m_newEvents->list) {
     pushBounded(m_shared.events, std::move(event), m_shared.droppedEvents);
   }
-  m_newEvents->list.clear();
-}
-
-void MatchLoop::followTeamPrograms(Clock::time_point now) {
-  if (m_still || m_wantedSpeed == MatchRunner::unlimitedSpeed ||
-      now - m_lastFollow < ProcessPace::ownPaceInterval) {
-    return;
+  for (LogLine& line : m_newEvents->lines) {
+    pushBounded(m_shared.log, std::move(line), m_shared.droppedLogLines);
   }
-  m_lastFollow = now;
-  const double speed = m_match.pace().waitForTeamPrograms
-                           ? m_match.pace().ownPace(m_wantedSpeed, m_speed)
-                           : m_wantedSpeed;
-  if (speed == m_speed) return;
-  m_speed = speed;
-  m_player.setSpeed(speed, now);
-  m_match.pace().slowTo(speed, now);
+  m_newEvents->list.clear();
+  m_newEvents->lines.clear();
 }
 
 bool MatchLoop::refreshesWhileStill() const {
@@ -266,30 +250,6 @@ bool MatchLoop::refreshesWhileStill() const {
     const Blackboard* board = m_match.blackboard(robot.id);
     return board && board->key() != 0;
   });
-}
-
-void MatchLoop::pollProcesses() {
-  // What a process says in its first moments is for those who look for it.
-  constexpr auto startingUp = 1s;
-  const auto now = Clock::now();
-  m_match.pace().lookAfterProcesses(now);
-  const sim::Simulation& simulation = m_match.simulation();
-  const auto& all = m_match.robots().processes().statuses();
-  for (const ProcessLine& line : m_match.robots().processes().takeLines()) {
-    const auto process = std::find_if(all.begin(), all.end(), [&line](const ProcessStatus& one) {
-      return one.robot == line.robot && one.name == line.process;
-    });
-    const bool starting = process != all.end() && now - process->started < startingUp;
-    const auto index = simulation.indexOf(line.robot);
-    const std::string robot = index ? simulation.state().robots[*index].name()
-                                    : "robot " + std::to_string(line.robot.value);
-    LogLine said{simulation.snapshot().time, robot + ' ' + line.process, line.text,
-                 starting ? LogLevel::Debug : LogLevel::Info};
-    for (const auto& observer : m_player.observers()) observer->logged(said);
-    const std::lock_guard lock(m_shared.mutex);
-    pushBounded(m_shared.log, std::move(said), m_shared.droppedLogLines);
-  }
-  m_player.tellEvents();
 }
 
 void MatchLoop::publish() {

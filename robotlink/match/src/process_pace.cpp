@@ -2,20 +2,13 @@
 #include <robotlink/match/process_pace.h>
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 #include "match_base.h"
 #include "match_events.h"
 
 namespace pitchboard::link {
-namespace {
-
-bool fallsBehind(const ProcessStatus& program) {
-  constexpr double keepsUp = 0.95;
-  return program.foreign && program.achieved > 0.0 && program.achieved < keepsUp * program.speed;
-}
-
-}  // namespace
 
 ProcessPace::ProcessPace(MatchBase& base, RobotSlots& robots, MatchEvents& events)
     : robotsPace(base.options.pace),
@@ -29,78 +22,151 @@ bool ProcessPace::inLockStep() const {
 }
 
 void ProcessPace::lookAfterProcesses(Time now) {
-  using Seconds = RestartRule::Seconds;
-  constexpr Seconds window{1.0};
   ProcessManager& processes = m_slots.processes();
   (void)processes.step(now);
   m_events.takeNews(m_base.simulation.state(), processes.takeNews());
-  if (m_speed != 0.0 || m_still) return;
-  // As fast as possible: the clocks of a team's own programs follow what is reached.
+  if (!m_still) tellTime(now);
+}
+
+/// Clocks and time limits of a team's programs follow what is reached, not what was asked for.
+void ProcessPace::tellTime(Time now) {
+  using Seconds = RestartRule::Seconds;
+  constexpr Seconds window{1.0};
+  constexpr double alike = 0.03;
   const Seconds passed = now - m_measured;
-  if (passed < window) return;
-  if (m_base.tick() > m_measuredTick && passed < 10 * window) {
-    const double simulated =
-        static_cast<double>(m_base.tick() - m_measuredTick) / m_base.tickRate();
-    processes.setSpeed(simulated / passed.count(), now);
+  if (passed >= window) {
+    const double played = playedSeconds() - m_measuredSeconds;
+    if (played > 0.0 && passed < 10 * window) {
+      const double asked = m_pace * passed.count();
+      const bool asAsked = std::abs(played - asked) < alike * asked + 1.5 / m_base.tickRate();
+      m_reached = m_pace > 0.0 && asAsked ? m_pace : played / passed.count();
+    }
+    measureFrom(now);
   }
-  measureFrom(now);
+  // In the middle of the tick.
+  m_slots.processes().setTime(playedSeconds() + 0.5 / m_base.tickRate(), m_reached, now);
+}
+
+double ProcessPace::playedSeconds() const {
+  return m_awaited + static_cast<double>(m_ticks) / m_base.tickRate();
 }
 
 void ProcessPace::measureFrom(Time now) {
   m_measured = now;
-  m_measuredTick = m_base.tick();
+  m_measuredSeconds = playedSeconds();
 }
 
 void ProcessPace::setPlaying(double speed, bool still, Time now) {
   m_speed = speed;
   m_still = still;
-  measureFrom(now);
-  ProcessManager& processes = m_slots.processes();
-  processes.setClocksFollow(speed != 1.0);
-  if (speed > 0.0) processes.setSpeed(speed, now);
-  processes.setPaused(still, now);
+  m_hasSlowed = false;
+  slowTo(speed, now);
+  m_slots.processes().setPaused(still, now);
 }
 
-double ProcessPace::ownPace(double wanted, double now) const {
-  constexpr double faster = 1.25, least = 0.1;
+void ProcessPace::slowTo(double speed, Time now) {
+  m_pace = speed;
+  if (speed > 0.0) m_reached = speed;
+  measureFrom(now);
+  tellTime(now);
+}
+
+double ProcessPace::ownPace(double wanted, double now) {
+  constexpr double search = 2.0, faster = 1.25, least = 0.1, fastest = 1000.0;
+  if (!waitForTeamPrograms) return wanted;
+  const bool unlimited = wanted == 0.0;
+  double most = unlimited ? fastest : wanted;
+  bool any = false, unknown = false;
   std::optional<double> slowest;
   for (const ProcessStatus& one : m_slots.processes().statuses()) {
-    if (!one.foreign || one.pid == 0) continue;
+    if (!one.foreign || one.pid == 0 || cooperates(one)) continue;
+    any = true;
     if (one.clock != ProcessClock::Match) {
-      wanted = std::min(wanted, 1.0);  // slower does not help it either
+      most = std::min(most, 1.0);  // slower does not help it either
+    } else if (one.achieved == 0.0) {
+      unknown = true;
     } else if (fallsBehind(one)) {
       slowest = std::min(slowest.value_or(one.achieved), one.achieved);
     }
   }
-  return slowest ? std::max(least, std::min(*slowest, wanted)) : std::min(wanted, now * faster);
+  if (!any) return wanted;
+  m_hasSlowed = m_hasSlowed || slowest;
+  if (slowest) return std::max(least, std::min(*slowest, most));
+  if (unlimited && now == 0.0) return 1.0;
+  if (unlimited && unknown) return std::min(most, now);
+  return std::min(most, now * (unlimited && !m_hasSlowed ? search : faster));
 }
 
 std::optional<double> ProcessPace::slowestTeamProgram() const {
   std::optional<double> slowest;
   for (const ProcessStatus& one : m_slots.processes().statuses()) {
-    if (fallsBehind(one)) slowest = std::min(slowest.value_or(one.achieved), one.achieved);
+    if (fallsBehind(one) && !cooperates(one))
+      slowest = std::min(slowest.value_or(one.achieved), one.achieved);
   }
   return slowest;
 }
 
-bool ProcessPace::awaitsPrograms(Time now) {
+bool ProcessPace::awaitsPrograms(Await whom, Time now) {
   bool awaits = false;
   for (const auto& slot : m_slots.all()) {
+    if (slot->cycle.index >= 0) {
+      awaits = awaitsFirstCycle(*slot, now) || awaits;
+      continue;
+    }
+    if (whom == Await::Cooperating) continue;
     for (const auto& process : slot->processes) {
       const bool program = !process->inside && !process->profile.isReference();
       if (program && !process->settled) awaits = isAwaited(*slot, *process, now) || awaits;
     }
   }
   if (awaits) {
-    m_slots.processes().setSpeed(1.0, now);
-    measureFrom(now);  // how fast it is played
+    // Meanwhile their time goes on.
+    m_awaited += RestartRule::Seconds(now - m_awaitedAt.value_or(now)).count();
+    m_awaitedAt = now;
+    m_reached = 1.0;
+    measureFrom(now);
+    tellTime(now);
+  } else {
+    m_awaitedAt.reset();
   }
   return awaits;
 }
 
+namespace {
+
+using Seconds = RestartRule::Seconds;
+constexpr Seconds leastPatience{10.0};  // on a busy computer
+
+}  // namespace
+
+/// It plays from its first cycle on.
+bool ProcessPace::awaitsFirstCycle(RobotSlot& slot, Time now) {
+  if (slot.cooperates || slot.hasMissedCycle) return false;
+  if (slot.board.read(slot.cycle) < 0) {
+    slot.cooperates = true;
+    return false;
+  }
+  if (!slot.awaitedSince) slot.awaitedSince = now;
+  const Seconds waited = now - *slot.awaitedSince;
+  if (waited < std::max(leastPatience, Seconds(RobotSlots::silentAfter(slot)))) return true;
+  slot.hasMissedCycle = true;
+  m_events.lateCycle(m_base.simulation.state(), slot.id,
+                     "it has not said that it is there after " + inSeconds(waited));
+  return false;
+}
+
+/// The match waits for its cycles, whatever its pace.
+bool ProcessPace::cooperates(const ProcessStatus& program) const {
+  const RobotSlot* slot = m_slots.find(program.robot);
+  return slot && slot->cooperates;
+}
+
+void ProcessPace::tellLateCycle(const RobotSlot& slot) {
+  m_events.lateCycle(m_base.simulation.state(), slot.id,
+                     "no cycle finished for " + inSeconds(Seconds(RobotSlots::silentAfter(slot))));
+}
+
 bool ProcessPace::isAwaited(const RobotSlot& slot, SlotProcess& process, Time now) {
-  using Seconds = RestartRule::Seconds;
-  constexpr Seconds leastPatience{10.0};
   constexpr int mostRestarts = 2;  // of a program that ends at once
   const ProcessStatus* status = m_slots.processes().status(process.id);
   process.settled = !status || status->state == ProcessState::Stopped || hasAttached(*status);

@@ -4,6 +4,8 @@
 // What states, set plays, penalties and colours are called in the packets of each league: one table
 // for sending and for obeying. Private to robotlink/match.
 
+#include <optional>
+
 #include <simcore/world/game_state.h>
 #include <telemetry/wire/gamecontroller.h>
 
@@ -19,6 +21,13 @@ sim::PenaltyKind penaltyOf(PenaltyDialect dialect, int code);
 /// Codes of secState (Humanoid League; 0 where a version has none) or of setPlay.
 int setPlayCode(telemetry::League league, int version, int size, sim::SetPlay play);
 sim::SetPlay setPlayOf(telemetry::League league, int version, int size, int code);
+
+/// The set play that a packet tells of, and the number of the team that takes it.
+struct ToldSetPlay {
+  sim::SetPlay kind = sim::SetPlay::None;
+  std::optional<int> team;
+};
+ToldSetPlay setPlayIn(const telemetry::RefereeState& packet);
 
 int colourCode(TeamColor colour);
 

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <base/try.h>
 #include <robotlink/frame/referee_view.h>
+#include <robotlink/scenario/referee_rule_sets.h>
+#include <simcore/rules/game_start.h>
 #include <simcore/rules/referee.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
 
@@ -96,6 +99,29 @@ int playersPerTeam(const sim::WorldState& world) {
   return std::max(count[0], count[1]);
 }
 
+/// A game that begins anew has the same teams.
+void nameTeams(sim::WorldState& world) {
+  std::vector<sim::TeamSettings> teams;
+  for (const sim::GameTeam& team : world.game->teams) {
+    teams.push_back({team.colour, team.number, {}});
+    for (const sim::TeamSettings& before : world.settings.teams) {
+      if (before.colour == team.colour) teams.back().name = before.name;
+    }
+  }
+  world.settings.teams = std::move(teams);
+}
+
+/// Packets of version 7 alone have the teams in the order of their colours: who defends which goal
+/// follows from the half, and from the shots of a shoot-out.
+bool changesSides7(const telemetry::RefereeState& packet, const GameState& game) {
+  constexpr int shootOut = 1;
+  if (packet.secState == shootOut) {
+    return game.phase == sim::GamePhase::ShootOut && game.state == PlayState::Finished &&
+           packet.state == static_cast<int>(PlayState::Set);
+  }
+  return (packet.firstHalf != 0 ? 1 : 2) != game.half;
+}
+
 /// Numbers that the game does not know are given to the team of that colour, else by side; the
 /// first team of a packet defends the left goal.
 void followTeams(const telemetry::RefereeState& packet, sim::WorldState& world) {
@@ -111,8 +137,12 @@ void followTeams(const telemetry::RefereeState& packet, sim::WorldState& world) 
     }
     game.teams[first].number = packet.teams[0].number;
     game.teams[1 - first].number = packet.teams[1].number;
+    nameTeams(world);
   }
-  if (game.swapped != (game.teams[1].number == packet.teams[0].number)) sim::swapSides(world);
+  const bool change = packet.version == 7
+                          ? changesSides7(packet, game)
+                          : game.swapped != (game.teams[1].number == packet.teams[0].number);
+  if (change) sim::swapSides(world);
 }
 
 }  // namespace
@@ -218,6 +248,7 @@ void showReferee(const sim::WorldState& world, MatchFrame& frame) {
 
 void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) {
   GameState& game = *world.game;
+  game.obeyed = true;
   followTeams(packet, world);
   const double rate = world.settings.tickRate;
   const auto ticks = [rate](int seconds) { return static_cast<int>(std::lround(seconds * rate)); };
@@ -245,7 +276,6 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
   follow(game.clock, packet.secsRemaining);
   follow(game.countdown.ticks, packet.secondaryTime.value_or(0));
   game.countdown.runs = game.countdown.ticks > 0;
-  const int code = packet.setPlay.value_or(packet.secState.value_or(0));
   const auto indexOf = [&](std::optional<int> number) {
     for (std::size_t i = 0; number && i < game.teams.size(); ++i) {
       if (game.teams[i].number == *number) return static_cast<int>(i);
@@ -253,19 +283,28 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
     return GameState::nobody;
   };
   game.restart = {};
-  game.restart.kind = setPlayOf(packet.league, packet.version, packet.size, code);
-  if (game.restart.kind != SetPlay::None) {
+  const ToldSetPlay told = setPlayIn(packet);
+  game.restart.kind = told.kind;
+  if (told.kind != SetPlay::None) {
     const bool says = packet.secStateInfo && packet.size == 688;
     const int step = says ? (*packet.secStateInfo)[1] : game.stopped ? 0 : 2;
     game.restart.step = step == 0 ? Step::Placing : step == 1 ? Step::Preparing : Step::Taking;
-    game.restart.team = indexOf(says ? (*packet.secStateInfo)[0] : packet.kickOffTeam);
+    game.restart.team = indexOf(told.team);
   }
   game.kickOff = indexOf(packet.kickOffTeam);
+  if (game.restart.kind == SetPlay::None && state == PlayState::Playing && game.kickOff >= 0 &&
+      game.countdown.runs) {
+    game.restart.step = Step::Executed;
+    game.restart.team = game.kickOff;
+  }
   for (std::size_t side = 0; side < 2; ++side) {
     const telemetry::RefereeTeam& sent = packet.teams[side];
     const int index = indexOf(sent.number);
     if (index < 0) continue;
     sim::GameTeam& team = game.teams[static_cast<std::size_t>(index)];
+    if (const auto period = game.period()) {
+      team.byHalf[*period] = std::max(0, team.byHalf[*period] + sent.score - team.score);
+    }
     team.score = sent.score;
     team.penaltyShots = sent.penaltyShot.value_or(team.penaltyShots);
     team.singleShots = sent.singleShots.value_or(team.singleShots);
@@ -278,14 +317,63 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
         player.outside = false;
         player.sinceTicks = 0;
       }
-      // Until the next packet at least: only the program says when a penalty is over.
-      constexpr int untilNextPacket = 2;
-      player.ticksLeft = ticks(std::max(untilNextPacket, slots[i].secondsLeft));
-      player.counting = false;
+      player.ticksLeft = ticks(slots[i].secondsLeft);
+      player.counting = kind != sim::PenaltyKind::None;
     }
   }
   const std::size_t left = game.leftTeam();
   world.score = {game.teams[left].score, game.teams[1 - left].score};
+}
+
+sim::RefereeRules rulesOfPacket(const telemetry::RefereeState& packet) {
+  constexpr int firstOf2021 = 10, firstOf2026 = 19;
+  const bool isNew = packet.version >= firstOf2026;
+  const auto set = refereeRuleSet(isNew                           ? "humanoid-soccer-2026"
+                                  : packet.version >= firstOf2021 ? "humanoid-2021"
+                                                                  : "humanoid-2014");
+  sim::RefereeRules rules = set && *set ? **set : sim::RefereeRules{};
+  rules.packetVersion = packet.version;
+  rules.packetSize = packet.size;
+  return rules;
+}
+
+Result<void> takeGame(const telemetry::RefereeState& packet, Scenario& scenario) {
+  sim::SimulationSettings settings = scenario.settings;
+  settings.referee.reset();
+  auto simulation = TRY(sim::Simulation::create(settings));
+  TRY(simulation.placeBall(scenario.ball));
+  for (const ScenarioRobot& robot : scenario.robots) {
+    TRY(simulation.addRobot(robot.identity, robot.pose, robot.model));
+  }
+  TRY(simulation.setReferee(scenario.settings.referee.value_or(rulesOfPacket(packet))));
+  sim::WorldState& world = simulation.editState();
+  adoptPacket(packet, world);
+  world.game->restart.place = scenario.ball;
+  // Who is penalised has been put outside already, if it stands there.
+  const sim::FieldSpec& field = settings.field;
+  for (std::size_t i = 0; i < world.robots.size(); ++i) {
+    const Point& at = scenario.robots[i].pose.position;
+    const int team = world.game->teamOf(world.robots[i].team);
+    if (team < 0) continue;
+    sim::GameTeam& own = world.game->teams[static_cast<std::size_t>(team)];
+    const int slot = own.slotOf(world.robots[i].number);
+    if (slot == 0) continue;
+    sim::GamePlayer& player = own.players[static_cast<std::size_t>(slot - 1)];
+    player.outside = player.penalty != sim::PenaltyKind::None &&
+                     (std::abs(at.x) > field.halfLength() || std::abs(at.y) > field.halfWidth());
+    scenario.robots[i].identity.imuStartsAt180 = world.robots[i].imuStartsAt180;
+  }
+  scenario.settings.referee = world.settings.referee;
+  scenario.settings.teams = world.settings.teams;
+  scenario.game = sim::gameStartOf(world);
+  for (auto& [id, robot] : scenario.game->robots) {
+    // Some leagues say 0 until the robot has been carried out.
+    if (robot.penalty != sim::PenaltyKind::None && robot.left == 0.0 && !robot.outside) {
+      robot.left.reset();
+      robot.counts.reset();
+    }
+  }
+  return {};
 }
 
 }  // namespace pitchboard::link

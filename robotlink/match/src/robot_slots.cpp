@@ -88,6 +88,12 @@ const sim::RobotModel* RobotSlots::model(RobotId id) const {
   return index ? &m_base.simulation.state().models[*index] : nullptr;
 }
 
+double RobotSlots::silentAfter(const RobotSlot& slot) {
+  double most = slot.processes.empty() ? ProfileProcess().silentAfter : 0.0;
+  for (const auto& process : slot.processes) most = std::max(most, process->profile.silentAfter);
+  return most;
+}
+
 std::vector<sim::RobotIdentity> RobotSlots::ofOthers() const {
   std::vector<sim::RobotIdentity> others;
   for (const auto& slot : m_slots) {
@@ -254,6 +260,18 @@ Result<void> RobotSlots::setModel(RobotId id, const sim::RobotModel& model) {
   });
 }
 
+Result<void> RobotSlots::restartWithMatchTime() {
+  using Clock = ProfileProcess::Clock;
+  return changeAll([&]() -> Result<void> {
+    for (const auto& slot : m_slots) {
+      std::erase_if(slot->processes,
+                    [](const auto& process) { return process->profile.clock == Clock::Real; });
+      for (ProfileProcess& process : slot->runtime.processes) process.clock = Clock::Match;
+    }
+    return {};
+  });
+}
+
 Result<void> RobotSlots::restartProcess(RobotId id, const std::string& process) {
   if (const RobotSlot* slot = find(id)) {
     for (const auto& one : slot->processes) {
@@ -350,9 +368,24 @@ bool RobotSlots::wants(const RobotSlot& slot, const ProfileProcess& process) con
   return true;
 }
 
+/// Index below 0 if the match waits for nobody.
+Result<IntVar> RobotSlots::cycleOf(const RobotSlot& slot) const {
+  auto name = expanded(slot.runtime.cycle, valuesFor(slot));
+  if (name && name->empty()) return IntVar{-1};
+  const auto variable =
+      name ? m_base.catalog->withExtension().intVar(*name) : std::optional<IntVar>();
+  if (variable) return *variable;
+  return failure(ErrorCode::NotFound,
+                 name ? "waits for \"" + *name +
+                            "\", which is no whole-number variable of this variable catalog"
+                      : name.error().message,
+                 "the runtime profile " + slot.runtime.name + ", cycle");
+}
+
 /// Puts the processes in the order of the profile; adds to `started` what it has to start.
 Result<void> RobotSlots::startMissing(RobotSlot& slot, std::vector<SlotProcess*>& started) {
   slot.extended = slot.runtime.usesExtension();
+  slot.cycle = TRY(cycleOf(slot));
   auto running = std::exchange(slot.processes, {});
   for (const ProfileProcess& profile : slot.runtime.processes) {
     if (!wants(slot, profile)) continue;
@@ -488,7 +521,16 @@ std::map<std::string, std::string> RobotSlots::valuesFor(const RobotSlot& slot) 
   values["robot"] = std::to_string(number);
   values["n"] = number == 1 ? std::string() : std::to_string(number);
   values["key"] = std::to_string(slot.board.key());
-  values["team"] = info(identityOf(slot.id).team).name;
+  const sim::RobotIdentity& identity = identityOf(slot.id);
+  const ProcessOptions& options = m_base.options.process;
+  values["team"] = info(identity.team).name;
+  values["team_index"] = std::to_string(options.team + static_cast<int>(identity.team));
+  values["shirt"] = std::to_string(identity.number);
+  values["match"] = std::to_string(m_claim ? m_claim->number().value : 0);
+  values["behaviour"] = behaviourToText(
+      slot.behaviour == noBehaviour ? options.behaviour : slot.behaviour, slot.parameters);
+  values["field"] = sim::fieldToText(sim::playedField(m_base.scenario.settings));
+  values["model"] = robotModelToText(*model(slot.id));
   return values;
 }
 

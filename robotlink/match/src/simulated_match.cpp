@@ -2,15 +2,53 @@
 #include <robotlink/match/simulated_match.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <base/try.h>
 #include <robotlink/match/moment.h>
 #include <robotlink/scenario/moment_writes.h>
+#include <simcore/rules/game_start.h>
+#include <simcore/world/published_frame.h>
 
 #include "match_parts.h"
+#include "referee_codes.h"
 
 namespace pitchboard::link {
+
+namespace {
+
+void writeBelief(const ScenarioBelief& belief, const sim::FieldSpec& field,
+                 const RobotVariables& variables, Blackboard& board) {
+  const auto pose = sim::published_frame::localizationFromStudio(field, belief.pose);
+  writeIfPresent(board, variables.localizationX, static_cast<int>(std::lround(pose.x)));
+  writeIfPresent(board, variables.localizationY, static_cast<int>(std::lround(pose.y)));
+  writeIfPresent(board, variables.localizationTheta, static_cast<int>(std::lround(pose.degrees)));
+  writeIfPresent(board, variables.localizationBelief,
+                 static_cast<float>(sim::published_frame::cmFromMetres(belief.sigma)));
+}
+
+/// Nothing of a robot that has not found out, or that stands where no field is.
+std::optional<ScenarioBelief> beliefOn(const Blackboard& board, const RobotVariables& variables,
+                                       const sim::FieldSpec& field) {
+  constexpr double mostSigma = 10.0;  // m, as files have it
+  const double sigma_cm = static_cast<double>(readOr(board, variables.localizationBelief));
+  if (!std::isfinite(sigma_cm) || sigma_cm <= 0.0) return {};
+  const auto read = [&board](IntVar variable) {
+    return static_cast<double>(readOr(board, variable));
+  };
+  ScenarioBelief belief;
+  belief.pose = sim::published_frame::studioFromLocalization(
+      field, {read(variables.localizationX), read(variables.localizationY),
+              read(variables.localizationTheta)});
+  belief.sigma = sim::published_frame::metresFromCm(sigma_cm);
+  const bool inside = std::abs(belief.pose.position.x) <= field.halfLength() + field.border &&
+                      std::abs(belief.pose.position.y) <= field.halfWidth() + field.border;
+  if (!inside || belief.sigma > mostSigma) return {};
+  return belief;
+}
+
+}  // namespace
 
 SimulatedMatch::SimulatedMatch(std::unique_ptr<Parts> parts) : m_parts(std::move(parts)) {}
 SimulatedMatch::SimulatedMatch(SimulatedMatch&&) noexcept = default;
@@ -26,9 +64,7 @@ Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const Ma
   MatchBase& base = parts->base;
   TRY(base.simulation.placeBall(scenario.ball, scenario.ballVelocity));
   base.simulation.setClockRunning(scenario.clockRunning);
-  ProcessManager& processes = parts->slots.processes();
-  processes.setClocksFollow(options.speed != 1.0);
-  if (options.speed > 0.0) processes.setSpeed(options.speed, std::chrono::steady_clock::now());
+  parts->pace.slowTo(options.speed, std::chrono::steady_clock::now());
   if (options.cognitionDebug && options.cognition == Cognition::Separate) {
     base.cognitionDebug = TRY(CognitionDebugReceiver::listen());
   }
@@ -38,9 +74,22 @@ Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const Ma
   for (const ScenarioRobot& robot : scenario.robots) {
     TRY(parts->slots.add(robot));
   }
+  parts->rememberBeliefs();
   TRY(parts->beginGame());
   base.writes.applyDue(base.tick(), parts->slots);
   return SimulatedMatch(std::move(parts));
+}
+
+/// Where robots believe that they are stands on their blackboards before their processes begin.
+void SimulatedMatch::Parts::rememberBeliefs() {
+  for (const ScenarioRobot& robot : base.scenario.robots) {
+    RobotSlot* slot = robot.belief ? slots.find(robot.identity.id) : nullptr;
+    if (!slot) continue;
+    writeBelief(*robot.belief, base.scenario.settings.field, base.variables, slot->board);
+    for (const auto& process : slot->processes) {
+      if (process->inside) process->inside->resume(slot->board);
+    }
+  }
 }
 
 /// Once everybody is there: who keeps which goal, and how the referee is heard.
@@ -53,13 +102,18 @@ Result<void> SimulatedMatch::Parts::beginGame() {
   }
   if (!rules) return {};
   TRY(base.simulation.setReferee(rules));
-  sim::WorldState& world = base.simulation.editState();
-  const std::size_t left = world.game->leftTeam();
-  world.game->teams[left].score = base.scenario.score.left;
-  world.game->teams[1 - left].score = base.scenario.score.right;
-  world.score = base.scenario.score;
+  sim::GameStart start;
+  if (base.scenario.game) {
+    start = *base.scenario.game;
+  } else {
+    const sim::GameState& game = *base.simulation.state().game;
+    start.teams[game.teams[game.leftTeam()].colour].score = base.scenario.score.left;
+    start.teams[game.teams[1 - game.leftTeam()].colour].score = base.scenario.score.right;
+  }
+  TRY(base.simulation.startGame(start));
   if (base.options.obeyReferee) {
     TRY(referee.obey(*base.options.obeyReferee, base.simulation));
+    if (base.options.answerReferee) referee.answerTo(*base.options.answerReferee);
   } else if (base.options.sendReferee || base.options.cognition != Cognition::Inline) {
     TRY(referee.sendTo(base.options.process.refereePort));
   }
@@ -80,18 +134,29 @@ void SimulatedMatch::Parts::hearReferee(bool again) {
     if (const auto word =
             slots.all()[i]->orders.take(referee.packet(), own.number, own.slotOf(robot.number))) {
       slots.all()[i]->board.write(base.variables.comReferee, *word);
+      if (slots.all()[i]->extended) tellSetPlay(*slots.all()[i], own.number);
     }
   }
 }
 
-/// Teams that have changed sides start their processes again, told where they attack.
+/// Which set play it is, and whether it is the robot's own: of robots that know the extension of
+/// the map.
+void SimulatedMatch::Parts::tellSetPlay(RobotSlot& slot, int team) const {
+  const telemetry::RefereeState& packet = referee.packet();
+  const ToldSetPlay told = setPlayIn(packet);
+  writeIfPresent(slot.board, comSetPlay, static_cast<int>(told.kind));
+  writeIfPresent(slot.board, comSetPlayOurs, told.team == team ? 1 : 0);
+}
+
+/// Our processes of teams that have changed sides start again, told where they attack. A team's own
+/// programs go on: they find out as on a real field.
 void SimulatedMatch::Parts::followSides() {
   for (std::size_t i = 0; i < slots.all().size(); ++i) {
     const bool facesLeft = base.simulation.state().robots[i].imuStartsAt180;
     RobotSlot& slot = *slots.all()[i];
     if (slot.facesLeft == facesLeft) continue;
     (void)slots.change(slot.id, [](RobotSlot& changed) -> Result<void> {
-      changed.processes.clear();
+      std::erase_if(changed.processes, [](const auto& one) { return one->profile.isReference(); });
       return {};
     });
     slot.facesLeft = facesLeft;  // also when it has none, or they do not start
@@ -231,6 +296,17 @@ ProcessPace& SimulatedMatch::pace() const {
   return m_parts->pace;
 }
 
+bool SimulatedMatch::isRepeatable() const {
+  const auto others = robots().ofOthers();
+  const auto isOwn = [](const auto& process) { return !process->profile.isReference(); };
+  const auto repeats = [&](const auto& slot) {
+    const bool own = std::ranges::any_of(slot->processes, isOwn) || slot->cycle.index >= 0 ||
+                     std::ranges::find(others, slot->id, &sim::RobotIdentity::id) != others.end();
+    return !own || (slot->cooperates && !slot->hasMissedCycle);
+  };
+  return std::ranges::all_of(robots().all(), repeats) && (pace().inLockStep() || !robots().turns());
+}
+
 Scenario SimulatedMatch::toScenario() const {
   const sim::WorldState& state = m_parts->base.simulation.state();
   const sim::Snapshot now = m_parts->base.simulation.snapshot();
@@ -254,8 +330,10 @@ Scenario SimulatedMatch::toScenario() const {
   moment.ball = inside(now.ball);
   moment.ballVelocity = now.ballVelocity;
   moment.clockRunning = state.clockRunning;
-  moment.clock = now.clock;
-  moment.score = now.score;
+  moment.clock = state.game ? 0.0 : now.clock;
+  moment.score = state.game ? sim::Score{} : now.score;
+  moment.game.reset();
+  if (state.game) moment.game = sim::gameStartOf(state);
   moment.robots.clear();
   for (std::size_t i = 0; i < slots.size(); ++i) {
     const sim::RobotSnapshot& robot = now.robots[i];
@@ -264,7 +342,8 @@ Scenario SimulatedMatch::toScenario() const {
                              slots[i]->behaviour,
                              slots[i]->choice,
                              state.models[i],
-                             slots[i]->parameters});
+                             slots[i]->parameters,
+                             beliefOn(slots[i]->board, variables(), field)});
   }
 
   moment.writes = writesFrom(m_parts->base.scenario.writes, now.time,

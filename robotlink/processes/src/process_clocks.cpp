@@ -3,6 +3,7 @@
 #include <robotlink/processes/process_manager.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <thread>
 
@@ -16,8 +17,6 @@ const char* whyRealTime(ProcessClock clock) {
       return "";
     case ProcessClock::Real:
       return "its runtime profile says \"clock\": \"real\"";
-    case ProcessClock::RealUntilRestart:
-      return "restart to follow the match's speed";
     case ProcessClock::RealNoLibrary:
       return "libpitchboard_time.so is missing: install Pitchboard again";
     case ProcessClock::RealNotLoaded:
@@ -26,18 +25,18 @@ const char* whyRealTime(ProcessClock clock) {
   return "";
 }
 
-/// Before a start. At ×1 real time is the match's: nothing is loaded that could go wrong.
+bool fallsBehind(const ProcessStatus& program) {
+  constexpr double keepsUp = 0.95;
+  return program.foreign && program.achieved > 0.0 && program.achieved < keepsUp * program.speed;
+}
+
+/// Before a start.
 void ProcessManager::giveClock(Entry& entry, ChildSpec& spec, Time now) {
   ProcessStatus& status = entry.status;
   entry.clock.reset();
   entry.sawLibrary = false;
   status.clock = ProcessClock::Real;
   if (!entry.process.ownTime) return;
-  if (!m_clocksFollow) {
-    status.clock = ProcessClock::RealUntilRestart;
-    entry.toldRealTime = false;
-    return;
-  }
   auto clock = ProgramClock::create();
   if (!clock) {
     status.clock = ProcessClock::RealNoLibrary;
@@ -45,6 +44,7 @@ void ProcessManager::giveClock(Entry& entry, ChildSpec& spec, Time now) {
     return;
   }
   entry.clock = std::move(*clock);
+  entry.matchStart.reset();
   status.clock = ProcessClock::Match;
   for (auto& variable : entry.clock->start(m_paused ? 0.0 : m_speed, now)) {
     spec.environment.push_back(std::move(variable));
@@ -52,13 +52,21 @@ void ProcessManager::giveClock(Entry& entry, ChildSpec& spec, Time now) {
 }
 
 /// A program that runs is to keep this speed from now on.
-void ProcessManager::askForSpeed(Entry& entry) {
+void ProcessManager::askForSpeed(Entry& entry, Time now) {
   if (!entry.process.spec.foreign) return;
   ProcessStatus& status = entry.status;
+  // The speed that a match reaches is never quite the same.
+  constexpr double alike = 0.05;
+  const bool same = std::abs(m_speed - status.speed) < alike * m_speed;
   status.speed = m_speed;
-  // Of clocks that keep real time it is known; of others it has to be seen.
-  status.achieved = !entry.clock && m_speed > 1.0 ? 1.0 : 0.0;
-  entry.cpuSeconds = 0.0;  // no second that is not half of this speed
+  changed();
+  if (!entry.clock) {
+    status.achieved = m_speed > 1.0 ? 1.0 : 0.0;  // of clocks that keep real time it is known
+  } else if (!same) {
+    status.achieved = 0.0;   // it has to be seen
+    entry.cpuSeconds = 0.0;  // no second that is not half of this speed
+    entry.sampled = now;
+  }
   if (entry.clock || m_speed == 1.0 || std::exchange(entry.toldRealTime, true)) return;
   addNews(entry, ProcessNewsKind::RealTime, whyRealTime(status.clock));
 }
@@ -70,7 +78,7 @@ void ProcessManager::setPaused(bool paused, Time now) {
   // Their time stands still before they stop, and goes on before they go on.
   for (Entry& entry : m_entries) {
     if (!entry.child || !entry.clock) continue;
-    entry.clock->setSpeed(paused ? 0.0 : m_speed, now);
+    entry.clock->setRate(paused ? 0.0 : m_speed, now);
     follows = true;
   }
   // A program that is stopped cannot set its timers again; this is the time that it has for it.
@@ -83,16 +91,37 @@ void ProcessManager::setPaused(bool paused, Time now) {
   }
 }
 
-void ProcessManager::setSpeed(double speed, Time now) {
-  if (speed == m_speed) return;
-  m_speed = speed;
+void ProcessManager::setTime(double matchSeconds, double speed, Time now) {
+  m_matchSeconds = matchSeconds;
+  const bool faster = std::exchange(m_speed, speed) != speed;
   for (Entry& entry : m_entries) {
     if (!entry.child || !entry.process.spec.foreign) continue;
-    if (entry.clock && !m_paused) entry.clock->setSpeed(speed, now);
-    entry.sampled = now;
-    askForSpeed(entry);
-    changed();
+    if (faster) askForSpeed(entry, now);
+    if (entry.clock && !m_paused) steer(entry, now);
   }
+}
+
+/// Lets its clock go at the match's speed, and a little faster or slower where it is not at the
+/// match's time. A new rate disturbs the waits of the program, so it is set only when it matters.
+void ProcessManager::steer(Entry& entry, Time now) const {
+  constexpr double longestWay = 1.0;  // s at ×1: farther off, the match stood or jumped
+  constexpr double alike = 0.01;
+  const double own = entry.clock->seconds(now);
+  double behind = m_matchSeconds - entry.matchStart.value_or(m_matchSeconds - own) - own;
+  if (!entry.matchStart || std::abs(behind) > longestWay * std::max(1.0, m_speed)) {
+    entry.matchStart = m_matchSeconds - own;
+    behind = 0.0;
+  }
+  const double rate = ProgramClock::rateFor(behind, m_speed);
+  const double before = entry.clock->rate();
+  const bool worthIt = rate == m_speed || std::abs(rate - before) > alike * m_speed;
+  if (rate != before && worthIt) entry.clock->setRate(rate, now);
+}
+
+/// The program's own time since it was started, s.
+double ProcessManager::ownSeconds(const Entry& entry, Time now) {
+  return entry.clock ? entry.clock->seconds(now)
+                     : RestartRule::Seconds(now - entry.status.started).count();
 }
 
 /// A static program loads no libraries, and the system loads none into one that is setuid.
@@ -105,7 +134,7 @@ void ProcessManager::lookForLibrary(Entry& entry, Time now) {
   entry.clock.reset();
   status.clock = ProcessClock::RealNotLoaded;
   entry.toldRealTime = false;
-  askForSpeed(entry);
+  askForSpeed(entry, now);
 }
 
 bool ProcessManager::hasSegment(int id, int shmid) const {

@@ -166,7 +166,10 @@ Result<void> ProcessManager::step(Time now) {
   // This process was stopped itself: what happened meanwhile says nothing about the others.
   constexpr Seconds longestGap{1.0};
   if (m_last && now - *m_last > longestGap) {
-    for (Entry& entry : m_entries) entry.lastSign = entry.stoppedSince = now;
+    for (Entry& entry : m_entries) {
+      entry.lastSign = entry.stoppedSince = now;
+      entry.lastSignMatch = m_matchSeconds;
+    }
   }
   m_last = now;
   for (Entry& entry : m_entries) {
@@ -267,8 +270,11 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
     return outcome;
   }
   entry.lastSign = entry.stoppedSince = entry.sampled = now;
+  entry.lastSignMatch = m_matchSeconds;
+  entry.everSigned = false;
   entry.sleeps = 0;
-  entry.cpuSeconds = entry.cyclesPerSecond = 0.0;
+  entry.cpuSeconds = entry.cyclesPerSecond = entry.missedCycles = 0.0;
+  status.cycles = status.missedCycles = 0;
   entry.programStamp = process.watchFile ? programStamp(process.spec) : std::string();
   entry.newStamp.clear();
   status.state = ProcessState::Running;
@@ -278,7 +284,7 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
   if (again) ++status.restarts;
   if (m_paused && spec.foreign) entry.child->signal(SIGSTOP);
   addNews(entry, again ? ProcessNewsKind::Restarted : ProcessNewsKind::Started);
-  askForSpeed(entry);
+  askForSpeed(entry, now);
   return {};
 }
 

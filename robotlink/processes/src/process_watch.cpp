@@ -3,6 +3,7 @@
 #include <robotlink/processes/process_manager.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "process_table.h"
 
@@ -19,13 +20,13 @@ void ProcessManager::watch(Entry& entry, Time now) {
   if (process.watch == Watch::Variable && entry.board) {
     if (readOr(*entry.board, process.heartbeat) != 0) {
       if (process.clears) writeIfPresent(*entry.board, process.heartbeat, 0);
-      entry.lastSign = now;
+      showSign(entry, now);
     }
   } else if (process.watch == Watch::Sleeps) {
     const auto use = processUse(entry.status.pid);
     if (use && use->sleeps != entry.sleeps) {
       entry.sleeps = use->sleeps;
-      entry.lastSign = now;
+      showSign(entry, now);
     }
   }
   if (m_paused && process.spec.foreign) entry.lastSign = entry.stoppedSince = now;
@@ -33,15 +34,33 @@ void ProcessManager::watch(Entry& entry, Time now) {
     entry.wait = process.restart.firstWait;
     entry.inARow = 0;
   }
-  const bool listens = process.watch == Watch::Variable || process.watch == Watch::Sleeps;
+  // A team's program may block for long before its first cycle.
+  const bool listens = (process.watch == Watch::Variable || process.watch == Watch::Sleeps) &&
+                       (entry.everSigned || !process.spec.foreign);
   ProcessStatus& status = entry.status;
-  if (listens && now - entry.lastSign >= process.silentAfter) {
+  if (listens && isSilent(entry, now)) {
     if (status.state == ProcessState::Silent) return;  // it has been told
     silenced(entry, now, "no sign of life for " + inSeconds(process.silentAfter));
   } else if (listens && status.state == ProcessState::Silent) {
     status.state = ProcessState::Running;
     changed();
   }
+}
+
+void ProcessManager::showSign(Entry& entry, Time now) const {
+  entry.lastSign = now;
+  entry.lastSignMatch = m_matchSeconds;
+  entry.everSigned = true;
+}
+
+/// A program that lives in the match's time has match time to show that it lives, but at a high
+/// speed not less of the computer's than it takes to notice it.
+bool ProcessManager::isSilent(const Entry& entry, Time now) const {
+  constexpr Seconds least{1.0};
+  const Seconds silentAfter = entry.process.silentAfter;
+  if (!entry.clock) return now - entry.lastSign >= silentAfter;
+  return Seconds(m_matchSeconds - entry.lastSignMatch) >= silentAfter &&
+         now - entry.lastSign >= least;
 }
 
 void ProcessManager::silenced(Entry& entry, Time now, const std::string& detail) {
@@ -72,7 +91,7 @@ void ProcessManager::setSilent(int id, bool silent, Time now) {
     status.state = ProcessState::Running;
     changed();
   }
-  if (!silent) entry->lastSign = now;
+  if (!silent) showSign(*entry, now);
 }
 
 void ProcessManager::sample(Entry& entry, Time now) {
@@ -80,8 +99,12 @@ void ProcessManager::sample(Entry& entry, Time now) {
   if (!use) return;
   ProcessStatus& status = entry.status;
   const double passed = Seconds(now - entry.sampled).count();
+  const double own = ownSeconds(entry, now);
   if (entry.cpuSeconds > 0.0) status.cpu = (use->cpuSeconds - entry.cpuSeconds) / passed;
-  if (entry.cpuSeconds > 0.0 && status.foreign && !m_paused) measurePace(entry, *use, passed);
+  if (entry.cpuSeconds > 0.0 && status.foreign && !m_paused) {
+    measurePace(entry, *use, passed, own - entry.sampledSeconds);
+  }
+  entry.sampledSeconds = own;
   entry.sampledSleeps = use->sleeps;
   entry.readySeconds = use->readySeconds;
   entry.cpuSeconds = std::max(use->cpuSeconds, 1e-9);
@@ -109,13 +132,15 @@ void ProcessManager::sample(Entry& entry, Time now) {
 /// How many cycles a program does in a second of its own time is the same at every speed, as long
 /// as it has time to sleep. What it does at ×1 is what it has to do; at a higher speed, that is
 /// learned only while work takes next to nothing of its time. One that never sleeps is one that
-/// nobody can judge.
-void ProcessManager::measurePace(Entry& entry, const ProcessUse& use, double seconds) {
+/// nobody can judge. `ownSeconds`: how far its own clocks went in these seconds.
+void ProcessManager::measurePace(Entry& entry, const ProcessUse& use, double seconds,
+                                 double ownSeconds) {
   constexpr double busy = 0.9, idle = 0.1;
+  if (ownSeconds <= 0.0) return;
   ProcessStatus& status = entry.status;
   const double speed = entry.clock ? m_speed : 1.0;
   const auto cycles = static_cast<double>(use.sleeps - entry.sampledSleeps);
-  const double rate = cycles / (seconds * speed);
+  const double rate = cycles / ownSeconds;
   // In which it worked, or waited for a core.
   const double share = std::clamp((use.readySeconds - entry.readySeconds) / seconds, 0.0, 1.0);
   if (share < (speed <= 1.0 ? busy : idle)) {
@@ -127,6 +152,11 @@ void ProcessManager::measurePace(Entry& entry, const ProcessUse& use, double sec
   } else if (share < busy) {
     status.achieved = speed * (1.0 - share);
   }
+  status.cycles += use.sleeps - entry.sampledSleeps;
+  if (fallsBehind(status)) {
+    entry.missedCycles += std::max(0.0, entry.cyclesPerSecond * ownSeconds - cycles);
+  }
+  status.missedCycles = static_cast<std::uint64_t>(std::lround(entry.missedCycles));
 }
 
 void ProcessManager::watchFile(Entry& entry, Time now) {

@@ -5,9 +5,11 @@
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <climits>
+#include <cmath>
 #include <cstdlib>
 
 #include <base/system_reason.h>
@@ -45,8 +47,9 @@ ProgramClock::~ProgramClock() {
   ::munmap(m_page, sizeof *m_page);
 }
 
-std::vector<std::pair<std::string, std::string>> ProgramClock::start(double speed, Time now) {
-  write(std::chrono::nanoseconds(0), speed, now);
+std::vector<std::pair<std::string, std::string>> ProgramClock::start(double rate, Time now) {
+  m_started = now;
+  write(std::chrono::nanoseconds(0), rate, now);
   const char* before = std::getenv("LD_PRELOAD");
   const std::string others =
       before != nullptr && *before != '\0' ? ' ' + std::string(before) : std::string();
@@ -55,13 +58,33 @@ std::vector<std::pair<std::string, std::string>> ProgramClock::start(double spee
            "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(m_file.get())}};
 }
 
-void ProgramClock::setSpeed(double speed, Time now) {
-  const double passed =
-      static_cast<double>(now.time_since_epoch().count() - m_page->since) * (m_page->rate - 1.0);
-  write(std::chrono::nanoseconds(m_page->offset + static_cast<std::int64_t>(passed)), speed, now);
+void ProgramClock::setRate(double rate, Time now) {
+  write(offset(now), rate, now);
 }
 
-void ProgramClock::write(std::chrono::nanoseconds offset, double speed, Time now) {
+double ProgramClock::rate() const {
+  return m_page->rate;
+}
+
+double ProgramClock::seconds(Time now) const {
+  return std::chrono::duration<double>(now - m_started + offset(now)).count();
+}
+
+/// By how much the program's clocks are ahead of the computer's.
+std::chrono::nanoseconds ProgramClock::offset(Time now) const {
+  const double passed =
+      static_cast<double>(now.time_since_epoch().count() - m_page->since) * (m_page->rate - 1.0);
+  return std::chrono::nanoseconds(m_page->offset + static_cast<std::int64_t>(passed));
+}
+
+double ProgramClock::rateFor(double behind, double speed) {
+  constexpr double rightSeconds = 0.02, correctionSeconds = 1.0;
+  // At a higher speed the same time of the computer is more of the match's.
+  if (std::abs(behind) <= rightSeconds * std::max(1.0, speed)) return speed;
+  return std::clamp(speed + behind / correctionSeconds, 0.5 * speed, 2.0 * speed);
+}
+
+void ProgramClock::write(std::chrono::nanoseconds offset, double rate, Time now) {
   // steady_clock is CLOCK_MONOTONIC.
   static_assert(std::is_same_v<Time::duration, std::chrono::nanoseconds>);
   const std::atomic_ref sequence(m_page->sequence);
@@ -72,7 +95,7 @@ void ProgramClock::write(std::chrono::nanoseconds offset, double speed, Time now
   std::atomic_thread_fence(std::memory_order_release);
   store(m_page->since, static_cast<std::int64_t>(now.time_since_epoch().count()));
   store(m_page->offset, static_cast<std::int64_t>(offset.count()));
-  store(m_page->rate, speed);
+  store(m_page->rate, rate);
   sequence.fetch_add(1, std::memory_order_release);
   ::syscall(SYS_futex, &m_page->sequence, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
 }

@@ -49,7 +49,8 @@ class Reader {
   Reader(const JsonNode& root, JsonReport& report)
       : m_report(report),
         m_root(report, root, "",
-               {"version", "name", "title", "description", "values", "referee", "processes"}) {}
+               {"version", "name", "title", "description", "values", "referee", "cycle",
+                "processes"}) {}
 
   RuntimeProfile read() {
     m_root.require("version");
@@ -61,6 +62,7 @@ class Reader {
     for (auto& [name, value] : texts(m_root, "values")) m_profile.values[name] = value;
     m_profile.hearsReferee =
         m_root.choice("referee", hearers, "hearer of the referee") == std::size_t{1};
+    m_profile.cycle = m_root.text("cycle", "", 200);
     m_root.require("processes");
     const auto* items = m_root.array("processes", mostProcesses);
     for (std::size_t i = 0; items && i < items->size() && !m_report.failed(); ++i) {

@@ -95,10 +95,10 @@ class Walk {
     if (seen.fallen && !robot.wasFallen) ++out.falls;
     robot.wasFallen = seen.fallen;
     for (std::size_t i = 0; i < seen.lamps.size(); ++i) {
-      const telemetry::ProcessState state = seen.lamps[i].state;
-      if (state == telemetry::ProcessState::Unknown) continue;
+      const telemetry::HeartbeatState state = seen.lamps[i].state;
+      if (state == telemetry::HeartbeatState::Unknown) continue;
       robot.known[i] += step;
-      if (state == telemetry::ProcessState::Working) robot.worked[i] += step;
+      if (state == telemetry::HeartbeatState::Working) robot.worked[i] += step;
     }
     if (!seen.poseKnown()) return;
     const Point here = seen.pose.position;

@@ -5,6 +5,7 @@
 
 #include <resources/resources.h>
 #include <simcore/world/referee_parameters.h>
+#include <telemetry/wire/gamecontroller_encoder.h>
 
 #include "referee_rules_json.h"
 #include "scenario_keys.h"
@@ -27,6 +28,22 @@ std::vector<std::string_view> keysOfRules(std::vector<std::string_view> keys) {
   return keys;
 }
 
+/// Only sizes that this version has; one that is left out is the version's.
+void checkPackets(const JsonObject& object, sim::RefereeRules& rules) {
+  const int version = rules.packetVersion;
+  const auto size = telemetry::refereePacketSize(version, rules.packetSize);
+  if (!size) {
+    object.fail("packet_version",
+                "no GameController sends packets of version " + std::to_string(version));
+  } else if (object.find("packet_size") && *size != rules.packetSize) {
+    object.fail("packet_size", "packets of version " + std::to_string(version) + " do not have " +
+                                   std::to_string(rules.packetSize) + " bytes; for example " +
+                                   std::to_string(*size));
+  } else {
+    rules.packetSize = *size;
+  }
+}
+
 void readRules(const JsonObject& object, sim::RefereeRules& rules) {
   if (const auto style = object.choice("style", sim::refereeStyleNames, "style of referee")) {
     rules.style = static_cast<sim::RefereeStyle>(*style);
@@ -36,6 +53,7 @@ void readRules(const JsonObject& object, sim::RefereeRules& rules) {
   for (const auto& one : sim::refereeSwitches) {
     rules.*one.member = object.boolean(one.key, rules.*one.member);
   }
+  checkPackets(object, rules);
 }
 
 struct RuleFile {

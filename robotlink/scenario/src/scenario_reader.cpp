@@ -12,6 +12,7 @@
 #include <simcore/world/field_text.h>
 #include <simcore/world/limits.h>
 
+#include "game_json.h"
 #include "referee_rules_json.h"
 #include "scenario_keys.h"
 
@@ -47,7 +48,7 @@ class Reader {
                {"version", "name",        "title",         "description", "physics", "tick_rate",
                 "seed",    "after_goal",  "clock_running", "clock",       "score",   "field",
                 "noise",   "robot_model", "rigid_body",    "ball",        "robots",  "writes",
-                "stop",    "referee",     "runtime",       "teams"}) {}
+                "stop",    "referee",     "runtime",       "teams",       "game"}) {}
 
   Scenario read() {
     readVersion();
@@ -67,6 +68,7 @@ class Reader {
     readScore();
     readRuntimes();
     readRobots();
+    m_scenario.game = readGameStart(m_report, m_root, m_robots, m_scenario);
     readWrites();
     readStop();
     std::ranges::stable_sort(m_scenario.writes,
@@ -251,9 +253,11 @@ class Reader {
 
   void readRobot(const JsonNode& node, std::size_t index) {
     const std::string path = "robots[" + std::to_string(index) + "]";
-    const JsonObject object(m_report, node, path,
-                            {"team", "number", "x", "y", "heading", "behaviour", "id",
-                             "imu_starts_at_180", "blackboard", "runtime", "model"});
+    const JsonObject object(
+        m_report, node, path,
+        {"team", "number", "x", "y", "heading", "behaviour", "id", "imu_starts_at_180",
+         "blackboard", "runtime", "model", "belief", "penalty", "cards", "goalkeeper"});
+    m_robots.push_back(object);
     for (const std::string_view key : {"team", "number", "x", "y"}) object.require(key);
     std::vector<std::string_view> teams;
     for (const TeamColorInfo& color : teamColors) teams.push_back(color.name);
@@ -278,6 +282,7 @@ class Reader {
       robot.parameters = choice.parameters;
     }
     robot.runtime = readRuntime(object, "runtime");
+    readBelief(object, robot);
     for (std::size_t other = 0; other < m_scenario.robots.size(); ++other) {
       const sim::RobotIdentity& taken = m_scenario.robots[other].identity;
       const std::string where = "robots[" + std::to_string(other) + "]";
@@ -292,6 +297,19 @@ class Reader {
     readBlackboard(object, robot.identity.id);
     robot.model = link::readRobotModel(object, m_report, "model").value_or(m_usualModel);
     m_scenario.robots.push_back(std::move(robot));
+  }
+
+  void readBelief(const JsonObject& object, ScenarioRobot& robot) const {
+    const JsonNode* node = object.find("belief");
+    if (!node) return;
+    const JsonObject belief(m_report, *node, object.pathOf("belief"),
+                            {"x", "y", "heading", "sigma"});
+    for (const std::string_view key : {"x", "y", "heading"}) belief.require(key);
+    ScenarioBelief& out = robot.belief.emplace();
+    out.pose.position = readPlace(belief);
+    out.pose.yaw =
+        radiansFromDegrees(belief.number("heading", 0.0, {-360, 360, sim::units::degrees.words}));
+    out.sigma = belief.number("sigma", 0.0, {0, 10, sim::units::metres.words});
   }
 
   void readBlackboard(const JsonObject& robot, RobotId id) {
@@ -369,6 +387,7 @@ class Reader {
   const VariableCatalog& m_catalog;
   JsonObject m_root;
   sim::RobotModel m_usualModel;  // of robots that name none
+  std::vector<JsonObject> m_robots;
   Scenario m_scenario;
 };
 

@@ -7,6 +7,7 @@
 #include <simcore/world/field_text.h>
 #include <simcore/world/referee_parameters.h>
 
+#include "game_json.h"
 #include "scenario_keys.h"
 
 namespace pitchboard::link {
@@ -91,6 +92,12 @@ Json robotToJson(const ScenarioRobot& robot, std::size_t index) {
     out["imu_starts_at_180"] = robot.identity.imuStartsAt180;
   }
   if (robot.runtime.isChosen()) out["runtime"] = runtimeChoiceToText(robot.runtime);
+  if (const auto& belief = robot.belief) {
+    out["belief"] = {{"x", jsonNumber(belief->pose.position.x)},
+                     {"y", jsonNumber(belief->pose.position.y)},
+                     {"heading", jsonNumber(fileDegrees(belief->pose.yaw))},
+                     {"sigma", jsonNumber(belief->sigma)}};
+  }
   return out;
 }
 
@@ -117,6 +124,7 @@ std::string scenarioToJson(const Scenario& scenario) {
     out["rigid_body"] = std::move(body);
   }
   if (settings.referee) out["referee"] = refereeToJson(*settings.referee);
+  if (scenario.game) out["game"] = gameStartToJson(*scenario.game, scenario);
   for (const sim::TeamSettings& team : settings.teams) {
     Json one{{"colour", info(team.colour).name}};
     if (team.number != 0) one["number"] = team.number;
@@ -136,6 +144,7 @@ std::string scenarioToJson(const Scenario& scenario) {
   Json robots = Json::array();
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     robots.push_back(robotToJson(scenario.robots[i], i));
+    if (scenario.game) addGameOf(*scenario.game, scenario.robots[i].identity.id, robots.back());
   }
   const std::size_t onBoards = addBlackboards(scenario, robots);
   out["robots"] = std::move(robots);

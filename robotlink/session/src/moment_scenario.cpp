@@ -2,6 +2,7 @@
 #include <robotlink/session/moment_scenario.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -10,6 +11,7 @@
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/cognition/referee_orders.h>
 #include <robotlink/frame/build_robot.h>
+#include <robotlink/live/board_columns.h>
 #include <robotlink/scenario/moment_writes.h>
 #include <simcore/world/limits.h>
 #include <simcore/world/places.h>
@@ -32,6 +34,7 @@ class Maker {
     pushApart();
     takeBall();
     takeGame();
+    m_out.scenario.writes.insert(m_out.scenario.writes.begin(), m_boards.begin(), m_boards.end());
     return std::move(m_out);
   }
 
@@ -117,7 +120,32 @@ class Maker {
     }
     number(out, name);
     place(out, name);
+    takeBoard(robot, out.identity.id, name);
     m_out.scenario.robots.push_back(std::move(out));
+  }
+
+  /// Its blackboard begins as it was.
+  void takeBoard(const RobotFrame& robot, RobotId id, const std::string& name) {
+    if (!robot.board.names) return;
+    std::size_t unknown = 0;
+    for (std::size_t i = 0; i < robot.board.values.size(); ++i) {
+      const std::string& variable = (*robot.board.names)[i];
+      const Variable* known = m_options.catalog->find(variable);
+      if (known == nullptr) ++unknown;
+      if (known == nullptr || variable == refereeVariable) continue;
+      double value = robot.board.values[i];
+      if (known->type == VariableType::Float) {
+        // A hole in a row is "not seen" on the blackboard.
+        const auto word = std::bit_cast<std::uint32_t>(static_cast<float>(value));
+        value = static_cast<double>(std::bit_cast<float>(BoardColumns::boardWord(variable, word)));
+      } else if (value != std::round(value)) {
+        continue;
+      }
+      if (std::isfinite(value)) m_boards.push_back({id, variable, value, 0.0});
+    }
+    if (unknown == 0) return;
+    note(name + " sent " + std::to_string(unknown) + (unknown == 1 ? " variable" : " variables") +
+         " that this match's map does not have.");
   }
 
   /// Numbers that are free and that a match has.
@@ -313,6 +341,7 @@ class Maker {
   const MatchFrame& m_frame;
   const MomentOptions& m_options;
   MomentScenario m_out;
+  std::vector<BlackboardWrite> m_boards;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <base/angles.h>
 #include <robotlink/frame/build_robot.h>
 #include <robotlink/frame/drawing_origin.h>
+#include <robotlink/frame/join_boards.h>
 #include <robotlink/live/attached_robots.h>
 #include <robotlink/scenario/scenario.h>
 #include <robotlink/session/session_choice.h>
@@ -52,6 +53,20 @@ const RecordedFrames::Layout& RecordedFrames::layoutOf(std::size_t group) {
 }
 
 MatchFrame RecordedFrames::frameAt(const telemetry::SeriesStore& rows, double time) {
+  std::vector<RobotFrame> boards;
+  MatchFrame frame = rowFrameAt(rows, time, boards);
+  joinBoards(frame, std::move(boards));
+  return frame;
+}
+
+std::vector<RobotFrame> RecordedFrames::boardsAt(const telemetry::SeriesStore& rows, double time) {
+  std::vector<RobotFrame> boards;
+  (void)rowFrameAt(rows, time, boards);
+  return boards;
+}
+
+MatchFrame RecordedFrames::rowFrameAt(const telemetry::SeriesStore& rows, double time,
+                                      std::vector<RobotFrame>& boards) {
   const std::size_t count = rows.groups();
   m_groups.assign(count, nullptr);
   m_rows.resize(count);
@@ -83,7 +98,7 @@ MatchFrame RecordedFrames::frameAt(const telemetry::SeriesStore& rows, double ti
       }
     }
   };
-  MatchFrame frame = build(time, lookBack);
+  MatchFrame frame = build(time, lookBack, boards);
   m_views.clear();
   return frame;
 }
@@ -95,32 +110,27 @@ MatchFrame RecordedFrames::frameAt(const telemetry::SessionReader& session, doub
 }
 
 MatchFrame RecordedFrames::wholeFrameAt(const telemetry::SessionReader& session, double time) {
-  if (session.count(telemetry::SessionStream::LiveState) == 0) return rowFrameAt(session, time);
-  auto seen = m_live.frameAt(SessionHistory(session), time);
-  if (!seen) return rowFrameAt(session, time);
-  seen->serial = ++m_serial;
-  // Robots that are this computer send nothing: their blackboards are rows.
-  const bool hasBoards = std::ranges::any_of(
-      session.groups(), [](const auto& group) { return attribute(group.info, "attached") == "1"; });
-  if (hasBoards) {
-    for (RobotFrame& robot : rowFrameAt(session, time).robots) {
-      if (isAttached(robot.key)) seen->robots.push_back(std::move(robot));
-    }
-    seen->teamBalls = agreedBalls(seen->robots);
+  std::optional<MatchFrame> seen;
+  if (session.count(telemetry::SessionStream::LiveState) > 0) {
+    seen = m_live.frameAt(SessionHistory(session), time);
   }
-  return std::move(*seen);
+  // Blackboards of a live match are rows, all else of it are messages.
+  std::vector<RobotFrame> boards;
+  const bool hasBoards = !seen || std::ranges::any_of(session.groups(), [](const auto& group) {
+    return attribute(group.info, "attached") == "1" || !attribute(group.info, "sent").empty();
+  });
+  MatchFrame frame;
+  if (hasBoards) frame = rowFrameAt(session, time, boards);
+  if (seen) {
+    frame = std::move(*seen);
+    frame.serial = ++m_serial;
+  }
+  joinBoards(frame, std::move(boards));
+  return frame;
 }
 
-std::vector<RobotFrame> RecordedFrames::attachedAt(const telemetry::SeriesStore& rows,
-                                                   double time) {
-  std::vector<RobotFrame> out;
-  for (RobotFrame& robot : frameAt(rows, time).robots) {
-    if (isAttached(robot.key)) out.push_back(std::move(robot));
-  }
-  return out;
-}
-
-MatchFrame RecordedFrames::rowFrameAt(const telemetry::SessionReader& session, double time) {
+MatchFrame RecordedFrames::rowFrameAt(const telemetry::SessionReader& session, double time,
+                                      std::vector<RobotFrame>& boards) {
   const auto groups = session.groups();
   m_groups.resize(groups.size());
   for (std::size_t i = 0; i < groups.size(); ++i) m_groups[i] = &groups[i].info;
@@ -135,7 +145,7 @@ MatchFrame RecordedFrames::rowFrameAt(const telemetry::SessionReader& session, d
       return true;
     });
   };
-  MatchFrame frame = build(time, lookBack);
+  MatchFrame frame = build(time, lookBack, boards);
   if (session.count(telemetry::SessionStream::Telemetry) > 0) {
     frame.drawings = m_drawings.at(SessionHistory(session), time + timeTolerance);
     keyDrawings(frame);
@@ -144,7 +154,8 @@ MatchFrame RecordedFrames::rowFrameAt(const telemetry::SessionReader& session, d
 }
 
 template <class LookBack>
-MatchFrame RecordedFrames::build(double time, LookBack&& lookBack) {
+MatchFrame RecordedFrames::build(double time, LookBack&& lookBack,
+                                 std::vector<RobotFrame>& boards) {
   MatchFrame frame;
   frame.origin = FrameOrigin::Recorded;
   frame.serial = ++m_serial;
@@ -177,30 +188,31 @@ MatchFrame RecordedFrames::build(double time, LookBack&& lookBack) {
     const auto [known, isNew] = m_lamps.try_emplace(i);
     if (jumps) known->second.jump();
     if (jumps || isNew) lookBack(i, layout, time - flagMemory, known->second);
-    addRobot(i, time, known->second, frame);
+    RobotFrame robot = robotOf(i, time, known->second, frame);
+    (layout.isBoard() ? boards : frame.robots).push_back(std::move(robot));
   }
   if (match) addGame(*match, frame);
   return frame;
 }
 
-void RecordedFrames::addRobot(std::size_t group, double time, LampMemory& lamps,
-                              MatchFrame& frame) {
+RobotFrame RecordedFrames::robotOf(std::size_t group, double time, LampMemory& lamps,
+                                   MatchFrame& frame) {
   const Layout& l = layoutOf(group);
   const telemetry::GroupInfo& info = *m_groups[group];
   const telemetry::RowView row = m_rows[group].view();
 
   const sim::RobotIdentity identity{
-      l.attached ? RobotId{} : l.robot, teamOf(info),
+      l.isBoard() ? RobotId{} : l.robot, teamOf(info),
       attributeNumber(info, "shirt", attributeNumber(info, "number", l.robot.value)),
       attribute(info, "imu180") == "1"};
-  const RobotKey key =
-      frame.freeKey(l.attached ? RobotKey{0, l.robot.value, attachedSender} : keyOf(identity));
-  RobotFrame& robot = frame.robots.emplace_back();
+  RobotFrame robot;
   robot.identity = identity;
-  robot.key = key;
+  robot.key = l.isBoard()
+                  ? RobotKey{attributeNumber(info, "place", placeByColour), identity.number, 0}
+                  : frame.freeKey(keyOf(identity));
   robot.name = identity.name();
   robot.ownName = attribute(info, "name");
-  robot.boardKey = attributeNumber(info, "key");
+  if (!attribute(info, "key").empty()) robot.boardKey = attributeNumber(info, "key");
   robot.behaviour = attribute(info, "behaviour");
   const bool truth = l.trueX.present() && l.trueY.present();
   if (truth) {
@@ -215,24 +227,34 @@ void RecordedFrames::addRobot(std::size_t group, double time, LampMemory& lamps,
   robot.statistics = {l.distance.readOr(row, 0.0), counter(l.kicks.readOr(row, 0.0)),
                       counter(l.falls.readOr(row, 0.0)), counter(l.unknownActions.readOr(row, 0.0)),
                       l.lastUnknown.readInt(row)};
-  if (l.attached) {
-    // As Live showed a robot that was its own computer.
-    const std::string_view text = attribute(info, "rate");
-    double rate = AttachedBoard().rate;
-    std::from_chars(text.data(), text.data() + text.size(), rate);
+  if (l.isBoard()) {
+    // As Live showed it.
+    const auto number = [&info](const char* name, double value) {
+      const std::string_view text = attribute(info, name);
+      std::from_chars(text.data(), text.data() + text.size(), value);
+      return value;
+    };
+    const double rate = number("rate", l.attached ? AttachedBoard().rate : 0.0);
+    const double timeout =
+        number("timeout", std::max(1.0, 2.0 / std::max(rate, AttachedBoard::slowest)));
     const double age = std::clamp(time - row.time, 0.0, longestAge);
-    robot.link =
-        boardLink(age, rate, age > std::max(1.0, 2.0 / std::max(rate, AttachedBoard::slowest)));
+    robot.link = boardLink(age, rate, age > timeout);
+    robot.link->sender.address = l.sent;
   }
   const RobotReader reader = [&](FieldMeaning meaning) -> std::optional<double> {
     // The flag of a simulated robot's control says nothing of its communication.
-    if (meaning == FieldMeaning::Control && !l.attached) return std::nullopt;
+    if (meaning == FieldMeaning::Control && !l.isBoard()) return std::nullopt;
     const double value = l.of(meaning).read(row);
     return std::isfinite(value) ? std::optional(meantBy(meaning, value)) : std::nullopt;
   };
   if (!robot.timedOut()) robot.lamps = lamps.note(reader, time);
   buildRobot(reader, frame.settings->field, truth, robot);
-  if (l.attached) robot.action = robot.decided.value_or(0);
+  if (l.isBoard()) {
+    robot.action = robot.decided.value_or(0);
+    robot.board.names = l.boardNames;
+    for (const RowSlot& slot : l.board) robot.board.values.push_back(slot.read(row));
+  }
+  return robot;
 }
 
 }  // namespace pitchboard::link

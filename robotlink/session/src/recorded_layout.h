@@ -5,7 +5,10 @@
 // robotlink.
 
 #include <array>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/row_slot.h>
@@ -27,6 +30,7 @@ struct RecordedFrames::Layout {
   explicit Layout(const telemetry::GroupInfo& group)
       : columns(group.columns.size()),
         attached(attribute(group, "attached") == "1"),
+        sent(telemetry::parseAddress(attribute(group, "sent")).value_or(telemetry::Address{})),
         // Robots of Live are made from their datagrams (LiveMoments).
         robot{attribute(group, "live") == "1" ? 0 : attributeNumber(group, "robot")},
         isMatch(robot.value == 0 && findSlot(group, {"BALL_X"}).present()) {
@@ -43,6 +47,14 @@ struct RecordedFrames::Layout {
       tickTime = findSlot(group, {"TICK_TIME"});
       game.emplace(group);
       return;
+    }
+    if (isBoard()) {
+      auto names = std::make_shared<std::vector<std::string>>();
+      for (const telemetry::ColumnInfo& column : group.columns) {
+        names->push_back(column.name);
+        board.push_back(findSlot(group, {column.name}));
+      }
+      boardNames = std::move(names);
     }
     player.emplace(group);
     trueX = findSlot(group, {"TRUE_X"});
@@ -68,10 +80,15 @@ struct RecordedFrames::Layout {
     return variables[static_cast<std::size_t>(meaning)];
   }
 
+  bool isBoard() const { return attached || sent != telemetry::Address{}; }
+
   std::size_t columns;
-  bool attached;  ///< a blackboard of the computer that recorded
+  bool attached;            ///< a blackboard of the computer that recorded
+  telemetry::Address sent;  ///< of the robot that sent this blackboard; 0: none did
   RobotId robot;
   bool isMatch;
+  std::vector<RowSlot> board;  // of a received blackboard: all of its columns
+  std::shared_ptr<const std::vector<std::string>> boardNames;
   RowSlot tick, ballX, ballY, ballVx, ballVy, clock, clockRunning, scoreLeft, scoreRight, tickTime;
   RowSlot trueX, trueY, trueYaw, headYaw, vx, vy, action, fallen, distance, kicks, falls,
       unknownActions, lastUnknown;

@@ -23,7 +23,7 @@ void RecordedFrames::addGame(std::size_t match, MatchFrame& frame) {
   for (std::size_t i = 0; i < m_groups.size(); ++i) {
     if (!m_groups[i] || !m_rows[i].present) continue;
     const Layout& layout = layoutOf(i);
-    if (layout.robot.value == 0 || layout.attached || !layout.player) continue;
+    if (layout.robot.value == 0 || layout.isBoard() || !layout.player) continue;
     if (std::abs(m_rows[i].time - m_rows[match].time) > timeTolerance) continue;
     if (const RobotFrame* robot = frame.robot(layout.robot)) {
       addPlayer(*layout.player, m_rows[i].view(), robot->identity, *world);

@@ -17,8 +17,9 @@ namespace pitchboard::link {
 namespace {
 
 constexpr std::string_view magic = "PBst";
-// 4: versions 0.8 and 0.9; 5: the game as it is now, counts of the rules as whole numbers.
-constexpr std::uint64_t version = 5, versionOf08 = 4;
+// 4: versions 0.8 and 0.9; 5: 0.10 and 0.11, restarts as one value, counts of the rules as whole
+// numbers; 6: goals by half, who came back, rules of 2026.
+constexpr std::uint64_t version = 6, versionOf010 = 5, versionOf08 = 4;
 constexpr std::size_t longestText = 256;
 // Physics stays well-behaved within this.
 constexpr double farthest = 1e6;
@@ -185,12 +186,22 @@ void readState4(sim::WorldState& state, Reader& in) {
   sim::visitWorld(state, in);
   if (in.present(state.settings.referee)) {
     RulesReader4 rules{in};
-    sim::visitRefereeRules(*state.settings.referee,
-                           [&rules](auto&... values) { (rules.value(values), ...); });
+    sim::visitRefereeRulesOfForm5(*state.settings.referee,
+                                  [&rules](auto&... values) { (rules.value(values), ...); });
   }
   if (!in.present(state.game)) return;
   readGame4(*state.game, in);
   sim::giveSlots(state.robots, *state.game);
+}
+
+void readState5(sim::WorldState& state, Reader& in) {
+  sim::visitWorld(state, in);
+  if (in.present(state.settings.referee)) {
+    sim::visitRefereeRulesOfForm5(*state.settings.referee,
+                                  [&in](auto&... values) { (in.value(values), ...); });
+    sim::visitTeamSettings(state.settings, in);
+  }
+  if (in.present(state.game)) sim::visitGameOfForm5(*state.game, in);
 }
 
 /// Whether every number of the physics is near: a match never comes near the limit.
@@ -258,6 +269,8 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
   Reader reader(in);
   if (found == versionOf08) {
     readState4(state, reader);
+  } else if (found == versionOf010) {
+    readState5(state, reader);
   } else {
     sim::visitValues(state, reader);
   }

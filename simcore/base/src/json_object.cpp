@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include <base/lined_json.h>
+#include <base/nearest_name.h>
 
 namespace pitchboard {
 namespace {
@@ -30,8 +31,9 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-/// The known name that was probably meant; empty when none is near.
-std::string_view nearest(std::string_view name, std::span<const std::string_view> known) {
+}  // namespace
+
+std::string_view nearestName(std::string_view name, std::span<const std::string_view> known) {
   if (name.size() > 64) return {};
   std::string_view best;
   // At least one letter must be right; two swapped letters count as two edits.
@@ -46,8 +48,10 @@ std::string_view nearest(std::string_view name, std::span<const std::string_view
   return best;
 }
 
+namespace {
+
 std::string hint(std::string_view name, std::span<const std::string_view> known) {
-  if (const std::string_view near = nearest(name, known); !near.empty()) {
+  if (const std::string_view near = nearestName(name, known); !near.empty()) {
     return "did you mean \"" + std::string(near) + "\"?";
   }
   if (known.size() > mostListed)

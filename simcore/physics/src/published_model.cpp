@@ -123,7 +123,7 @@ class PublishedModel : public PhysicsModel {
       const double sine = std::sin(shown.pose.yaw);
       shown.velocity = {cosine * front - sine * left, sine * front + cosine * left};
       shown.action = robot.action;
-      shown.fallen = false;
+      shown.fallen = shown.gettingUp = false;
     }
   }
 

@@ -154,6 +154,7 @@ class RigidBodyModel final : public PhysicsModel {
       described.velocity = robot.velocity;
       described.action = robot.action;
       described.fallen = rigid::isDown(robot);
+      described.gettingUp = robot.posture == Posture::GettingUp;
     }
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <simcore/world/referee_parameters.h>
 
@@ -144,13 +145,17 @@ bool isPlausible(const GameState& game, std::size_t robots) {
   const bool teams = isTeam(game.kickOff) && isTeam(game.restart.team) && isTeam(game.touch.team) &&
                      isTeam(game.dropIn.team) && isTeam(game.shooter) &&
                      (game.firstKickOff == 0 || game.firstKickOff == 1);
-  const bool times = isTime(game.clock) && isTime(game.countdown.ticks) &&
-                     isTime(game.stateTicks) && isTime(game.hidden) && isTime(game.breakLeft) &&
-                     isTime(game.dropIn.ticks);
+  const bool times =
+      isTime(game.clock) && isTime(game.countdown.ticks) && isTime(game.stateTicks) &&
+      isTime(game.hidden) && isTime(game.breakLeft) && isTime(game.dropIn.ticks) &&
+      isTime(game.touch.ticks) && std::ranges::all_of(game.watches, [&](const RobotWatch& watch) {
+        return isTime(watch.stillTicks) && isTime(watch.areaTicks) && isTime(watch.backTicks);
+      });
   const bool counts = std::all_of(game.teams.begin(), game.teams.end(), [&](const GameTeam& team) {
     return team.score >= 0 && team.score < 1'000'000 && team.penaltyShots >= 0 &&
            team.penaltyShots < 1000 && team.penalties >= 0 && team.penalties < 100'000 &&
            team.number >= 0 && team.number < 256 &&
+           std::ranges::all_of(team.byHalf, [](int n) { return n >= 0 && n < 1'000'000; }) &&
            std::ranges::all_of(team.shirts, [](int n) { return n >= 0 && n <= 1000; }) &&
            std::all_of(team.players.begin(), team.players.end(),
                        [&](const GamePlayer& p) { return isTime(p.ticksLeft); });
@@ -161,7 +166,11 @@ bool isPlausible(const GameState& game, std::size_t robots) {
 
 Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCall& call,
                          Placements& placements, std::vector<Event>& events) {
-  return RefereeTable(world, now, placements, events).call(call);
+  // Whoever calls has the game, until a GameController's next packet.
+  const bool obeyed = std::exchange(world.game->obeyed, false);
+  auto done = RefereeTable(world, now, placements, events).call(call);
+  if (!done) world.game->obeyed = obeyed;
+  return done;
 }
 
 void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& way,

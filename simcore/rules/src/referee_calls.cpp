@@ -40,7 +40,7 @@ Result<void> RefereeTable::call(const RefereeCall& call) {
     case CallKind::Goal:
       if (call.value < 0) {
         if (m_game.teams[team].score == 0) return refused("This team has no goal to take back.");
-        --m_game.teams[team].score;
+        countGoal(team, -1);
         mirror();
         report(EventKind::ScoreCorrected, m_game.leftTeam() == team ? 0 : 1);
       } else if (m_game.state != PlayState::Playing && m_game.state != PlayState::Finished) {
@@ -106,7 +106,8 @@ Result<void> RefereeTable::call(const RefereeCall& call) {
       m_game.phaseBefore = m_game.phase;
       m_game.phase = GamePhase::Timeout;
       enter(PlayState::Initial);
-      m_game.countdown = {ticks(m_rules.timeoutTime), true};
+      m_game.countdown = {ticks(call.team >= 0 ? m_rules.timeoutTime : m_rules.refereeTimeoutTime),
+                          true};
       report(EventKind::PhaseChanged, static_cast<int>(GamePhase::Timeout));
       break;
     case CallKind::Stop:

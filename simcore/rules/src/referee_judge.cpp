@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include <base/repeatable_math.h>
 
@@ -18,7 +19,14 @@ constexpr double immunity = 2.0;        // s after a pushing was given
 constexpr double foulNearBall = 1.0;    // m: a free kick, else only removal
 constexpr double alone = 1.0;           // m
 constexpr double heap = 0.1;            // m that the ball moves in a heap of robots
-constexpr double heapReach = 0.5;       // m
+constexpr double afterHeap = 10.0;      // s more, once a robot was removed from a heap
+constexpr double longBack = 30.0;       // s after a penalty that a robot is not removed from a heap
+constexpr double oneTouch = 0.2;        // s; a shorter pause is none
+constexpr double takenAway = 0.1;       // m that the ball of a set play has moved before a second
+constexpr int fewPlayers = 3;           // a team of fewer may touch the ball twice
+constexpr double enteredFor = 1.0;      // s in a crowded goal area
+constexpr double stands = 0.02;         // m that a robot moves which stands
+constexpr double standsTurned = 0.1;    // rad
 constexpr double clearTime = 10.0;      // s to leave the ball of a set play
 constexpr double atRest = 0.01;         // m/s
 constexpr double longestEnd = 10.0;     // s that a half waits for the ball
@@ -60,9 +68,17 @@ void RefereeTable::followTouches(const BallSweep&) {
     const int team = teamOf(*toucher);
     const int id = m_world.robots[*toucher].id.value;
     const bool begins = m_game.touch.robot != id;
-    m_game.touch = {id, team};
-    if (restart.kicker == 0 && team == restart.team) restart.kicker = id;
-    if (restart.kicker != 0 && restart.kicker != id) restart.passed = true;
+    const bool again = !begins && m_game.touch.ticks > ticks(oneTouch);
+    m_game.touch = {id, team, 0};
+    if (again) judgeDoubleTouch(*toucher);
+    if (restart.kicker == 0 && team == restart.team) {
+      restart.kicker = id;
+      restart.onlyTaker = true;
+    }
+    if (restart.kicker != 0 && restart.kicker != id) {
+      restart.passed = true;
+      restart.onlyTaker = false;
+    }
     // A kick-off that left the circle may be shot by who took it.
     if (restart.kind == SetPlay::None &&
         !within(m_now.ball, {}, m_field.centreCircleDiameter / 2.0)) {
@@ -74,10 +90,26 @@ void RefereeTable::followTouches(const BallSweep&) {
       penalise(*toucher, PenaltyKind::IllegalPosition);
     }
   }
-  if (!m_game.ballFree() && placed && restart.kicker != 0 &&
+  if (!m_game.obeyed && !m_game.ballFree() && placed && restart.kicker != 0 &&
       !within(m_now.ball, restart.place, m_rules.inPlayDistance)) {
     inPlay();
   }
+}
+
+/// Who took a set play and touches the ball again before anybody else.
+void RefereeTable::judgeDoubleTouch(std::size_t robot) {
+  const Restart& restart = m_game.restart;
+  const bool judged = restart.kind == SetPlay::ThrowIn || restart.kind == SetPlay::GoalKick ||
+                      restart.kind == SetPlay::CornerKick;
+  if (!m_rules.doubleTouch || !m_rules.automatic || !judged || !restart.onlyTaker ||
+      restart.kicker != m_world.robots[robot].id.value ||
+      within(m_now.ball, restart.place, takenAway)) {
+    return;
+  }
+  const int team = teamOf(robot);
+  int players = 0;
+  for (std::size_t i = 0; i < m_now.robots.size(); ++i) players += plays(i) && teamOf(i) == team;
+  if (players >= fewPlayers) beginSetPlay(SetPlay::IndirectFreeKick, 1 - team, m_now.ball);
 }
 
 /// Goals and a ball that is out. True when play does not go on as it was.
@@ -173,14 +205,15 @@ void RefereeTable::judgeRest() {
   const auto over = [this](int passed, double time) { return time > 0.0 && passed >= ticks(time); };
   if (over(g.near.ticks, m_rules.localStuckTime)) {
     std::optional<std::size_t> nearest;
-    double least = heapReach * heapReach;
+    double least = m_rules.localStuckReach * m_rules.localStuckReach;
     for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
       const double d = squared(m_now.robots[i].pose.position, m_now.ball);
-      if (!plays(i) || d > least) continue;
+      const bool isBack = g.watches[i].backTicks >= 0;
+      if (!plays(i) || d > least || isBack) continue;
       least = d;
       nearest = i;
     }
-    g.near.ticks = 0;
+    g.near.ticks = nearest ? -ticks(afterHeap) : 0;
     if (nearest) {
       penalise(*nearest, PenaltyKind::LocalStuck);
       return;
@@ -204,13 +237,17 @@ void RefereeTable::judgeRobots() {
       }
       continue;
     }
-    watch.downTicks = robot.fallen ? watch.downTicks + 1 : 0;
+    if (watch.backTicks >= 0 && ++watch.backTicks > ticks(longBack)) watch.backTicks = -1;
+    watch.downTicks = !robot.fallen ? 0 : watch.downTicks + (robot.gettingUp ? 0 : 1);
+    watch.areaTicks = isInOwnGoalArea(i) ? watch.areaTicks + 1 : 0;
     const double radius = radiusOf(i);
     const bool out = std::abs(robot.pose.position.x) > m_field.halfLength() + radius ||
                      std::abs(robot.pose.position.y) > m_field.halfWidth() + radius;
     // Who fetches a ball from the line may stand behind it.
     const bool fetches = !m_game.ballFree();
-    watch.outsideTicks = out && !fetches ? watch.outsideTicks + 1 : 0;
+    watch.outsideTicks = !out      ? 0
+                         : fetches ? std::min(0, watch.outsideTicks)
+                                   : watch.outsideTicks + 1;
     if (m_rules.fallenTime > 0.0 && watch.downTicks > ticks(m_rules.fallenTime)) {
       penalise(i, PenaltyKind::Incapable);
     } else if (m_rules.leavingTime > 0.0 && watch.outsideTicks > ticks(m_rules.leavingTime)) {
@@ -219,6 +256,29 @@ void RefereeTable::judgeRobots() {
       judgePushing(i);
     }
     if (m_game.state != PlayState::Playing) return;
+  }
+  if (!isSet && m_rules.goalAreaMost > 0) judgeGoalAreas();
+}
+
+bool RefereeTable::isInOwnGoalArea(std::size_t robot) const {
+  const Point& at = m_now.robots[robot].pose.position;
+  return -way(teamOf(robot)) * at.x > m_field.halfLength() - m_field.goalAreaLength &&
+         std::abs(at.y) < m_field.goalAreaWidth / 2.0;
+}
+
+/// Of too many in their own goal area the last to enter goes.
+void RefereeTable::judgeGoalAreas() {
+  for (int team = 0; team < 2; ++team) {
+    int inside = 0;
+    std::optional<std::size_t> last;
+    for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
+      if (teamOf(i) != team || !plays(i) || m_game.watches[i].areaTicks == 0) continue;
+      ++inside;
+      if (!last || m_game.watches[i].areaTicks < m_game.watches[*last].areaTicks) last = i;
+    }
+    if (inside > m_rules.goalAreaMost && m_game.watches[*last].areaTicks > ticks(enteredFor)) {
+      penalise(*last, PenaltyKind::IllegalPosition);
+    }
   }
 }
 
@@ -269,30 +329,51 @@ void RefereeTable::foul(std::size_t robot, PenaltyKind penalty) {
   beginSetPlay(before ? SetPlay::PenaltyKick : SetPlay::DirectFreeKick, 1 - team, m_now.ball);
 }
 
-/// At the whistle: who does not stand where it may begins beside the field.
-void RefereeTable::judgeKickOff() {
+bool RefereeTable::mayStandThere(std::size_t robot) {
+  const Point at = place(robot);
+  const int team = teamOf(robot);
+  if (m_game.setPlay() == SetPlay::PenaltyKick) {
+    return team == m_game.restart.team || player(robot)->goalkeeper ||
+           !within(at, ball(), m_rules.distanceToBall);
+  }
   const double circle = m_field.centreCircleDiameter / 2.0;
-  const bool penaltyKick = m_game.setPlay() == SetPlay::PenaltyKick;
+  const double radius = radiusOf(robot);
+  const double forward = way(team) * at.x;
+  const bool inCircle = within(at, {}, circle + radius);
+  const bool kicks = m_game.kickOff == team;
+  const bool beyond = forward > -radius && !(kicks && inCircle);
+  const bool outside = std::abs(at.x) > m_field.halfLength() + radius ||
+                       std::abs(at.y) > m_field.halfWidth() + radius;
+  const bool tooNear = !kicks && within(at, {}, circle);
+  return !beyond && !outside && !tooNear;
+}
+
+/// In READY: everybody who plays has stood for a while where it may begin.
+bool RefereeTable::allStandReady() {
+  if (m_rules.readyStillTime <= 0.0) return false;
+  bool all = true, any = false;
   for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
     if (!plays(i)) continue;
-    const Point at = place(i);
-    const int team = teamOf(i);
-    if (penaltyKick) {
-      const bool keeper = player(i)->goalkeeper && team != m_game.restart.team;
-      if (team != m_game.restart.team && !keeper && within(at, ball(), m_rules.distanceToBall)) {
-        penalise(i, PenaltyKind::IllegalPosition);
-      }
-      continue;
+    const RobotSnapshot& robot = m_now.robots[i];
+    RobotWatch& watch = m_game.watches[i];
+    const double turned = std::remainder(robot.pose.yaw - watch.setPose.yaw, 2 * std::numbers::pi);
+    if (robot.fallen || std::abs(turned) > standsTurned ||
+        !within(robot.pose.position, watch.setPose.position, stands)) {
+      watch.setPose = robot.pose;
+      watch.stillTicks = 0;
+    } else {
+      ++watch.stillTicks;
     }
-    const double radius = radiusOf(i);
-    const double forward = way(team) * at.x;
-    const bool inCircle = within(at, {}, circle + radius);
-    const bool kicks = m_game.kickOff == team;
-    const bool beyond = forward > -radius && !(kicks && inCircle);
-    const bool outside = std::abs(at.x) > m_field.halfLength() + radius ||
-                         std::abs(at.y) > m_field.halfWidth() + radius;
-    const bool tooNear = !kicks && within(at, {}, circle);
-    if (beyond || outside || tooNear) penalise(i, PenaltyKind::IllegalPosition);
+    any = true;
+    all = all && watch.stillTicks >= ticks(m_rules.readyStillTime) && mayStandThere(i);
+  }
+  return any && all;
+}
+
+/// At the whistle: who does not stand where it may begins beside the field.
+void RefereeTable::judgeKickOff() {
+  for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
+    if (plays(i) && !mayStandThere(i)) penalise(i, PenaltyKind::IllegalPosition);
   }
 }
 

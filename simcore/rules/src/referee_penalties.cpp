@@ -9,6 +9,7 @@ namespace {
 
 constexpr double spotSpacing = 0.6;  // m between robots that wait beside the field
 constexpr double occupied = 0.35;    // m
+constexpr double comingBack = 2.0;   // times as long outside as who left the field
 
 bool escalating(PenaltyKind penalty) {
   switch (penalty) {
@@ -24,10 +25,6 @@ bool escalating(PenaltyKind penalty) {
   }
 }
 
-/// These stay on the field, or have no end.
-bool staysOnField(PenaltyKind penalty) {
-  return penalty == PenaltyKind::MotionInSet || penalty == PenaltyKind::MotionInStop;
-}
 bool isForGood(PenaltyKind penalty) {
   return penalty == PenaltyKind::SentOff || penalty == PenaltyKind::Substitute ||
          penalty == PenaltyKind::Manual;
@@ -63,13 +60,18 @@ void RefereeTable::penalise(std::size_t robot, PenaltyKind penalty) {
   if (m_rules.placedAfter <= 0.0 && !staysOnField(penalty)) putOutside(robot);
 }
 
+/// Who comes back from beside the field needs a while: until it has been inside, it is not leaving.
+void RefereeTable::comesBack(std::size_t robot) {
+  RobotWatch& watch = m_game.watches[robot];
+  watch = {};
+  watch.setPose = m_now.robots[robot].pose;
+  watch.backTicks = 0;
+  watch.outsideTicks = -ticks(comingBack * m_rules.leavingTime);
+}
+
 void RefereeTable::pardon(std::size_t robot) {
-  GamePlayer& one = *player(robot);
-  one.penalty = PenaltyKind::None;
-  one.counting = one.outside = false;
-  one.ticksLeft = 0;
-  m_game.watches[robot] = {};
-  m_game.watches[robot].setPose = m_now.robots[robot].pose;
+  freeOfPenalty(*player(robot));
+  comesBack(robot);
   report(EventKind::PenaltyOver, 0, m_world.robots[robot].id);
 }
 
@@ -86,10 +88,10 @@ void RefereeTable::pardonAll(int sinceTicks) {
 void RefereeTable::putOutside(std::size_t robot) {
   GamePlayer& one = *player(robot);
   one.outside = true;
-  const bool middle = m_rules.style == RefereeStyle::Humanoid2014;
   const double own = -way(teamOf(robot));
-  const double x =
-      middle ? own * 0.5 : own * std::max(0.5, m_field.halfLength() - m_field.penaltyMarkDistance);
+  const double x = m_conduct.waitsAtHalfway
+                       ? own * 0.5
+                       : own * std::max(0.5, m_field.halfLength() - m_field.penaltyMarkDistance);
   const double side = ball().y > 0.0 ? -1.0 : 1.0;
   const double beyond = std::max(radiusOf(robot) + 0.02, m_field.border * 0.6);
   const double y = side * (m_field.halfWidth() + beyond);
@@ -123,7 +125,7 @@ void RefereeTable::runPenalties() {
       putOutside(i);
       one->counting = true;
     }
-    if (isForGood(one->penalty) || !one->counting || !runs) continue;
+    if (isForGood(one->penalty) || !one->counting || !runs || m_game.obeyed) continue;
     if (one->ticksLeft > 0) --one->ticksLeft;
     if (one->ticksLeft > 0 || (!m_rules.automatic && m_rules.countsAlways)) continue;
     pardon(i);

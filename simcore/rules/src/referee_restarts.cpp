@@ -11,11 +11,24 @@ constexpr double replacedInside = 0.4;  // m inside the lines (Humanoid League u
 
 }  // namespace
 
-void RefereeTable::goal(std::size_t team) {
+/// `goals`: 1, or −1 to take one back.
+void RefereeTable::countGoal(std::size_t team, int goals) {
   GameTeam& scorer = m_game.teams[team];
-  ++scorer.score;
-  mirror();
+  scorer.score += goals;
+  const auto period = m_game.period();
+  if (!period) return;
+  // One that is taken back may have been shot in an earlier half.
+  std::size_t half = *period;
+  while (goals < 0 && half > 0 && scorer.byHalf[half] == 0) --half;
+  scorer.byHalf[half] = std::max(0, scorer.byHalf[half] + goals);
+}
+
+void RefereeTable::goal(std::size_t team) {
   report(EventKind::Goal, m_game.leftTeam() == team ? 0 : 1);
+  if (m_game.obeyed) return;  // the GameController says whether it counts
+  GameTeam& scorer = m_game.teams[team];
+  countGoal(team, 1);
+  mirror();
   if (m_game.phase == GamePhase::ShootOut) {
     if (m_game.state != PlayState::Playing) return;
     if (static_cast<int>(team) == m_game.shooter && scorer.penaltyShots >= 1) {
@@ -81,7 +94,7 @@ void RefereeTable::beginSetPlay(SetPlay play, int team, const Point& place) {
   }
   const bool indirect = play == SetPlay::ThrowIn || play == SetPlay::IndirectFreeKick;
   m_game.restart = {
-      Restart::Step::Placing, play, team, where, 0, !(m_rules.directGoals && indirect)};
+      Restart::Step::Placing, play, team, where, 0, !(m_rules.directGoals && indirect), false};
   m_game.hidden = 0;
   if (!m_conduct.preparesSetPlays) m_game.kickOff = team;
   if (play == SetPlay::PenaltyKick && m_rules.penaltyKickReady > 0.0) {
@@ -171,6 +184,9 @@ void RefereeTable::dropBall() {
 void RefereeTable::beginShot() {
   if (m_game.shooter != GameState::nobody) {
     m_game.shooter = 1 - m_game.shooter;
+    // Both teams shoot at the same goal. Nobody is carried over: who plays is placed, the others
+    // wait outside.
+    if (m_rules.changeSides) swapSides(m_world);
   } else {
     m_game.shooter = m_game.firstKickOff;
   }
@@ -195,8 +211,8 @@ void RefereeTable::beginShot() {
     // A goalkeeper that was removed in the shoot-out misses the shots of its time.
     if (!own && one->penalty != PenaltyKind::None && one->ticksLeft > 0) continue;
     (own ? kicks : keeps) = true;
-    one->penalty = PenaltyKind::None;
-    one->outside = false;
+    freeOfPenalty(*one);
+    m_game.watches[i] = {};
     const double yaw = way(teamOf(i)) > 0.0 ? 0.0 : 3.141592653589793;
     const double x = own ? mark - way(team) * 0.6 : way(team) * (m_field.halfLength() - 0.05);
     putRobot(i, {{x, 0.0}, yaw});

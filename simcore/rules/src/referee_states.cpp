@@ -51,9 +51,10 @@ void RefereeTable::enter(PlayState state) {
   m_game.countdown = {};
   m_game.hidden = 0;
   m_game.stopped = false;
-  if (state == PlayState::Set) {
+  if (state == PlayState::Ready || state == PlayState::Set) {
     for (std::size_t i = 0; i < m_game.watches.size(); ++i) {
       m_game.watches[i].setPose = m_now.robots[i].pose;
+      m_game.watches[i].stillTicks = 0;
     }
   }
   report(EventKind::PlayStateChanged, static_cast<int>(state));
@@ -80,18 +81,19 @@ void RefereeTable::beginPlaying() {
   m_game.hidden = ticks(m_rules.playingHidden);
   using Step = Restart::Step;
   if (m_game.phase == GamePhase::ShootOut) {
-    m_game.restart = {Step::Executed, SetPlay::PenaltyKick, m_game.shooter, ball()};
+    m_game.restart = {Step::Executed, SetPlay::PenaltyKick, m_game.shooter, ball(), 0, true, false};
     return;
   }
   if (m_game.setPlay() == SetPlay::PenaltyKick) {
-    m_game.restart = {Step::Taking, SetPlay::PenaltyKick, m_game.restart.team, ball()};
+    m_game.restart = {Step::Taking, SetPlay::PenaltyKick, m_game.restart.team, ball(), 0, true,
+                      false};
     m_game.countdown = {ticks(m_rules.penaltyKickTime), true};
     return;
   }
   if (m_game.kickOff >= 0) {
     m_game.countdown = {ticks(m_rules.kickOffTime), true};
-    m_game.restart = {Step::Executed,      SetPlay::None, m_game.kickOff, ball(), 0,
-                      !m_rules.directGoals};
+    m_game.restart = {Step::Executed,       SetPlay::None, m_game.kickOff, ball(), 0,
+                      !m_rules.directGoals, false};
   }
   // REFEREE.md section 4: all at SET -> PLAYING, but not who is penalised at this whistle.
   if (m_rules.pardonsAtPlay) pardonAll(1);
@@ -118,6 +120,10 @@ void RefereeTable::changeSides() {
   mirror();
 }
 
+int RefereeTable::kickingOff(int half) const {
+  return half == 1 ? m_game.firstKickOff : 1 - m_game.firstKickOff;
+}
+
 void RefereeTable::nextHalf() {
   const GameState::Countdown shown = m_game.countdown;
   if (m_game.half == 1) {
@@ -132,7 +138,7 @@ void RefereeTable::nextHalf() {
   m_game.clock =
       ticks(m_game.phase == GamePhase::ExtraTime ? m_rules.extraHalfTime : m_rules.halfTime);
   m_game.clockUse = ClockUse::Full;
-  m_game.kickOff = m_game.half == 1 ? m_game.firstKickOff : 1 - m_game.firstKickOff;
+  m_game.kickOff = kickingOff(m_game.half);
   for (GameTeam& team : m_game.teams) team.timeouts = 0;
   report(EventKind::HalfBegan, m_game.half);
   changeSides();
@@ -179,11 +185,19 @@ void RefereeTable::runClocks() {
   if (m_game.hidden > 0) --m_game.hidden;
   if (m_game.breakLeft > 0) --m_game.breakLeft;
   if (m_game.dropIn.ticks >= 0) ++m_game.dropIn.ticks;
+  if (m_game.touch.robot != 0) ++m_game.touch.ticks;
 }
 
 /// What goes on by itself, by timers of the rules or of the automatic referee.
 void RefereeTable::whistle() {
+  if (m_game.obeyed) return;
   const bool automatic = m_rules.automatic;
+  // A half that has begun also runs out while robots walk to their places.
+  const bool waits = m_game.state == PlayState::Ready || m_game.state == PlayState::Set;
+  if (automatic && waits && clockRuns()) {
+    judgeHalf();
+    if (m_game.state == PlayState::Finished) return;
+  }
   switch (m_game.state) {
     case PlayState::Initial:
       if (!automatic || m_game.breakLeft > 0 || m_game.phase == GamePhase::Timeout) break;
@@ -194,7 +208,7 @@ void RefereeTable::whistle() {
       }
       break;
     case PlayState::Ready:
-      if (m_game.countdown.ticks <= 0) enter(PlayState::Set);
+      if (m_game.countdown.ticks <= 0 || (automatic && allStandReady())) enter(PlayState::Set);
       break;
     case PlayState::Set: {
       const bool shot = m_game.phase == GamePhase::ShootOut;

@@ -4,10 +4,12 @@
 // The referee at work on one tick or one call: the state of the game and everything its parts need.
 // Made anew each time; keeps nothing. referee_calls.cpp has the calls, referee_states.cpp the
 // machine of states, referee_restarts.cpp goals and set plays, referee_penalties.cpp penalties,
-// referee_judge.cpp what the automatic referee sees. Metres, radians, ticks.
+// referee_judge.cpp what the automatic referee sees, game_start.cpp how a game goes on. Metres,
+// radians, ticks.
 
 #include <cmath>
 
+#include <simcore/rules/game_start.h>
 #include <simcore/rules/referee.h>
 #include <simcore/world/world_state.h>
 
@@ -32,6 +34,8 @@ class RefereeTable {
 
   Result<void> call(const RefereeCall& call);
   void tick(const BallSweep& way);
+  /// game_start.cpp
+  Result<void> start(const GameStart& start);
 
  private:
   // States.
@@ -43,6 +47,7 @@ class RefereeTable {
   void nextHalf();
   void beginPhase(GamePhase phase);
   void changeSides();
+  int kickingOff(int half) const;
   void runClocks();
   void whistle();
   void afterFinished();
@@ -51,6 +56,7 @@ class RefereeTable {
 
   // Goals and restarts.
   void goal(std::size_t team);
+  void countGoal(std::size_t team, int goals);
   void beginSetPlay(SetPlay play, int team, const Point& place);
   void ballPlaced();
   void nextStep();
@@ -69,6 +75,7 @@ class RefereeTable {
   void putOutside(std::size_t robot);
   void pardonAll(int sinceTicks = 0);  ///< who has been penalised for so long
   int removalTicks(std::size_t robot, PenaltyKind penalty) const;
+  void comesBack(std::size_t robot);
 
   // Judging.
   void judge(const BallSweep& way);
@@ -78,6 +85,11 @@ class RefereeTable {
   void judgeRest();
   void judgeRobots();
   void judgeKickOff();
+  void judgeGoalAreas();
+  bool isInOwnGoalArea(std::size_t robot) const;
+  bool mayStandThere(std::size_t robot);  ///< at a kick-off or a penalty kick
+  bool allStandReady();
+  void judgeDoubleTouch(std::size_t robot);
   void judgePushing(std::size_t robot);
   void judgeSetPlay();
   void judgeHalf();
@@ -119,6 +131,18 @@ class RefereeTable {
   Placements& m_placements;
   std::vector<Event>& m_events;
 };
+
+/// Whether a robot with this penalty waits on the field.
+inline bool staysOnField(PenaltyKind penalty) {
+  return penalty == PenaltyKind::MotionInSet || penalty == PenaltyKind::MotionInStop;
+}
+
+/// It plays again; cards stay.
+inline void freeOfPenalty(GamePlayer& one) {
+  one.penalty = PenaltyKind::None;
+  one.counting = one.outside = false;
+  one.ticksLeft = one.sinceTicks = 0;
+}
 
 inline double squared(const Point& a, const Point& b) {
   const double dx = a.x - b.x, dy = a.y - b.y;

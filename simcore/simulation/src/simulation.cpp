@@ -20,6 +20,12 @@ tl::unexpected<Error> noSuchRobot(RobotId id) {
                  "There is no robot " + std::to_string(id.value) + " on the field.");
 }
 
+tl::unexpected<Error> noReferee() {
+  return failure(ErrorCode::Conflict,
+                 "This match has no referee; choose rules for it in the scenario or the Referee "
+                 "dock.");
+}
+
 tl::unexpected<Error> noSuchPhysics(const std::string& name) {
   std::string known;
   for (const PhysicsModelInfo& model : physicsModels()) {
@@ -109,11 +115,7 @@ void Simulation::carryOut() {
 }
 
 Result<void> Simulation::call(const RefereeCall& call) {
-  if (!m_state.game) {
-    return failure(ErrorCode::Conflict,
-                   "This match has no referee; choose rules for it in the scenario or the Referee "
-                   "dock.");
-  }
+  if (!m_state.game) return noReferee();
   snapshot(m_seen);
   m_placements.clear();
   TRY(callReferee(m_state, m_seen, call, m_placements, m_called));
@@ -139,6 +141,20 @@ Result<void> Simulation::setReferee(const std::optional<RefereeRules>& rules) {
   m_state.game = std::move(*game);
   m_state.score = {};
   m_state.clockRunning = false;
+  return {};
+}
+
+Result<void> Simulation::startGame(const GameStart& start) {
+  if (!m_state.game) return noReferee();
+  const WorldState before = m_state;
+  auto begun = setReferee(before.settings.referee);
+  m_placements.clear();
+  if (begun) begun = sim::startGame(m_state, m_seen, start, m_placements, m_called);
+  if (!begun) {
+    m_state = before;
+    return begun;
+  }
+  carryOut();
   return {};
 }
 

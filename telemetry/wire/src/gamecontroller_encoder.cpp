@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/wire/gamecontroller_encoder.h>
 
+#include <array>
+#include <bit>
+#include <cmath>
 #include <utility>
 
 #include "gamecontroller_layouts.h"
@@ -90,6 +93,51 @@ Result<std::string> encodeReferee(const RefereeState& state) {
                        " does not fit into the referee packet of version " +
                        std::to_string(state.version) + ".",
                    "byte " + std::to_string(bytes.bad()->first));
+  }
+  return bytes.take();
+}
+
+Result<std::string> encodeReply(const RobotReply& reply) {
+  constexpr std::size_t size1 = 16, size2 = 8, size4 = 32;
+  const std::size_t size = reply.version == 1   ? size1
+                           : reply.version == 2 ? size2
+                           : reply.version == 4 ? size4
+                                                : 0;
+  if (size == 0) {
+    return failure(ErrorCode::Unsupported, "There is no robot's reply (RGrt) of version " +
+                                               std::to_string(reply.version) + ".");
+  }
+  PacketBytes bytes(size);
+  constexpr std::array<char, 4> magic{'R', 'G', 'r', 't'};
+  bytes.text(magic);
+  bytes.put(4, 1, false, reply.version);
+  bool finite = true;
+  const auto real = [&](std::size_t offset, float value) {
+    finite = finite && std::isfinite(value);
+    bytes.put(offset, 4, true, std::bit_cast<std::int32_t>(value));
+  };
+  if (reply.version == 1) {
+    bytes.put(8, 2, false, reply.team);
+    bytes.put(10, 2, false, reply.player);
+    bytes.put(12, 4, true, reply.message.value_or(0));
+  } else if (reply.version == 2) {
+    bytes.put(5, 1, false, reply.team);
+    bytes.put(6, 1, false, reply.player);
+    bytes.put(7, 1, false, reply.message.value_or(0));
+  } else {
+    bytes.put(5, 1, false, reply.player);
+    bytes.put(6, 1, false, reply.team);
+    bytes.put(7, 1, false, reply.fallen.value_or(0));
+    const auto pose = reply.pose.value_or(std::array<float, 3>{});
+    for (std::size_t i = 0; i < pose.size(); ++i) real(8 + 4 * i, pose[i]);
+    real(20, reply.ballAge.value_or(-1.0F));
+    const auto ball = reply.ball.value_or(std::array<float, 2>{});
+    for (std::size_t i = 0; i < ball.size(); ++i) real(24 + 4 * i, ball[i]);
+  }
+  if (!finite || bytes.bad()) {
+    return failure(ErrorCode::InvalidArgument,
+                   "A number of this robot's reply does not fit into version " +
+                       std::to_string(reply.version) + ".");
   }
   return bytes.take();
 }

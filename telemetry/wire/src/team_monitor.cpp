@@ -353,6 +353,10 @@ std::optional<int> TeamMonitor::placeOf(const DatagramView& datagram,
   return m_router->placeOf(datagram, team);
 }
 
+std::optional<int> TeamMonitor::placeOf(Address sender) const {
+  return m_options.senders.allows(sender) ? m_router->placeOf(sender) : std::nullopt;
+}
+
 void TeamMonitor::arrive(Robot& robot, WallTime time) {
   if (robot.messages > 0 && since(time, robot.last) >= m_options.timeout) {
     ++robot.recoveries;
@@ -420,12 +424,12 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
   status.errorCount = robot.errors.messages();
   for (std::size_t i = 0; i < processCount; ++i) {
     const Robot::Process& process = robot.processes[i];
-    ProcessStatus& out = status.processes[i];
+    ProcessHeartbeat& out = status.processes[i];
     out.probability = process.filter.probability();
     if (!process.known) continue;
     out.since = since(now, status.timedOut ? robot.last : process.since);
     if (status.timedOut) continue;
-    out.state = process.filter.working() ? ProcessState::Working : ProcessState::Silent;
+    out.state = process.filter.working() ? HeartbeatState::Working : HeartbeatState::Silent;
   }
   if (robot.volts) status.battery = batteryAt(*robot.volts, m_options.battery, robot.highestVolts);
   if (robot.charge) {

@@ -265,4 +265,12 @@ std::optional<int> TeamRouter::placeOf(const DatagramView& datagram,
   return std::nullopt;
 }
 
+std::optional<int> TeamRouter::placeOf(Address sender) const {
+  if (m_only) return 0;
+  for (std::size_t i = 0; i < m_teams.size(); ++i) {
+    if (m_teams[i].senders.allows(sender)) return static_cast<int>(i) + 1;
+  }
+  return std::nullopt;
+}
+
 }  // namespace pitchboard::telemetry

@@ -28,7 +28,7 @@ namespace tst_processes_dock {
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
-using State = link::ProcessSummary::State;
+using State = link::ProcessState;
 
 class TestProcessesDock : public QObject {
   Q_OBJECT
@@ -313,32 +313,22 @@ class TestProcessesDock : public QObject {
     QCOMPARE(m_told.size(), 1);
   }
 
-  // Started at ×1 it follows no other speed until it is started again.
+  // At another speed than ×1 its clock is not the match's.
   void whoKeepsRealTimeIsToldWhenTheSpeedChanges() {
     const QTemporaryDir folder;
     QFile profile(folder.filePath(QStringLiteral("own.json")));
     QVERIFY(profile.open(QIODevice::WriteOnly));
     profile.write(R"({"version": 1, "name": "own", "processes": [{"name": "decision",
-      "command": ["/bin/sleep", "600"]}]})");
+      "command": ["/bin/sleep", "600"], "clock": "real"}]})");
     profile.close();
     open(oneRobot(profile.fileName()));
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
     QVERIFY(m_told.isEmpty());
-    m_controller->setSpeed(8.0);
+    m_controller->answerSpeed(8.0, MatchController::RealTimePrograms::LeaveBehind);
     QTRY_COMPARE_WITH_TIMEOUT(m_told.size(), 1, 30'000);
     QCOMPARE(m_told.front(),
-             QStringLiteral("Real time only: B1 decision. Restart to follow the match's speed."));
-    const pid_t first = process("decision").pid;
-    choose("decision", QStringLiteral("Restart"));
-    QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && process("decision").pid != first, 30'000);
-    QCOMPARE(process("decision").whyRealTime, std::string());
-    // What is opened at this speed follows from the start.
-    m_told.clear();
-    const pid_t second = process("decision").pid;
-    m_controller->restart();
-    QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && process("decision").pid != second, 30'000);
-    QCOMPARE(process("decision").whyRealTime, std::string());
-    QVERIFY(m_told.isEmpty());
+             QStringLiteral(
+                 "Real time only: B1 decision. Its runtime profile says \"clock\": \"real\"."));
   }
 };
 

@@ -20,7 +20,7 @@ class TestProcessesModel : public QObject {
     link::ProcessSummary status;
     status.id = id;
     status.name = name;
-    status.state = link::ProcessSummary::State::Running;
+    status.state = link::ProcessState::Running;
     status.pid = 4000 + id;
     return status;
   }
@@ -52,7 +52,7 @@ class TestProcessesModel : public QObject {
     QCOMPARE(text(0, ProcessesModel::Pid), QStringLiteral("4001"));
     QCOMPARE(text(0, ProcessesModel::Uptime), QStringLiteral("2 min 5 s"));
     QCOMPARE(text(0, ProcessesModel::Heartbeat), QString());
-    all[0].state = link::ProcessSummary::State::Restarting;
+    all[0].state = link::ProcessState::Restarting;
     all[0].pid = 0;
     all[0].detail = "exit code 2";
     all[0].restarts = 3;

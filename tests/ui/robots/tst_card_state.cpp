@@ -70,7 +70,7 @@ class TestCardState : public QObject {
     link::MatchFrame frame = frameOf(1);
     link::ProcessSummary process;
     process.name = "decision";
-    process.state = link::ProcessSummary::State::Running;
+    process.state = link::ProcessState::Running;
     process.foreign = true;
     process.whyRealTime =
         "the clock of the match cannot be loaded into it (static or setuid program)";
@@ -84,6 +84,23 @@ class TestCardState : public QObject {
              QStringLiteral("R2 decision keeps real time: the clock of the match cannot be loaded "
                             "into it (static or setuid program)"));
     QCOMPARE(card.tagKind, TagKind::Warning);
+  }
+
+  void aProgramThatCannotKeepUpSaysWhatItMissed() {
+    link::MatchFrame frame = frameOf(1);
+    link::ProcessSummary process;
+    process.name = "decision";
+    process.state = link::ProcessState::Running;
+    process.foreign = true;
+    process.speed = 8.0;
+    process.achieved = 3.1;
+    process.missedCycles = 12;
+    frame.robots[0].processList =
+        std::make_shared<const std::vector<link::ProcessSummary>>(1, process);
+    const CardState card = CardTracker().update(frame, 0)[0];
+    QCOMPARE(card.tag, QStringLiteral("decision reaches \u00d73.1"));
+    QCOMPARE(card.tagTip,
+             QStringLiteral("R2 decision cannot keep up with \u00d78.0 and has missed 12 cycles"));
   }
 
   void tags_data() {

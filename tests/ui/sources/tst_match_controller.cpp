@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Edits and transport of a real match with inline processes.
+#include <QFile>
 #include <QSignalSpy>
+#include <QTemporaryDir>
 #include <QUndoStack>
 #include <QtTest>
 #include <atomic>
@@ -311,6 +313,49 @@ class TestMatchController : public QObject {
     QTRY_COMPARE(errors.count(), 1);
     QCOMPARE(c.cognition(), link::Cognition::Inline);
     QTRY_COMPARE(count(c), std::size_t(6));
+  }
+
+  // A program with the computer's clock cannot follow another speed: nothing changes until it is
+  // decided what becomes of it.
+  void aChangeOfSpeedAsks() {
+    using Programs = MatchController::RealTimePrograms;
+    const QTemporaryDir folder;
+    QFile profile(folder.filePath(QStringLiteral("own.json")));
+    QVERIFY(profile.open(QIODevice::WriteOnly));
+    profile.write(R"({"version": 1, "name": "own", "processes": [{"name": "decision",
+      "command": ["/bin/sleep", "600"], "clock": "real"}]})");
+    profile.close();
+    link::Scenario scenario = link::loadScenario("one-robot").value();
+    scenario.robots[0].runtime.profile = profile.fileName().toStdString();
+    link::MatchOptions options = inside();
+    options.keyBase = testKeyBase();
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    MatchController c(options);
+    QSignalSpy asked(&c, &MatchController::askedForSpeed);
+    c.open(scenario, false);
+    const auto program = [&c] {
+      const auto all =
+          c.frame() ? c.frame()->robots[0].processes() : std::span<const link::ProcessSummary>();
+      return all.empty() ? link::ProcessSummary{} : all.front();
+    };
+    QTRY_VERIFY(program().pid != 0);
+    const int first = program().pid;
+    c.setSpeed(8.0);
+    QCOMPARE(asked.count(), 1);
+    QCOMPARE(asked[0][0].toStringList(), QStringList{QStringLiteral("B1 decision")});
+    QCOMPARE(asked[0][1].toDouble(), 8.0);
+    QCOMPARE(c.speed(), 1.0);
+    c.setSpeed(1.0);
+    QCOMPARE(asked.count(), 1);
+    c.answerSpeed(8.0, Programs::LeaveBehind);
+    QCOMPARE(c.speed(), 8.0);
+    QVERIFY(!c.waitsForTeamPrograms());
+    QCOMPARE(program().pid, first);
+    c.answerSpeed(4.0, Programs::RestartWithMatchTime);
+    QTRY_VERIFY(program().pid != 0 && program().pid != first && program().whyRealTime.empty());
+    c.setSpeed(2.0);
+    QCOMPARE(c.speed(), 2.0);
+    QCOMPARE(asked.count(), 1);
   }
 };
 

@@ -119,8 +119,8 @@ class TestRuntimeMenu : public QObject {
       const link::ProcessSummary now = decisionOf(controller, 1);
       const std::string wanted =
           (words + QLatin1Char(' ') + QString::number(m_base + 100)).toStdString();
-      return now.foreign && now.state == link::ProcessSummary::State::Running &&
-             !now.lastLines.empty() && now.lastLines.back() == wanted;
+      return now.foreign && now.state == link::ProcessState::Running && !now.lastLines.empty() &&
+             now.lastLines.back() == wanted;
     };
     QTRY_VERIFY_WITH_TIMEOUT(says(QStringLiteral("first")), 30'000);
     // It is watched: what runs beside it is ours and stays, planning is not.

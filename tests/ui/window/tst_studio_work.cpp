@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
+#include <QFile>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QLabel>
@@ -200,13 +201,13 @@ class TestStudioWork : public QObject {
     };
     QVERIFY(click(QStringLiteral("Restart decision of B1")));
     QTRY_VERIFY(s.child(1, "decision").restarts == 1);
-    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessSummary::State::Running);
+    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Running);
     QVERIFY(s.child(1, "decision").pid != first.pid);
     QVERIFY(click(QStringLiteral("Stop decision of B1")));
-    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessSummary::State::Stopped);
-    QCOMPARE(s.child(1, "communication").state, link::ProcessSummary::State::Running);
+    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Stopped);
+    QCOMPARE(s.child(1, "communication").state, link::ProcessState::Running);
     QVERIFY(click(QStringLiteral("Start decision of B1")));
-    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessSummary::State::Running);
+    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Running);
     QVERIFY(click(QStringLiteral("Kill decision of B1")));
     QTRY_COMPARE(s.child(1, "decision").restarts, 3);
   }
@@ -282,6 +283,34 @@ class TestStudioWork : public QObject {
     QCOMPARE(QStringLiteral("0x%1").arg(s.controller.stateHash(), 16, 16, QLatin1Char('0')),
              outcome[QLatin1String("state_hash")].toString());
     QTRY_VERIFY(s.controller.frame()->paused);
+  }
+
+  void aChangeOfSpeedAsksAboutProgramsInRealTime() {
+    Studio s(options(link::Cognition::Inline));
+    QFile profile(s.folder.filePath(QStringLiteral("own.json")));
+    QVERIFY(profile.open(QIODevice::WriteOnly));
+    profile.write(R"({"version": 1, "name": "own", "processes": [{"name": "decision",
+      "command": ["/bin/sleep", "600"], "clock": "real"}]})");
+    profile.close();
+    link::Scenario scenario = link::loadScenario("one-robot").value();
+    scenario.robots[0].runtime.profile = profile.fileName().toStdString();
+    s.controller.open(scenario);
+    QTRY_VERIFY(s.child(1, "decision").pid != 0);
+    const int first = s.child(1, "decision").pid;
+    s.controller.setSpeed(8.0);
+    QCOMPARE(s.window.notices()->text(),
+             QStringLiteral(
+                 "B1 decision keeps real time (\"clock\": \"real\") and cannot follow \u00d78."));
+    QVERIFY(s.noticeButton(QStringLiteral("Change speed only for the others")));
+    QTest::mouseClick(s.noticeButton(QStringLiteral("Stay at \u00d71")), Qt::LeftButton);
+    QVERIFY(s.window.notices()->text().isEmpty());
+    QCOMPARE(s.controller.speed(), 1.0);
+    s.controller.setSpeed(link::MatchRunner::unlimitedSpeed);
+    QVERIFY(s.window.notices()->text().endsWith(QStringLiteral("cannot follow maximum speed.")));
+    QTest::mouseClick(s.noticeButton(QStringLiteral("Restart with match time")), Qt::LeftButton);
+    QTRY_VERIFY(s.child(1, "decision").pid != 0 && s.child(1, "decision").pid != first);
+    QCOMPARE(s.controller.speed(), link::MatchRunner::unlimitedSpeed);
+    QCOMPARE(s.child(1, "decision").whyRealTime, std::string());
   }
 };
 

@@ -9,7 +9,9 @@ namespace pitchboard::ui {
 
 class Arrivals::Keeper : public link::LiveObserver {
  public:
-  void received(const link::LiveDatagram& datagram) override { take(datagram.view); }
+  void received(const link::LiveDatagram& datagram) override {
+    if (datagram.variables == nullptr) take(datagram.view);
+  }
 
   void take(const telemetry::DatagramView& datagram) {
     if (datagram.payload.size() > longestPayload) return;

@@ -2,6 +2,7 @@
 #include <ui/live/live_bar.h>
 
 #include <QComboBox>
+#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QSettings>
 #include <QTimer>
@@ -21,7 +22,8 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
       m_settings(settings),
       m_ports(new QToolButton(this)),
       m_team(new QComboBox(this)),
-      m_monitor(new QToolButton(this)) {
+      m_monitor(new QToolButton(this)),
+      m_catalog(new QToolButton(this)) {
   constexpr int refreshMilliseconds = 500;
   m_ports->setObjectName(QStringLiteral("livePorts"));
   m_ports->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
@@ -38,12 +40,17 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
   m_monitor->setCheckable(true);
   m_monitor->setText(QStringLiteral("Monitor"));
   connect(m_monitor, &QToolButton::clicked, this, &LiveBar::switchMonitor);
+  m_catalog->setObjectName(QStringLiteral("importCatalog"));
+  m_catalog->setText(QStringLiteral("Import catalog…"));
+  m_catalog->hide();
+  connect(m_catalog, &QToolButton::clicked, this, &LiveBar::importCatalog);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(scaled(this, 8));
   row->addWidget(m_ports);
   row->addWidget(m_team);
   row->addWidget(m_monitor);
+  row->addWidget(m_catalog);
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, [this] {
     if (isVisible()) refresh();
@@ -81,6 +88,45 @@ void LiveBar::refresh() {
                 "Ask the referee's program for monitor mode (controllers of 2026). Off: nothing is "
                 "sent at all."));
   showTeams();
+  offerCatalog(details);
+}
+
+void LiveBar::offerCatalog(const link::LiveDetails& details) {
+  constexpr int mostNames = 6;
+  QStringList tip;
+  for (const link::SentStatus& sent : details.sent) {
+    if (sent.unknown.empty()) continue;
+    QStringList names;
+    for (const std::string& name : sent.unknown) {
+      if (names.size() < mostNames) names << QString::fromStdString(name);
+    }
+    const auto more = static_cast<int>(sent.unknown.size()) - mostNames;
+    if (more > 0) names << QStringLiteral("and %1 more").arg(more);
+    tip << QStringLiteral("%1 sends variables that no imported catalog has: %2.")
+               .arg(QString::fromStdString(sent.name), names.join(QStringLiteral(", ")));
+  }
+  m_catalog->setVisible(!tip.isEmpty());
+  tip << QStringLiteral(
+      "They are shown all the same. Import the team's blackboard.h, SharedMemory.py or .json to "
+      "list them in its order and with its types.");
+  m_catalog->setToolTip(tip.join(QLatin1Char('\n')));
+}
+
+void LiveBar::importCatalog() {
+  auto* ask = new QFileDialog(window(), QStringLiteral("Import catalog of variables"), {},
+                              QStringLiteral("Catalogs (*.h *.hpp *.py *.json);;All files (*)"));
+  ask->setObjectName(QStringLiteral("importCatalogDialog"));
+  ask->setAttribute(Qt::WA_DeleteOnClose);
+  ask->setFileMode(QFileDialog::ExistingFile);
+  connect(ask, &QFileDialog::fileSelected, this, [this](const QString& file) {
+    link::LiveOptions options = m_live->options();
+    const std::string path = file.toStdString();
+    std::erase(options.catalogs, path);
+    options.catalogs.push_back(path);
+    m_live->setOptions(options);  // says what is wrong with it
+    saveCatalogs(*m_settings, m_live->options().catalogs);
+  });
+  ask->open();
 }
 
 void LiveBar::showTeams() {

@@ -113,6 +113,10 @@ QWidget* LiveSettingsDialog::makeNetwork() {
                          QStringLiteral("Robot n sends to port base + n"));
   m_robots = addNumber(form, "robots", QStringLiteral("Robots"), 1, 64,
                        QStringLiteral("How many ports after the base"));
+  m_variablesPortBase = addNumber(
+      form, "variablesPortBase", QStringLiteral("Variables port base"), 0, 65534,
+      QStringLiteral("pitchboard-agent on robot n sends variables to this port base + n"));
+  m_variablesPortBase->setSpecialValueText(QStringLiteral("off"));
   m_senders = new QLineEdit(widget);
   m_senders->setObjectName(QStringLiteral("senders"));
   m_senders->setPlaceholderText(QStringLiteral("everybody"));
@@ -239,6 +243,7 @@ void LiveSettingsDialog::adopt() {
   m_bind->setAddress(QString::fromStdString(o.bind.text()));
   m_portBase->setValue(o.portBase);
   m_robots->setValue(o.robots);
+  m_variablesPortBase->setValue(o.variablesPortBase);
   m_refereePort->setValue(o.refereePort);
   m_senders->setText(saved.senders);
   m_refereeSenders->setText(saved.refereeSenders);
@@ -322,6 +327,7 @@ bool LiveSettingsDialog::read(LiveSettings& live) {
   o.bind = *bind;
   o.portBase = m_portBase->value();
   o.robots = m_robots->value();
+  o.variablesPortBase = m_variablesPortBase->value();
   o.refereePort = m_refereePort->value();
   live.senders = m_senders->text();
   auto senders = sendersFromText(live.senders);

@@ -10,7 +10,7 @@
 namespace pitchboard::ui {
 namespace {
 
-using State = link::ProcessSummary::State;
+using State = link::ProcessState;
 
 QString stateText(const link::ProcessSummary& status) {
   const QString detail = QString::fromStdString(status.detail);

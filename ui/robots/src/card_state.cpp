@@ -26,12 +26,12 @@ QString runsText(const link::RobotFrame& robot) {
 void tagProcesses(CardState& card, const link::RobotFrame& robot) {
   for (const link::ProcessSummary& one : robot.processes()) {
     const QString name = QString::fromStdString(one.name);
-    if (one.state == link::ProcessSummary::State::GivenUp) {
+    if (one.state == link::ProcessState::GivenUp) {
       card.tagKind = TagKind::Error;
       card.tag = QStringLiteral("%1 given up").arg(name);
       return;
     }
-    if (one.state == link::ProcessSummary::State::Silent) {
+    if (one.state == link::ProcessState::Silent) {
       card.tagKind = TagKind::Warning;
       card.tag = QStringLiteral("%1 silent").arg(name);
     } else if (card.tag.isEmpty() && one.foreign && one.achieved > 0.0 &&
@@ -41,6 +41,10 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
       const QString why = QString::fromStdString(one.whyRealTime);
       if (!why.isEmpty()) {
         card.tagTip = QStringLiteral("%1 %2 keeps real time: %3").arg(card.name, name, why);
+      } else {
+        card.tagTip =
+            QStringLiteral("%1 %2 cannot keep up with ×%3 and has missed %4 cycles")
+                .arg(card.name, name, numberText(one.speed, 1), countText(one.missedCycles));
       }
     }
   }
@@ -184,7 +188,7 @@ CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
   card.timedOut = robot.timedOut();
   card.battery = robot.battery;
   for (std::size_t i = 0; i < card.lamps.size(); ++i) {
-    const telemetry::ProcessStatus& lamp = robot.lamps[i];
+    const telemetry::ProcessHeartbeat& lamp = robot.lamps[i];
     const double seconds = std::min(telemetry::secondsOf(lamp.since), 1e6);
     card.lamps[i] = {lamp.state, lamp.state == LampState::Silent ? static_cast<int>(seconds) : 0};
   }

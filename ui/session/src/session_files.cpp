@@ -183,6 +183,7 @@ void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
   }
   link::MomentOptions options;
   options.poses = poses;
+  options.catalog = &m_controller->catalog();
   options.ball = poses == link::MomentOptions::Poses::True ? link::MomentOptions::Ball::True
                                                            : link::MomentOptions::Ball::Perceived;
   const auto base = scenarioBehind(*m_source, *m_controller, *m_replay);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <robotlink/frame/join_boards.h>
 #include <telemetry/series/series_store.h>
 
 namespace pitchboard::ui {
@@ -96,12 +97,8 @@ void LiveController::keepRows() {
 FramePtr LiveController::frameAt(double time) const {
   if (!m_memory) return nullptr;
   auto frame = m_moments->frameAt(*m_memory, time);
-  if (frame && m_series && !m_options.boards.empty()) {
-    // Robots that are this computer send nothing: their blackboards are rows.
-    for (link::RobotFrame& robot : m_boardFrames->attachedAt(*m_series, time)) {
-      frame->robots.push_back(std::move(robot));
-    }
-  }
+  // Blackboards are rows.
+  if (frame && m_series) joinBoards(*frame, m_boardFrames->boardsAt(*m_series, time));
   return frame ? std::make_shared<link::MatchFrame>(std::move(*frame)) : nullptr;
 }
 
@@ -117,9 +114,9 @@ std::optional<QDateTime> LiveController::clock() const {
 }
 
 QString LiveController::portsText() const {
-  auto ports = telemetry::teamPorts(m_options.team.teams, m_options.portBase, m_options.robots,
-                                    m_options.refereePort)
-                   .value_or(std::vector<std::uint16_t>{});
+  link::LiveOptions options = m_options;
+  options.monitor.reset();
+  auto ports = portsOf(options).value_or(std::vector<std::uint16_t>{});
   std::erase(ports, static_cast<std::uint16_t>(m_options.refereePort));
   std::sort(ports.begin(), ports.end());
   QStringList ranges;

@@ -55,6 +55,14 @@ LiveSettings loadLiveSettings(const QSettings& settings) {
   o.portBase = number(settings, "portBase", o.portBase);
   o.robots = number(settings, "robots", o.robots);
   o.refereePort = number(settings, "refereePort", o.refereePort);
+  o.variablesPortBase = number(settings, "variablesPortBase", o.variablesPortBase);
+  for (const QString& file : settings.value(prefix + QLatin1String("catalogs")).toStringList()) {
+    if (const auto read = link::VariableCatalog::fromFile(file.toStdString())) {
+      o.catalogs.push_back(file.toStdString());
+    } else {
+      complain(read.error());
+    }
+  }
   o.ourTeam = number(settings, "ourTeam", 0);
   o.colourByNumber = settings.value(prefix + QLatin1String("colourByNumber")).toBool();
   o.team.timeout = std::chrono::milliseconds(
@@ -107,6 +115,7 @@ LiveSettings loadLiveSettings(const QSettings& settings) {
     o.portBase = usual.portBase;
     o.robots = usual.robots;
     o.refereePort = usual.refereePort;
+    o.variablesPortBase = usual.variablesPortBase;
     o.team.teams.clear();
     o.boards.clear();
   }
@@ -122,6 +131,7 @@ void saveLiveSettings(QSettings& settings, const LiveSettings& live) {
   put("portBase", o.portBase);
   put("robots", o.robots);
   put("refereePort", o.refereePort);
+  put("variablesPortBase", o.variablesPortBase);
   put("ourTeam", o.ourTeam);
   put("colourByNumber", o.colourByNumber);
   put("timeout", std::chrono::duration<double>(o.team.timeout).count());
@@ -141,6 +151,13 @@ void saveLiveSettings(QSettings& settings, const LiveSettings& live) {
   }
   put("teams", teams);
   saveAttachedBoards(settings, o.boards);
+  saveCatalogs(settings, o.catalogs);
+}
+
+void saveCatalogs(QSettings& settings, const std::vector<std::string>& files) {
+  QStringList written;
+  for (const std::string& file : files) written << QString::fromStdString(file);
+  settings.setValue(prefix + QStringLiteral("catalogs"), written);
 }
 
 void saveAttachedBoards(QSettings& settings, const std::vector<link::AttachedBoard>& boards) {

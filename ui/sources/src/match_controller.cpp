@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include <robotlink/processes/process_manager.h>
 #include <ui/base/robot_words.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
@@ -315,7 +316,43 @@ void MatchController::runTo(std::uint64_t tick) {
   emit transportChanged();
 }
 
+/// Those whose profile says so.
+QStringList MatchController::realTimePrograms() const {
+  QStringList names;
+  if (!m_frame) return names;
+  for (const link::RobotFrame& robot : m_frame->robots) {
+    for (const link::ProcessSummary& one : robot.processes()) {
+      if (one.foreign && one.whyRealTime == link::whyRealTime(link::ProcessClock::Real)) {
+        names << robotName(robot.identity) + QLatin1Char(' ') + QString::fromStdString(one.name);
+      }
+    }
+  }
+  return names;
+}
+
 void MatchController::setSpeed(double timesRealTime) {
+  const QStringList realTime = timesRealTime != 1.0 ? realTimePrograms() : QStringList();
+  if (!realTime.isEmpty()) {
+    emit transportChanged();  // who showed the new speed shows the old one again
+    emit askedForSpeed(realTime, timesRealTime);
+    return;
+  }
+  changeSpeed(timesRealTime);
+}
+
+void MatchController::answerSpeed(double timesRealTime, RealTimePrograms what) {
+  if (what == RealTimePrograms::RestartWithMatchTime) {
+    post({.whatFailed = QStringLiteral("Could not restart the programs with match time"),
+          .carryOut =
+              [](link::SimulatedMatch& match) { return match.robots().restartWithMatchTime(); },
+          .changes = link::Changed::No});
+  } else {
+    setWaitForTeamPrograms(false);  // it would wait for them at ×1
+  }
+  changeSpeed(timesRealTime);
+}
+
+void MatchController::changeSpeed(double timesRealTime) {
   if (timesRealTime != 1.0) tellWhoWillNotFollow();
   m_speed = timesRealTime;
   if (m_runner) m_runner->setSpeed(timesRealTime);

@@ -63,6 +63,7 @@
 namespace pitchboard::ui {
 namespace {
 const QString exportTopic = QStringLiteral("export");
+const QString speedTopic = QStringLiteral("speed");
 const QString memoryKey = QStringLiteral("session/memoryMegabytes");
 constexpr int mostMemory = 65536;
 const QString recentSessionsKey = QStringLiteral("sessions/recent");
@@ -402,9 +403,6 @@ void MainWindow::connectNotices() {
                        refused = QStringLiteral("refused"), locked = QStringLiteral("locked"),
                        finished = QStringLiteral("finished"), compared = QStringLiteral("compared"),
                        test = QStringLiteral("test"), continued = QStringLiteral("continued");
-  const auto settleAll = [this](const QStringList& topics) {
-    for (const QString& topic : topics) m_notices->settle(topic);
-  };
   const auto tell = [this](const QString& topic) {
     return [this, topic](const QString& sentence) { m_notices->show({topic}, sentence); };
   };
@@ -424,17 +422,19 @@ void MainWindow::connectNotices() {
                                                                : match},
                             sentence);
           });
-  connect(m_controller, &MatchController::obeyed, m_notices, [settleAll] {
-    settleAll({refused, match});
-  });
-  connect(m_controller, &MatchController::rewound, m_notices, [settleAll] {
-    settleAll({refused, match, finished});
-  });
+  connect(m_controller, &MatchController::askedForSpeed, m_notices,
+          [this](const QStringList& programs, double wanted) { askForSpeed(programs, wanted); });
+  connect(m_controller, &MatchController::obeyed, m_notices,
+          [this] { m_notices->settle(refused); });
+  connect(m_controller, &MatchController::rewound, m_notices,
+          [this] { m_notices->settle(refused); });
   connect(m_controller, &MatchController::opened, m_notices, [this] {
     if (m_controller->isOpen()) m_notices->settle(scenario);
   });
-  connect(m_controller, &MatchController::scenarioChanged, m_notices, [this, settleAll] {
-    settleAll({match, refused, finished, continued});
+  connect(m_controller, &MatchController::scenarioChanged, m_notices, [this] {
+    for (const QString& topic : {match, refused, finished, continued, speedTopic}) {
+      m_notices->settle(topic);
+    }
     m_toldFinished = false;
   });
   // What cannot stand still or go faster goes on with a match in real time.
@@ -454,6 +454,23 @@ void MainWindow::connectNotices() {
   connect(m_files, &ScenarioFiles::failed, m_notices, tell(scenario));
   connect(m_controller, &MatchController::frameReceived, this,
           [this](const FramePtr& frame) { tellFinished(*frame); });
+}
+
+void MainWindow::askForSpeed(const QStringList& programs, double wanted) {
+  using Programs = MatchController::RealTimePrograms;
+  const QString speed = wanted == link::MatchRunner::unlimitedSpeed
+                            ? QStringLiteral("maximum speed")
+                            : QStringLiteral("×%1").arg(numberText(wanted, wanted < 1.0 ? 2 : 0));
+  const auto answer = [this, wanted](Programs what) {
+    return [this, wanted, what] { m_controller->answerSpeed(wanted, what); };
+  };
+  m_notices->show(
+      {speedTopic},
+      QStringLiteral("%1 keeps real time (\"clock\": \"real\") and cannot follow %2.")
+          .arg(programs.join(QStringLiteral(", ")), speed),
+      {{QStringLiteral("Restart with match time"), answer(Programs::RestartWithMatchTime)},
+       {QStringLiteral("Stay at ×1"), [this] { m_controller->setSpeed(1.0); }},
+       {QStringLiteral("Change speed only for the others"), answer(Programs::LeaveBehind)}});
 }
 
 // A match that stands still should not look as if it hung.

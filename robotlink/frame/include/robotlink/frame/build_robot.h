@@ -33,7 +33,7 @@ inline constexpr double flagMemory = 1.0;
 /// unknown, not silent.
 class LampMemory {
  public:
-  using Lamps = std::array<telemetry::ProcessStatus, telemetry::processCount>;
+  using Lamps = std::array<telemetry::ProcessHeartbeat, telemetry::processCount>;
   /// `time`: s, never less than before; it stands still while the processes may rest.
   const Lamps& note(const RobotReader& reader, double time);
   /// The flag of this process was set at that time, within flagMemory of the next note().

@@ -12,6 +12,7 @@
 
 #include <base/geometry.h>
 #include <base/ids.h>
+#include <telemetry/wire/gamecontroller.h>
 #include <telemetry/wire/link_health.h>
 
 namespace pitchboard::link {
@@ -92,6 +93,7 @@ struct RefereeView {
   std::optional<int> kickOffTeam;     ///< team number
   std::array<RefereeTeamView, 2> teams;  ///< left, right
   int ourTeam = 0;  ///< chosen number; 0 when none was chosen or it does not play
+  std::optional<telemetry::RefereeState> packet;  ///< all of this comes from
 };
 
 /// Where the robots of a team think that the ball is, taken together.

@@ -16,24 +16,16 @@
 #include <base/robot_key.h>
 #include <robotlink/cognition/cognition_debug.h>
 #include <robotlink/frame/live_values.h>
+#include <robotlink/processes/process_state.h>
 #include <simcore/world/snapshot.h>
 
 namespace pitchboard::link {
 
 /// One of the processes that were started for a robot.
 struct ProcessSummary {
-  enum class State : std::uint8_t {
-    Waiting,     ///< for its first start
-    Running,     ///<
-    Silent,      ///< runs, and shows no sign of life
-    Restarting,  ///< ended; it is started again
-    Ended,       ///< and is not started again
-    Stopped,     ///< by hand
-    GivenUp      ///< ended too often
-  };
   int id = 0;        ///< for orders to it
   std::string name;  ///< "decision"
-  State state = State::Waiting;
+  ProcessState state = ProcessState::Waiting;
   int pid = 0;  ///< 0 while it does not run
   int restarts = 0;
   std::string detail;                               ///< how it ended, why it does not run
@@ -46,6 +38,7 @@ struct ProcessSummary {
   double speed = 0.0;                    ///< times real time, that it is to keep; 0: ours
   double achieved = 0.0;                 ///< what it manages of that; 0: not known yet
   std::string whyRealTime;               ///< why its clocks do not follow the match; empty: they do
+  std::uint64_t missedCycles = 0;        ///< of a team's program that could not keep up
   bool operator==(const ProcessSummary&) const = default;
 };
 
@@ -57,6 +50,12 @@ struct SeenBall {
   bool operator==(const SeenBall&) const = default;
 };
 
+/// What stands on a received blackboard.
+struct BoardContents {
+  std::shared_ptr<const std::vector<std::string>> names;  ///< null: none is received
+  std::vector<double> values;  ///< of each name; exact for every int32 and float32
+};
+
 /// What is known of a robot besides where it truly is (buildRobot()).
 struct RobotView {
   /// Where it believes to stand. Of a robot whose true pose is known: while its localization works.
@@ -66,11 +65,12 @@ struct RobotView {
   std::optional<int> decided;                 ///< DECISION_ACTION_A
   std::optional<telemetry::Battery> battery;  ///< nothing: it tells no voltage
   /// Communication (of a simulated robot) or control, vision, localization, decision, IMU.
-  std::array<telemetry::ProcessStatus, telemetry::processCount> lamps{};
+  std::array<telemetry::ProcessHeartbeat, telemetry::processCount> lamps{};
   std::optional<telemetry::LinkHealth> link;  ///< of one that is heard, or whose blackboard is read
   std::optional<Penalty> penalty;             ///< as its referee says
   std::vector<ReceivedValue> values;          ///< of its message: all, in their order
   std::optional<int> boardKey;                ///< of its blackboard: System V key, 0: heap
+  BoardContents board;                        ///< of one that is attached, or sent by its robot
   std::string behaviour;
   std::string ownName;    ///< what its team calls it (team setups)
   std::string runtime;    ///< who runs, as it was chosen for it; empty: nothing was

@@ -15,12 +15,6 @@
 
 namespace pitchboard::link {
 
-/// RobotKey::sender of robots whose blackboards are read; those that are heard count from 0.
-inline constexpr int attachedSender = 1000;
-constexpr bool isAttached(const RobotKey& robot) {
-  return robot.sender >= attachedSender;
-}
-
 struct Team {
   int number = 0;                   ///< the referee's; 0: not known
   std::string name;                 ///< "RoboFEI"; empty: it has none

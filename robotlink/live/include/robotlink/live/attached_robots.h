@@ -48,9 +48,11 @@ std::vector<std::string> boardNames(const std::vector<AttachedBoard>& boards,
 /// How a robot is heard whose blackboard is read `rate` times a second; `gone`: it was removed.
 telemetry::LinkHealth boardLink(double age, double rate, bool gone);
 
+/// A sample of a blackboard, as RowView.
 struct BoardRow {
-  double time = 0.0;  ///< s, as AttachedRobots was told
+  double time = 0.0;  ///< s, of the source
   std::vector<std::uint32_t> words;
+  std::vector<double> values{};
 };
 
 /// How one board is doing.
@@ -76,8 +78,8 @@ class AttachedRobots {
   /// Attaches these and no others; a board that stays as it is goes on. They must be valid.
   /// `taken`: names that their groups must not have.
   void set(const std::vector<AttachedBoard>& boards, const std::vector<std::string>& taken = {});
-  /// Adds each board that was ever attached as a robot of the frame.
-  void addTo(MatchFrame& frame) const;
+  /// Each board that was ever attached as a robot, for joinBoards().
+  std::vector<RobotFrame> robots(const sim::FieldSpec& field) const;
   /// The rows since the last call.
   void takeRows(const BoardRowsTaker& take);
   std::vector<AttachedStatus> status() const;
@@ -93,11 +95,27 @@ class AttachedRobots {
 class BoardRowKeeper {
  public:
   explicit BoardRowKeeper(std::shared_ptr<telemetry::RowSink> sink) : m_sink(std::move(sink)) {}
-  void take(const telemetry::GroupInfo& group, std::span<const BoardRow> rows);
+  void take(const telemetry::GroupInfo& group, std::span<const BoardRow> rows) {
+    take(group.name, group, {group.name, {}}, rows);
+  }
+  /// What a group is called by now, and attributes besides its own.
+  struct Name {
+    std::string name;
+    std::map<std::string, std::string> attributes;
+    bool operator==(const Name&) const = default;
+  };
+  /// Of the board that is always called `board`.
+  void take(const std::string& board, const telemetry::GroupInfo& group, const Name& name,
+            std::span<const BoardRow> rows);
 
  private:
+  struct Known {
+    telemetry::GroupId id = 0;
+    Name name;
+    std::size_t columns = 0;
+  };
   std::shared_ptr<telemetry::RowSink> m_sink;
-  std::map<std::string, telemetry::GroupId> m_groups;
+  std::map<std::string, Known> m_groups;
 };
 
 }  // namespace pitchboard::link

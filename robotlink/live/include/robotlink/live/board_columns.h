@@ -18,7 +18,8 @@ namespace pitchboard::link {
 /// A value that does not change; any thread.
 class BoardColumns {
  public:
-  explicit BoardColumns(const VariableCatalog& catalog);
+  explicit BoardColumns(const VariableCatalog& catalog) : BoardColumns(catalog.variables()) {}
+  explicit BoardColumns(std::span<const Variable> variables);
 
   const std::vector<telemetry::ColumnInfo>& columns() const { return m_columns; }
   std::size_t size() const { return m_words.size(); }

@@ -5,9 +5,11 @@
 // drawings and rows. The watch feeds it from sockets, the command line also from files. It has no
 // thread, no socket and no clock; times are seconds since a moment of the source. Not thread-safe.
 
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <robotlink/live/attached_robots.h>
@@ -15,6 +17,7 @@
 #include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_state.h>
 #include <robotlink/live/live_watch.h>
+#include <robotlink/live/sent_boards.h>
 
 namespace pitchboard::link {
 
@@ -72,6 +75,10 @@ class LivePipeline {
  private:
   double seconds(telemetry::WallTime time) const { return telemetry::secondsOf(time - m_zero); }
   void takeReferee(const telemetry::DatagramView& datagram);
+  void takeVariables(const telemetry::DatagramView& datagram);
+  void addBoards(MatchFrame& frame, AttachedRobots* attached, telemetry::WallTime now);
+  void useCatalogs();
+  void reportSent(telemetry::WallTime now);
   void tell(const LiveDatagram& datagram);
   void tell(const std::vector<MatchEvent>& events);
   void sendSnapshot(telemetry::WallTime now);
@@ -84,10 +91,17 @@ class LivePipeline {
   LiveEvents m_events;
   std::shared_ptr<RowFan> m_fan = std::make_shared<RowFan>();
   telemetry::LiveRows m_rows;
-  BoardRowKeeper m_boardRows;
-  double m_nextReport = 0.0, m_nextSnapshot = 0.0;  // s
+  SentBoards m_sent;
+  BoardRowKeeper m_boardRows, m_sentHealth;
+  std::map<RobotKey, std::string> m_boardNames;  // robots whose blackboards are received
+  /// Senders of variables with their numbers, and the robots that they are.
+  using SentKey = std::pair<telemetry::Address, int>;
+  std::map<SentKey, RobotKey> m_sentRobots;
+  double m_nextReport = 0.0, m_nextSnapshot = 0.0, m_nextSentReport = 0.0;  // s
   std::uint64_t m_serial = 0, m_unknownReferee = 0, m_refusedReferees = 0;
   std::string m_unknownReason, m_unknownSample;
+  std::uint64_t m_badVariables = 0, m_refusedVariables = 0;
+  std::string m_badReason;
   LiveNews m_news;
   std::vector<std::shared_ptr<LiveObserver>> m_observers;
 };

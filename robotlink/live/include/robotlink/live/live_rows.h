@@ -32,12 +32,15 @@ struct LiveRowsOptions {
   link::Teams teams;  ///< for the names of the groups
   /// Further attributes of its group; empty function: none.
   std::function<std::map<std::string, std::string>(const RobotKey&)> attributes;
+  /// Robots whose blackboards are received, too, with the names of those rows.
+  std::map<RobotKey, std::string> boards{};
 };
 
 /// Not thread-safe: lives beside the TeamMonitor. Attributes of a robot's group: "number", "sender"
 /// (its address), "live" = "1", "team" = its colour where that is known; of its link group: "link"
-/// = name of the robot's group. Another program that uses the number at the same time is "Robot 3
-/// (2)".
+/// = name of the robot. Another program that uses the number at the same time is "Robot 3 (2)". The
+/// messages of a robot whose blackboard is received, too, are "Robot 3 telemetry": its variables
+/// are "Robot 3".
 class LiveRows {
  public:
   static constexpr std::size_t maxColumns = 200;  ///< of a robot, over all its profiles

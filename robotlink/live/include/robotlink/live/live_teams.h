@@ -4,6 +4,7 @@
 // What Live makes of team setups: whose a robot is, in which colour, under which name its rows
 // stand, and in which units its blackboard variables are. Pure functions; any thread.
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -27,8 +28,9 @@ TeamColor drawnColour(const LiveOptions& options, const RobotKey& robot, const T
 /// What its team calls it; empty: nothing.
 std::string ownNameOf(const LiveOptions& options, const RobotKey& robot);
 
-/// How the groups of rows are called and described.
+/// How the groups of rows are called and described; `boards`: LiveRowsOptions::boards.
 telemetry::LiveRowsOptions rowsOptions(const LiveOptions& options, Teams teams,
-                                       telemetry::WallTime zero);
+                                       telemetry::WallTime zero,
+                                       std::map<RobotKey, std::string> boards = {});
 
 }  // namespace pitchboard::link

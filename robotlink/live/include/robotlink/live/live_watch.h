@@ -17,7 +17,9 @@
 #include <robotlink/frame/teams.h>
 #include <robotlink/live/attached_robots.h>
 #include <robotlink/live/live_rows.h>
+#include <robotlink/live/sent_boards.h>
 #include <simcore/simulation/simulation.h>
+#include <telemetry/pb2/pb2.h>
 #include <telemetry/wire/gamecontroller.h>
 #include <telemetry/wire/live_clock.h>
 #include <telemetry/wire/monitor_request.h>
@@ -33,6 +35,8 @@ struct LiveOptions {
   int portBase = 1240;        ///< robot n sends to portBase + n
   int robots = 16;            ///< ports after the base
   int refereePort = 3838;
+  /// Robot n sends its variables to this port + n (docs/AGENT.md); 0: none are received.
+  int variablesPortBase = telemetry::pb2PortBase;
   int refereeVersion = 0;                    ///< the only one to be shown; 0: the highest
   telemetry::SenderFilter refereeSenders{};  ///< who may be the referee; the robots' is in `team`
   telemetry::Profile profile = telemetry::publishedProfile();
@@ -42,11 +46,14 @@ struct LiveOptions {
   bool colourByNumber = false;         ///< as the published telemetry: a colour for each number
   sim::FieldSpec field;
   std::vector<AttachedBoard> boards;          ///< of robots that are this computer
+  std::vector<std::string> catalogs;          ///< files; of variables that robots send
   std::optional<telemetry::Address> monitor;  ///< the referee to ask for monitor mode; empty: off
   std::uint16_t monitorPort = telemetry::monitorRequestPort;
 };
 
-/// Refuses ports that do not exist or collide. Error InvalidArgument.
+/// All ports that are received. Refuses those that do not exist or collide: Error InvalidArgument.
+Result<std::vector<std::uint16_t>> portsOf(const LiveOptions& options);
+/// Refuses ports as portsOf(), and files that cannot be read.
 Result<void> validate(const LiveOptions& options);
 
 /// More than a frame says, for status line and tables.
@@ -60,9 +67,13 @@ struct LiveDetails {
   std::string unknownRefereeSample;
   Teams teams;  ///< for robotName()
   std::vector<AttachedStatus> boards;
-  std::uint64_t refusedReferees = 0;  ///< datagrams of senders that are not on the referee's list
-  std::string monitorProblem;         ///< why the last monitor request was not sent
-  telemetry::LiveRows::Refused rows;  ///< rows and values beyond the limits, since clear()
+  std::vector<SentStatus> sent;        ///< variables that robots send
+  std::uint64_t badVariables = 0;      ///< datagrams on their ports that could not be read
+  std::string badVariablesReason;      ///< of the last one
+  std::uint64_t refusedVariables = 0;  ///< of senders that are not on the list, or too many robots
+  std::uint64_t refusedReferees = 0;   ///< datagrams of senders that are not on the referee's list
+  std::string monitorProblem;          ///< why the last monitor request was not sent
+  telemetry::LiveRows::Refused rows;   ///< rows and values beyond the limits, since clear()
 };
 
 /// What is new since it was asked for the last time, in the order in which it is to be shown.
@@ -86,6 +97,9 @@ struct LiveDatagram {
   /// As in the frames; number 0 if it does not say who it is.
   RobotKey robot{};
   std::optional<std::string> drawingProblem{};  ///< why its drawing cannot be shown
+  /// What came to a port of variables; null: it came to another one.
+  const Result<telemetry::Pb2Message>* variables = nullptr;
+  std::optional<SentBoards::Verdict> variablesVerdict{};  ///< empty: they could not be read
 
   bool isStranger() const { return verdict == Verdict::SenderRefused; }
   /// The referee's state; null if it is none.

@@ -33,11 +33,11 @@ struct MatchOptions {
   ProcessOptions process;       ///< for the processes; the ports are the match's
   bool cognitionDebug = false;  ///< hear particles and paths, for display
   RobotsPace pace = RobotsPace::LockStep;
-  /// Times real time, with which it begins; 0 = as fast as possible. A team's programs that are
-  /// started at 1 keep real time. MatchRunner plays at it, others say it by setPlaying().
+  /// Times real time, with which it begins; 0 = as fast as possible. MatchRunner plays at it,
+  /// others say it by setPlaying().
   double speed = 1.0;
-  /// Played at ×n, the match slows down to what a team's own programs manage.
-  bool waitForTeamPrograms = false;
+  /// The match slows down to what a team's own programs manage.
+  bool waitForTeamPrograms = true;
   /// Reference processes are told where their team attacks; else they find out.
   bool tellSides = true;
   /// Of robots of which neither the scenario nor their behaviour says who runs.
@@ -47,6 +47,9 @@ struct MatchOptions {
   bool sendReferee = false;
   /// Instead of its own referee, the match obeys a GameController that is heard on this port.
   std::optional<int> obeyReferee;
+  /// Robots answer that GameController (RGrt), so that its screen shows them online: to this port
+  /// of its computer, or 0 for the port of the packets' version. Nothing: they stay silent.
+  std::optional<int> answerReferee{};
 };
 
 }  // namespace pitchboard::link

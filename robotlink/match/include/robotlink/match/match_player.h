@@ -35,7 +35,8 @@ class MatchPlayer {
   void stopObserving(const std::shared_ptr<TickObserver>& observer);
   std::span<const std::shared_ptr<TickObserver>> observers() const { return m_observers; }
 
-  /// 1 = real time, from `now` on.
+  /// 1 = real time, from `now` on; slower while a team's own programs cannot keep up
+  /// (MatchOptions::waitForTeamPrograms).
   void setSpeed(double timesRealTime, Clock::time_point now);
 
   struct Played {
@@ -43,14 +44,17 @@ class MatchPlayer {
     Clock::duration busy{};
     Clock::time_point next{};  ///< when to play on; in the past: at once
   };
-  /// Plays what is due at `now`, for some milliseconds at most and not past `lastTick`. As fast as
-  /// possible, it first waits until a team's programs are there: see awaitPrograms().
+  /// Plays what is due at `now`, for some milliseconds at most and not past `lastTick`. First it
+  /// waits until a team's programs are there: see awaitPrograms().
   Played play(Clock::time_point now, std::uint64_t lastTick = noLastTick);
-  /// A team's program has yet to attach to its blackboard: do not go on, ask again soon. The first
-  /// time it plays a tick, so that there is something to be seen.
+  /// A team's program is not there yet (ProcessPace::awaitsPrograms()): do not go on, ask again
+  /// soon. The first time it plays a tick, so that there is something to be seen.
   bool awaitPrograms(Clock::time_point now);
   /// One tick, whatever the pace.
   void tick();
+  /// Looks after the robots' processes, and tells the observers what they wrote and what happened
+  /// to them. About 20 times a second, also while the match stands still.
+  void lookAfterProcesses(Clock::time_point now);
   /// Tells the observers what has happened between ticks: processes that ended, orders by hand,
   /// and what was drawn.
   void tellEvents();
@@ -60,9 +64,15 @@ class MatchPlayer {
   void worldChanged();
 
  private:
+  bool await(ProcessPace::Await whom, Clock::time_point now);
+  void setPace(double timesRealTime, Clock::time_point now);
+  void followPrograms(Clock::time_point now);
+  void tellLines(Clock::time_point now);
+
   SimulatedMatch m_match;
   Pacer m_pacer;
-  double m_speed = unlimitedSpeed;
+  double m_wanted = unlimitedSpeed, m_speed = unlimitedSpeed;
+  Clock::time_point m_followed{};
   bool m_awaits = false;
   std::vector<std::shared_ptr<TickObserver>> m_observers;
   std::vector<MatchEvent> m_events;  // scratch of tellEvents()

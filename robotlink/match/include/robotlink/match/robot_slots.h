@@ -60,6 +60,7 @@ struct RobotSetup {
   RuntimeChoice choice;            ///< as told for this robot; may be nothing
   RuntimeProfile runtime;          ///< what that means
   bool extended = false;           ///< its decision knows the extension of the map
+  IntVar cycle{-1};                ///< in which its program says that it has finished its cycle
   bool facesLeft = false;          ///< what its processes were told
   std::vector<std::shared_ptr<SlotProcess>> processes;
 };
@@ -70,6 +71,10 @@ struct RobotSlot : RobotSetup {
   Blackboard board = Blackboard::onHeap();
   RefereeOrders orders;
   std::size_t turn = 0;  ///< of `processes`, within a tick
+  // Of a robot with `cycle`: see CycleWait.
+  bool cooperates = false;      ///< its program has told that it is there
+  bool hasMissedCycle = false;  ///< since it was started
+  std::optional<std::chrono::steady_clock::time_point> awaitedSince{};  ///< at the beginning
 };
 
 class RobotSlots {
@@ -87,6 +92,8 @@ class RobotSlots {
   const sim::RobotIdentity& identityOf(RobotId id) const;
   /// Which kind of robot it is; null when there is no such robot.
   const sim::RobotModel* model(RobotId id) const;
+  /// How long its programs may be silent, s.
+  static double silentAfter(const RobotSlot& slot);
   /// Robots whose processes nobody here has started, so that they do not stop with the match.
   std::vector<sim::RobotIdentity> ofOthers() const;
 
@@ -105,6 +112,9 @@ class RobotSlots {
   Result<void> setIdentity(const sim::RobotIdentity& identity);
   /// Another kind of robot from now on; its processes start again when they have to know.
   Result<void> setModel(RobotId id, const sim::RobotModel& model);
+  /// Programs whose profile says "clock": "real" start again with the match's time; until another
+  /// runtime is chosen for the robot.
+  Result<void> restartWithMatchTime();
   /// Starts a process of the robot anew, separate or not; NotFound when it has none of that name.
   Result<void> restartProcess(RobotId id, const std::string& process);
 
@@ -138,6 +148,7 @@ class RobotSlots {
   bool sharesBoard(const RobotSlot& slot) const;
   Result<void> identify();
   Result<void> checkShirt(const sim::RobotIdentity& identity) const;
+  Result<IntVar> cycleOf(const RobotSlot& slot) const;
   bool wants(const RobotSlot& slot, const ProfileProcess& process) const;
   Result<void> startMissing(RobotSlot& slot, std::vector<SlotProcess*>& started);
   Result<void> start(RobotSlot& slot, SlotProcess& process);

@@ -87,6 +87,11 @@ class SimulatedMatch {
   /// separate ones do at their next turn. Errors leave the match as it was.
   Result<void> restore(const Moment& moment);
 
+  /// The same match played again has the same result. False once a team's program has played that
+  /// the match does not wait for, or that did not finish a cycle in time, or while processes run
+  /// freely.
+  bool isRepeatable() const;
+
   /// What the reference processes remember after this tick; null when none run inside.
   std::shared_ptr<const RobotsMemory> robotsMemory() const;
 

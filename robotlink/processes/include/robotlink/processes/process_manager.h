@@ -9,7 +9,9 @@
 // (communication clears it once a second; without communication nobody would, so the manager does);
 // the kernel's count of its sleeps, for a process without such a variable; the caller, who knows
 // better (a match that gives it turns); or nobody. A process that somebody else stopped (SIGSTOP)
-// is silent, too.
+// is silent, too. A team's program that runs on the match's time is given match time to show it,
+// and one with a variable is judged only after it has set it once: it may block before its first
+// cycle.
 //
 // A process that has to be started again waits first: `firstWait`, twice as long every time, at
 // most `longestWait`; after `steadyAfter` of work it counts as sound again.
@@ -25,6 +27,7 @@
 
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/processes/child_process.h>
+#include <robotlink/processes/process_state.h>
 #include <robotlink/processes/program_clock.h>
 #include <robotlink/processes/runtime_profile.h>
 
@@ -44,28 +47,17 @@ struct ManagedProcess {
   bool clears = false;     ///< the manager clears it
   Seconds silentAfter{5};  ///< or stopped by somebody for so long
   bool watchFile = false;  ///< starts again when its program is replaced
-  bool ownTime = false;    ///< a foreign program, whose clocks may follow setSpeed()
+  bool ownTime = false;    ///< a foreign program, whose clocks follow setTime()
   /// Called before every start; may change what is started.
   std::function<Result<void>(ChildSpec&)> prepare{};
 };
 
-enum class ProcessState : std::uint8_t {
-  Waiting,     ///< for its first start
-  Running,     ///<
-  Silent,      ///< runs, and shows no sign of life
-  Restarting,  ///< ended; it is started again
-  Ended,       ///< and is not started again
-  Stopped,     ///< by hand
-  GivenUp      ///< ended too often
-};
-
 /// Whose time the clocks of a foreign program tell.
 enum class ProcessClock : std::uint8_t {
-  Match,             ///< they follow setSpeed()
-  Real,              ///< real time, as its profile asks
-  RealUntilRestart,  ///< real time, because it was started at ×1
-  RealNoLibrary,     ///< real time, because our library is not installed
-  RealNotLoaded      ///< real time, because our library cannot be loaded into it
+  Match,          ///< they follow setTime()
+  Real,           ///< real time, as its profile asks
+  RealNoLibrary,  ///< real time, because our library is not installed
+  RealNotLoaded   ///< real time, because our library cannot be loaded into it
 };
 
 /// Why the clocks of a program do not follow the match, as a clause; empty if they do.
@@ -92,8 +84,14 @@ struct ProcessStatus {
   /// What it manages of that, times real time: less than `speed` when it cannot keep up, at most 1
   /// when its clocks keep real time. 0: nobody has seen yet how often it works when it can.
   double achieved = 0.0;
+  /// Of a foreign program, since it was started: cycles that it did, and those that it would have
+  /// done in the same time of its own if it had kept up.
+  std::uint64_t cycles = 0, missedCycles = 0;
   bool operator==(const ProcessStatus&) const = default;
 };
+
+/// A team's program that does less than 95 % of what it would at the speed that it is to keep.
+bool fallsBehind(const ProcessStatus& program);
 
 enum class ProcessNewsKind : std::uint8_t {
   Started,
@@ -164,12 +162,9 @@ class ProcessManager {
   /// Foreign programs: stopped and continued with the match. Clocks that keep real time go on
   /// meanwhile, as those of a computer that was suspended.
   void setPaused(bool paused, Time now);
-  /// How fast the clocks of foreign programs run, times real time.
-  void setSpeed(double speed, Time now);
-  /// Whether the clocks of foreign programs that are started from now on can follow setSpeed().
-  /// When not (the default) nothing is loaded into them, and they keep real time until they are
-  /// started again.
-  void setClocksFollow(bool follow) { m_clocksFollow = follow; }
+  /// How long the match has been played (s), and how fast it is played, times real time: clocks and
+  /// time limits of foreign programs follow. Call it about 20 times a second.
+  void setTime(double matchSeconds, double speed, Time now);
 
   /// All, in the order in which they were added. A new `version()` tells that something changed.
   std::vector<ProcessStatus> statuses() const;
@@ -193,6 +188,8 @@ class ProcessManager {
     bool everStarted = false;
     Time due{};  // of the next start
     Time lastSign{}, stoppedSince{};
+    double lastSignMatch = 0.0;  // s of the match
+    bool everSigned = false;     // since it was started
     RestartRule::Seconds wait{};
     int inARow = 0;  // restarts without steady work in between
     std::uint64_t sleeps = 0;
@@ -201,6 +198,9 @@ class ProcessManager {
     double readySeconds = 0.0;
     std::uint64_t sampledSleeps = 0;
     Time sampled{};
+    double sampledSeconds = 0.0;          // of its own time
+    double missedCycles = 0.0;            // before rounding
+    std::optional<double> matchStart;     // s of the match at which its own time was 0
     std::string programStamp, newStamp;   // of the program's file when it was started, and since
     std::unique_ptr<ProgramClock> clock;  // null: its clocks keep real time
     bool sawLibrary = false;              // in the program
@@ -216,9 +216,13 @@ class ProcessManager {
   void watch(Entry& entry, Time now);
   void watchFile(Entry& entry, Time now);
   void sample(Entry& entry, Time now);
-  void measurePace(Entry& entry, const ProcessUse& use, double seconds);
+  void measurePace(Entry& entry, const ProcessUse& use, double seconds, double ownSeconds);
   void giveClock(Entry& entry, ChildSpec& spec, Time now);
-  void askForSpeed(Entry& entry);
+  void askForSpeed(Entry& entry, Time now);
+  void steer(Entry& entry, Time now) const;
+  void showSign(Entry& entry, Time now) const;
+  bool isSilent(const Entry& entry, Time now) const;
+  static double ownSeconds(const Entry& entry, Time now);
   void lookForLibrary(Entry& entry, Time now);
   void silenced(Entry& entry, Time now, const std::string& detail);
   void addNews(const Entry& entry, ProcessNewsKind kind, const std::string& detail = {});
@@ -237,7 +241,7 @@ class ProcessManager {
   std::uint64_t m_version = 1;
   int m_nextId = 1;
   bool m_paused = false;
-  bool m_clocksFollow = false;
+  double m_matchSeconds = 0.0;
   double m_speed = 1.0;
 };
 

@@ -66,6 +66,9 @@ struct RuntimeProfile {
   std::map<std::string, std::string> values;  ///< of ${...} in commands; a choice may set them
   std::vector<ProfileProcess> processes;      ///< in the order of starting
   bool hearsReferee = false;  ///< one of them writes COM_REFEREE; else a refereed match does
+  /// Variable in which one of them says that it has finished its cycle, so that the match waits for
+  /// it (docs/ROBOTS.md); may hold ${...}; empty: nobody is waited for.
+  std::string cycle;
   /// It has programs that are not ours, or leaves the robot to somebody else's.
   bool hasOwn() const;
   /// Its decision is ours, which knows the extension of the map.

@@ -33,13 +33,21 @@ struct BlackboardWrite {
 /// Behaviour of a robot without a decision process: for a team's own process, or an obstacle.
 constexpr std::string_view noBehaviour = "none";
 
+/// Where a robot believes that it is.
+struct ScenarioBelief {
+  Pose pose;
+  double sigma = 0.0;  ///< m, spread of its particles
+  bool operator==(const ScenarioBelief&) const = default;
+};
+
 struct ScenarioRobot {
   sim::RobotIdentity identity;
   Pose pose;
   std::string behaviour = "striker";  ///< a name of behaviours(), or noBehaviour
   RuntimeChoice runtime{};            ///< who runs; not chosen: as its team
   sim::RobotModel model{};
-  BehaviourParameters parameters{};  ///< of its behaviour
+  BehaviourParameters parameters{};        ///< of its behaviour
+  std::optional<ScenarioBelief> belief{};  ///< nothing: it has to find out
   bool operator==(const ScenarioRobot&) const = default;
 };
 
@@ -62,6 +70,8 @@ struct Scenario {
   bool clockRunning = true;
   double clock = 0.0;  ///< s of play so far, at least 0
   sim::Score score;
+  /// With a referee: where in a game it begins, with clock and score. Nothing: before the match.
+  std::optional<sim::GameStart> game{};
   std::vector<BlackboardWrite> writes;  ///< in order of time
   StopConditions stop;
   std::map<TeamColor, RuntimeChoice> runtimes;  ///< of teams; left out: as the match is played

@@ -22,6 +22,9 @@ struct MomentOptions {
   /// Physics, noise, stop conditions and scripted writes are taken over from here; the field too,
   /// unless the frame has one of another size.
   const Scenario* base = nullptr;
+  /// The map of the match that will start: what robots had on received blackboards is written
+  /// there, but for the referee's words.
+  const VariableCatalog* catalog = &VariableCatalog::published();
 };
 
 struct MomentScenario {

@@ -35,19 +35,22 @@ class RecordedFrames {
   /// datagrams. origin is Recorded, serial grows.
   MatchFrame frameAt(const telemetry::SeriesStore& rows, double time);
   MatchFrame frameAt(const telemetry::SessionReader& session, double time);
-  /// Of the first one only the robots whose blackboard was read on this computer.
-  std::vector<RobotFrame> attachedAt(const telemetry::SeriesStore& rows, double time);
+  /// Only the robots whose blackboards were received (attached or sent), for joinBoards().
+  std::vector<RobotFrame> boardsAt(const telemetry::SeriesStore& rows, double time);
 
  private:
   struct Layout;
   template <class LookBack>
-  MatchFrame build(double time, LookBack&& lookBack);
+  MatchFrame build(double time, LookBack&& lookBack, std::vector<RobotFrame>& boards);
   MatchFrame wholeFrameAt(const telemetry::SessionReader& session, double time);
-  MatchFrame rowFrameAt(const telemetry::SessionReader& session, double time);
+  MatchFrame rowFrameAt(const telemetry::SessionReader& session, double time,
+                        std::vector<RobotFrame>& boards);
+  MatchFrame rowFrameAt(const telemetry::SeriesStore& rows, double time,
+                        std::vector<RobotFrame>& boards);
   const Layout& layoutOf(std::size_t group);
   void addGame(std::size_t match, MatchFrame& frame);
   void fillMatch(std::size_t group, MatchFrame& frame, FrameSettings& settings);
-  void addRobot(std::size_t group, double time, LampMemory& lamps, MatchFrame& frame);
+  RobotFrame robotOf(std::size_t group, double time, LampMemory& lamps, MatchFrame& frame);
 
   FrameSettings m_given;
   std::vector<std::string> m_robots;

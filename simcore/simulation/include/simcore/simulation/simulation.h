@@ -14,6 +14,7 @@
 
 #include <base/result.h>
 #include <simcore/physics/physics_model.h>
+#include <simcore/rules/game_start.h>
 #include <simcore/rules/referee.h>
 #include <simcore/world/event.h>
 #include <simcore/world/robot_io.h>
@@ -87,6 +88,9 @@ class Simulation {
   /// a team are told to attack the same goal. Error InvalidArgument for rules out of their range,
   /// and when more than two teams are on the field; nothing has changed then.
   Result<void> setReferee(const std::optional<RefereeRules>& rules);
+  /// Begins the game of the referee anew, where `start` says. Error Conflict without a referee,
+  /// else as sim::startGame(); nothing has changed then.
+  Result<void> startGame(const GameStart& start);
 
   /// For conformance runs and scripts that speak the published frame: the state may be edited
   /// directly between steps. Sizes of per-robot vectors must not change.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -85,6 +86,7 @@ struct GameTeam {
   int singleShots = 0;                          ///< a bit for each shot that scored
   int timeouts = 0;                             ///< taken in this half
   int penalties = 0;                            ///< escalating ones so far
+  std::array<int, 4> byHalf{};                  ///< goals; 2 and 3 are the halves of extra time
   std::array<GamePlayer, mostPlayers> players;  ///< by slot, as packets have them
   /// Who has which slot: that of its number, or above 20 a free one; 0: nobody.
   std::array<int, mostPlayers> shirts{};
@@ -102,7 +104,10 @@ struct RobotWatch {
   int outsideTicks = 0;
   int contactTicks = 0;
   int immuneTicks = 0;
-  Pose setPose;  ///< when SET began
+  Pose setPose;        ///< when SET began; in READY, where it has stood for `stillTicks`
+  int stillTicks = 0;  ///< in READY
+  int areaTicks = 0;   ///< in its own goal area
+  int backTicks = -1;  ///< since it came back from a penalty; -1: long ago, or never
   bool operator==(const RobotWatch&) const = default;
 };
 
@@ -120,6 +125,7 @@ struct Restart {
   Point place;                   ///< where the ball lies for it
   int kicker = 0;                ///< robot that took it
   bool passed = true;            ///< a second player has touched it since, or it needs none
+  bool onlyTaker = false;        ///< who took it is still the only one that has touched it
   bool isTold() const {
     return step == Step::Placing || step == Step::Preparing || step == Step::Taking;
   }
@@ -163,6 +169,7 @@ struct GameState {
   struct Touch {
     int robot = 0;
     int team = nobody;
+    int ticks = 0;  ///< since then; 0: it touches the ball now
     bool operator==(const Touch&) const = default;
   };
 
@@ -188,6 +195,7 @@ struct GameState {
   BallRest still, near;  ///< near: for a heap of robots
   int aloneTicks = 0;
   int shooter = nobody;             ///< team of the shot, in a shoot-out
+  bool obeyed = false;              ///< it is a GameController's, which alone changes it
   std::vector<RobotWatch> watches;  ///< in the order of the robots
 
   /// At the beginning of PLAYING.
@@ -198,6 +206,12 @@ struct GameState {
   SetPlay setPlay() const { return restart.isTold() ? restart.kind : SetPlay::None; }
   int setPlayTeam() const { return restart.isTold() ? restart.team : nobody; }
   bool ballFree() const { return restart.step == Restart::Step::Free; }
+  /// Index of GameTeam::byHalf; nothing in a shoot-out.
+  std::optional<std::size_t> period() const {
+    const GamePhase now = phase == GamePhase::Timeout ? phaseBefore : phase;
+    if (now == GamePhase::ShootOut) return {};
+    return static_cast<std::size_t>((now == GamePhase::ExtraTime ? 2 : 0) + half - 1);
+  }
   /// Index of the team that defends this side.
   std::size_t leftTeam() const { return swapped ? 1 : 0; }
   /// Index of the team of this colour, or nobody.
@@ -246,8 +260,9 @@ void visitWatches(Game& g, Visitor& v) {
   }
 }
 
+/// All that a game had until form 5 of saved states.
 template <class Game, class Visitor>
-void visitGame(Game& g, Visitor& v) {
+void visitGameOfForm5(Game& g, Visitor& v) {
   const auto all = [&v](auto&... values) { (v.value(values), ...); };
   visitTeams(g, v);
   for (auto& t : g.teams) {
@@ -260,6 +275,17 @@ void visitGame(Game& g, Visitor& v) {
       g.touch.team, g.still.place.x, g.still.place.y, g.still.ticks, g.near.place.x, g.near.place.y,
       g.near.ticks, g.aloneTicks, g.shooter);
   visitWatches(g, v);
+}
+
+template <class Game, class Visitor>
+void visitGame(Game& g, Visitor& v) {
+  visitGameOfForm5(g, v);
+  const auto all = [&v](auto&... values) { (v.value(values), ...); };
+  for (auto& t : g.teams) {
+    for (auto& goals : t.byHalf) v.value(goals);
+  }
+  for (auto& w : g.watches) all(w.stillTicks, w.areaTicks, w.backTicks);
+  all(g.restart.onlyTaker, g.touch.ticks, g.obeyed);
 }
 
 }  // namespace pitchboard::sim

@@ -31,6 +31,7 @@ inline constexpr auto refereeCounts = std::to_array<Parameter<RefereeRules, int>
     {"packet_size", &RefereeRules::packetSize, units::plain, 0, 1000, "Packet size", "In bytes, where a version has several"},
     {"shots", &RefereeRules::shots, units::plain, 1, 15, "Shots", "Of each team in a shoot-out"},
     {"mercy", &RefereeRules::mercy, units::plain, 0, 1000, "Mercy", "Difference of goals that ends the match; 0 = none"},
+    {"goal_area_most", &RefereeRules::goalAreaMost, units::plain, 0, 100, "In the goal area", "Of a team's robots in its own; the last to enter is removed; 0 = not judged"},
 });
 
 inline constexpr auto refereeParameters = std::to_array<Parameter<RefereeRules>>({
@@ -46,6 +47,8 @@ inline constexpr auto refereeParameters = std::to_array<Parameter<RefereeRules>>
     {"playing_hidden", &RefereeRules::playingHidden, units::seconds, 0, 600, "PLAYING hidden", "From robots, after the whistle"},
     {"shot_time", &RefereeRules::shotTime, units::seconds, 1, 600, "Shot", "Of a shoot-out"},
     {"timeout_time", &RefereeRules::timeoutTime, units::seconds, 0, 3600, "Timeout", ""},
+    {"referee_timeout_time", &RefereeRules::refereeTimeoutTime, units::seconds, 0, 3600, "Referee's timeout", ""},
+    {"ready_still_time", &RefereeRules::readyStillTime, units::seconds, 0, 3600, "READY ends early", "All stand in position for this time; 0 = READY lasts its time"},
     {"placing_time", &RefereeRules::placingTime, units::seconds, 0, 600, "Placing", "Of the ball for a set play; play is stopped"},
     {"prepare_time", &RefereeRules::prepareTime, units::seconds, 0, 600, "Preparing", "The side takes its place at the ball"},
     {"ready_step_time", &RefereeRules::readyStepTime, units::seconds, 0, 600, "Ready", "Until the set play is executed"},
@@ -64,6 +67,7 @@ inline constexpr auto refereeParameters = std::to_array<Parameter<RefereeRules>>
     {"still_distance", &RefereeRules::stillDistance, units::metres, 0, 10, "Ball still within", ""},
     {"nobody_time", &RefereeRules::nobodyTime, units::seconds, 0, 3600, "Ball alone", "Nobody within 1 m, longer: drop ball; 0 = not judged"},
     {"local_stuck_time", &RefereeRules::localStuckTime, units::seconds, 0, 3600, "Local game stuck", "Ball within 0.1 m, longer: the nearest robot is removed; 0 = not judged"},
+    {"local_stuck_reach", &RefereeRules::localStuckReach, units::metres, 0, 10, "Stuck within", "Of the ball, the robot that is removed"},
     {"pushing_time", &RefereeRules::pushingTime, units::seconds, 0, 3600, "Pushing", "Longer: a foul; 0 = not judged"},
     {"motion_in_set", &RefereeRules::motionInSet, units::metres, 0, 10, "Motion in SET", "Farther: penalised; 0 = not judged"},
     {"in_play_distance", &RefereeRules::inPlayDistance, units::metres, 0, 10, "In play after", "The ball has moved"},
@@ -79,6 +83,7 @@ inline constexpr auto refereeSwitches = std::to_array<RefereeSwitch>({
     {"kick_off_positions", &RefereeRules::kickOffPositions, "Places at a kick-off"},
     {"exclusive_ball", &RefereeRules::exclusiveBall, "The ball of a restart touched by the other side"},
     {"direct_goals", &RefereeRules::directGoals, "No goal straight from a kick-off, throw-in or indirect free kick"},
+    {"double_touch", &RefereeRules::doubleTouch, "The taker of a set play touches the ball twice"},
     {"change_sides", &RefereeRules::changeSides, "Teams change sides"},
     {"clock_stops_in_set_plays", &RefereeRules::clockStopsInSetPlays, "The clock stands in set plays"},
     {"escalates", &RefereeRules::escalates, "Removals grow longer"},

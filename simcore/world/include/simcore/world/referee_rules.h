@@ -28,11 +28,12 @@ struct RefereeConduct {
   bool goalKickAtArea;       ///< from its front corner; else from the halfway line
   bool countsBelowZero;      ///< the break's countdown
   bool penaltiesCountInSet;  ///< their times
+  bool waitsAtHalfway;       ///< who is removed comes back near the halfway line
 };
 constexpr RefereeConduct conductOf(RefereeStyle style) {
-  constexpr RefereeConduct all[] = {{true, true, false, false, true},
-                                    {false, true, false, false, true},
-                                    {false, false, true, true, false}};
+  constexpr RefereeConduct all[] = {{true, true, false, false, true, true},
+                                    {false, true, false, false, true, false},
+                                    {false, false, true, true, false, false}};
   return all[static_cast<std::size_t>(style)];
 }
 
@@ -56,6 +57,8 @@ struct RefereeRules {
   double shotTime = 60;
   int shots = 5;
   double timeoutTime = 120;
+  double refereeTimeoutTime = 600;
+  double readyStillTime = 0;  ///< READY ends when all have stood in position for so long
 
   // Set plays.
   double placingTime = 5;
@@ -80,10 +83,12 @@ struct RefereeRules {
   double stillDistance = 0.05;
   double nobodyTime = 30;     ///< nobody within a metre of the ball, then drop ball
   double localStuckTime = 0;  ///< the ball within 0.1 m, then the nearest robot is penalised
+  double localStuckReach = 0.5;
   double pushingTime = 1;
   double motionInSet = 0;  ///< m
   double inPlayDistance = 0.05;
-  int mercy = 0;  ///< goals' difference that ends the match
+  int mercy = 0;         ///< goals' difference that ends the match
+  int goalAreaMost = 0;  ///< of a team's robots in its own goal area
 
   // Rules that are judged.
   bool goals = true;
@@ -95,6 +100,7 @@ struct RefereeRules {
   bool kickOffPositions = true;
   bool exclusiveBall = true;  ///< restarts: the other side touches the ball too early
   bool directGoals = true;    ///< a goal needs a second player after a kick-off or throw-in
+  bool doubleTouch = false;   ///< who takes a set play may not touch the ball again at once
   bool changeSides = true;
   bool clockStopsInSetPlays = true;
   bool escalates = false;
@@ -109,9 +115,9 @@ struct RefereeRules {
   bool operator==(const RefereeRules&) const = default;
 };
 
-/// One list of the values, for hash, saved form and whatever must not forget one.
+/// All that rules had until form 5 of saved states.
 template <class Rules, class Visitor>
-void visitRefereeRules(Rules& r, Visitor&& all) {
+void visitRefereeRulesOfForm5(Rules& r, Visitor&& all) {
   all(r.name, r.style, r.packetVersion, r.packetSize, r.halfTime, r.extraHalfTime, r.breakTime,
       r.beforeMatch, r.beforeHalf, r.readyTime, r.setTime, r.shotSetTime, r.kickOffTime,
       r.playingHidden, r.shotTime, r.shots, r.timeoutTime, r.placingTime, r.prepareTime,
@@ -122,6 +128,13 @@ void visitRefereeRules(Rules& r, Visitor&& all) {
       r.freeKicks, r.dropBalls, r.kickOffPositions, r.exclusiveBall, r.directGoals, r.changeSides,
       r.clockStopsInSetPlays, r.escalates, r.countsFromCall, r.countsAlways, r.pardonsAtPlay,
       r.halfEndsWithBall, r.knockout, r.extraTime, r.automatic);
+}
+
+/// One list of the values, for hash, saved form and whatever must not forget one.
+template <class Rules, class Visitor>
+void visitRefereeRules(Rules& r, Visitor&& all) {
+  visitRefereeRulesOfForm5(r, all);
+  all(r.refereeTimeoutTime, r.readyStillTime, r.localStuckReach, r.goalAreaMost, r.doubleTouch);
 }
 
 }  // namespace pitchboard::sim

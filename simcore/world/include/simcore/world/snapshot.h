@@ -20,6 +20,7 @@ struct RobotSnapshot {
   Velocity velocity;     ///< m/s
   int action = 0;        ///< the code that control carries out
   bool fallen = false;
+  bool gettingUp = false;  ///< fallen, but rising
   // Of its kind of robot; where nobody knows it, those of the published one.
   double radius = 0.0;                      ///< m; 0 = the field's robot radius
   double fieldOfView = 1.2217304763960306;  ///< rad in all

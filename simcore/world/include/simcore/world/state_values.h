@@ -127,14 +127,19 @@ void visitWorld(World& world, Visitor& v) {
   std::visit([&v](auto& state) { state_values::physics(state, v); }, world.physics);
 }
 
+template <class Settings, class Visitor>
+void visitTeamSettings(Settings& s, Visitor& v) {
+  v.count(s.teams);
+  for (auto& t : s.teams) state_values::all(v, t.colour, t.number, t.name);
+}
+
 template <class World, class Visitor>
 void visitValues(World& world, Visitor& v) {
   visitWorld(world, v);
   auto& s = world.settings;
   if (v.present(s.referee)) {
     visitRefereeRules(*s.referee, [&v](auto&... values) { state_values::all(v, values...); });
-    v.count(s.teams);
-    for (auto& t : s.teams) state_values::all(v, t.colour, t.number, t.name);
+    visitTeamSettings(s, v);
   }
   if (v.present(world.game)) visitGame(*world.game, v);
 }

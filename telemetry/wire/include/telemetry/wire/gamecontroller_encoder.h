@@ -15,6 +15,11 @@ namespace pitchboard::telemetry {
 /// version and size), InvalidArgument (a value does not fit its field; the context names it).
 Result<std::string> encodeReferee(const RefereeState& state);
 
+/// A robot's reply (RGrt) of reply.version: 1 (16 bytes), 2 (8) or 4 (32). What this version does
+/// not have is left out, and what it has and is not said is 0; of the ball "never seen". Errors:
+/// Unsupported (no such version), InvalidArgument (a number does not fit, or is not finite).
+Result<std::string> encodeReply(const RobotReply& reply);
+
 /// The size of a version's packet; `preferred` where a version has several. Nothing when the
 /// version is unknown.
 std::optional<int> refereePacketSize(int version, int preferred = 0);

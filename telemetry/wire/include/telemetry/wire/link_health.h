@@ -15,15 +15,16 @@
 
 namespace pitchboard::telemetry {
 
-enum class ProcessState : std::uint8_t { Unknown, Working, Silent };
+enum class HeartbeatState : std::uint8_t { Unknown, Working, Silent };
 
 /// Control, vision, localization, decision, IMU: the order of the message.
 inline constexpr std::size_t processCount = 5;
 inline constexpr std::array<std::string_view, processCount> processNames{
     "Control", "Vision", "Localization", "Decision", "IMU"};
 
-struct ProcessStatus {
-  ProcessState state = ProcessState::Unknown;  ///< Unknown: not in the message, or robot timed out
+struct ProcessHeartbeat {
+  HeartbeatState state =
+      HeartbeatState::Unknown;  ///< Unknown: not in the message, or robot timed out
   double probability = 0.5;
   Duration since{};  ///< how long it has been in this state
 };

@@ -54,7 +54,7 @@ constexpr bool hasOwnPlace(const RobotKey& robot) {
 /// One robot at one moment: a value that may cross threads.
 struct RobotStatus : LinkHealth {
   RobotKey key;
-  std::array<ProcessStatus, processCount> processes{};
+  std::array<ProcessHeartbeat, processCount> processes{};
   std::optional<Battery> battery;
   WallTime lastMessage{};
   ErrorTally errors;
@@ -112,6 +112,7 @@ class TeamMonitor {
   const DecodedText& decoded() const { return m_decoded; }
   /// TeamRouter::placeOf(); nothing for senders that are not on the list.
   std::optional<int> placeOf(const DatagramView& datagram, std::optional<int> team) const;
+  std::optional<int> placeOf(Address sender) const;
 
   /// From now on messages are read in this order; health and counters stay.
   void setProfile(Profile profile);

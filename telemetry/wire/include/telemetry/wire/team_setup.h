@@ -73,6 +73,8 @@ class TeamRouter {
   /// RobotKey::team of robots whose datagrams come like this one, from the team with the referee's
   /// number `team` where it says one. Nothing: it comes from no team.
   std::optional<int> placeOf(const DatagramView& datagram, std::optional<int> team) const;
+  /// Of robots at this address, whatever port they send to.
+  std::optional<int> placeOf(Address sender) const;
 
  private:
   struct Team {

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the tool bar shows in Live: ports, our team, monitor mode. UI thread only.
+// What the tool bar shows in Live: ports, our team, monitor mode, and the import of a catalog while
+// robots send variables that no known one has. UI thread only.
 
 #include <QWidget>
 
 class QComboBox;
 class QSettings;
 class QToolButton;
+
+namespace pitchboard::link {
+struct LiveDetails;
+}
 
 namespace pitchboard::ui {
 
@@ -22,6 +27,8 @@ class LiveBar : public QWidget {
  private:
   void refresh();
   void showTeams();
+  void offerCatalog(const link::LiveDetails& details);
+  void importCatalog();
   void switchMonitor(bool on);
 
   LiveController* m_live;
@@ -29,6 +36,7 @@ class LiveBar : public QWidget {
   QToolButton* m_ports;
   QComboBox* m_team;
   QToolButton* m_monitor;
+  QToolButton* m_catalog;
 };
 
 }  // namespace pitchboard::ui

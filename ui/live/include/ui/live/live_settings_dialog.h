@@ -48,7 +48,7 @@ class LiveSettingsDialog : public QDialog {
   LiveController* m_live;
   QSettings* m_settings;
   NetworkChooser* m_bind;
-  QSpinBox *m_portBase, *m_robots, *m_refereePort, *m_ourTeam, *m_cells;
+  QSpinBox *m_portBase, *m_robots, *m_variablesPortBase, *m_refereePort, *m_ourTeam, *m_cells;
   QLineEdit *m_senders, *m_refereeSenders;
   NumberBox *m_timeout, *m_full, *m_low, *m_empty;
   QComboBox *m_field, *m_colours, *m_refereeVersion;

@@ -12,7 +12,7 @@
 
 namespace pitchboard::ui {
 
-using LampState = telemetry::ProcessState;
+using LampState = telemetry::HeartbeatState;
 
 struct Lamp {
   LampState state = LampState::Unknown;

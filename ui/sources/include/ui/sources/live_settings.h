@@ -25,6 +25,9 @@ void saveLiveSettings(QSettings& settings, const LiveSettings& live);
 /// Of the settings only the robots that are this computer.
 void saveAttachedBoards(QSettings& settings, const std::vector<link::AttachedBoard>& boards);
 
+/// Of the settings only the maps of variables that robots send.
+void saveCatalogs(QSettings& settings, const std::vector<std::string>& files);
+
 /// Reads "192.168.0.7, 192.168.1.0/24". Error InvalidArgument names the part that is wrong.
 Result<telemetry::SenderFilter> sendersFromText(const QString& text);
 

@@ -94,7 +94,13 @@ class MatchController : public FrameSource {
   void stepOnce();
   /// Plays at full speed up to this tick of the match, then pauses; for repeatable pictures.
   void runTo(std::uint64_t tick);
-  void setSpeed(double timesRealTime);  ///< link::MatchRunner::unlimitedSpeed = maximum
+  /// link::MatchRunner::unlimitedSpeed = maximum. Not at once if a program keeps real time because
+  /// its profile asks for it, and the speed is not ×1: then `askedForSpeed` follows, and
+  /// answerSpeed().
+  void setSpeed(double timesRealTime);
+  /// What becomes of programs that keep real time at another speed than ×1.
+  enum class RealTimePrograms { RestartWithMatchTime, LeaveBehind };
+  void answerSpeed(double timesRealTime, RealTimePrograms what);
   double speed() const { return m_speed; }
   /// How separate reference processes keep time at ×1, from now on and in later matches.
   void setPace(link::RobotsPace pace);
@@ -132,6 +138,8 @@ class MatchController : public FrameSource {
   void scenarioChanged();   ///< another match is being opened, or none; `restarted` follows
   void opened();            ///< it is there, or failed
   void transportChanged();  ///< paused, speed, or whether there is a match
+  /// These programs keep real time: they cannot go at this speed as they are.
+  void askedForSpeed(const QStringList& programs, double timesRealTime);
   void errorOccurred(const QString& sentence, pitchboard::ui::Trouble trouble = Trouble::Lasting);
   void obeyed();  ///< an order was carried out, the first one after a refusal
 
@@ -146,6 +154,8 @@ class MatchController : public FrameSource {
   void refuse(const QString& sentence);
   /// Says once in a match which robots do not stop or hurry with it.
   void tellWhoWillNotFollow();
+  QStringList realTimePrograms() const;
+  void changeSpeed(double timesRealTime);
   void tellWhoKeepsRealTime(std::span<const link::MatchEvent> events);
 
   link::MatchOptions m_options;

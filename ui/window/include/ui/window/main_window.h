@@ -118,6 +118,7 @@ class MainWindow : public QMainWindow {
   /// Gives panels the room that is theirs in a window of this size.
   void shareRoomOut();
   void tellFinished(const link::MatchFrame& frame);
+  void askForSpeed(const QStringList& programs, double wanted);
 
   MatchController* m_controller;
   LiveController* m_live;

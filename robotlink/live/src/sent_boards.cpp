@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/live/sent_boards.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <base/lined_json.h>
+#include <robotlink/blackboard/variable_meanings.h>
+#include <robotlink/live/board_columns.h>
+#include <telemetry/pb2/clock_map.h>
+#include <telemetry/wire/arrival_stats.h>
+#include <telemetry/wire/sequence_stats.h>
+
+#include "board_words.h"
+
+namespace pitchboard::link {
+namespace {
+
+using telemetry::Duration;
+using telemetry::SequenceStats;
+using telemetry::WallTime;
+
+constexpr std::size_t mostSentRows = 4096;  // waiting; older ones are lost
+// ms: how long a sender takes to send everything once, unless it says so itself.
+constexpr std::int64_t usualRefresh = 2000, longestRefresh = 30'000;
+constexpr std::int64_t mostDisorder = 10'000;  // ms; a clock further back is another one
+
+bool isNewer(std::uint32_t sequence, std::uint32_t than) {
+  return static_cast<std::int32_t>(sequence - than) > 0;
+}
+
+std::uint32_t wordOf(double value, bool isInt) {
+  if (!isInt) return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  constexpr double least = std::numeric_limits<std::int32_t>::min();
+  constexpr double most = std::numeric_limits<std::int32_t>::max();
+  if (std::isnan(value)) return 0;
+  return static_cast<std::uint32_t>(
+      static_cast<std::int32_t>(std::clamp(std::round(value), least, most)));
+}
+
+}  // namespace
+
+struct SentBoards::Robot {
+  struct Value {
+    double value = 0.0;
+    std::uint32_t sequence = 0;  // of the datagram that it came with
+    bool hasColumn = false;
+  };
+  using Values = std::map<std::string, Value, std::less<>>;
+
+  int number = 0, place = 0;
+  telemetry::Sender sender;
+  SequenceStats sequence{32};
+  telemetry::ArrivalStats arrivals;
+  telemetry::ClockMap clock;
+  WallTime first{}, last{};
+  std::uint64_t messages = 0, bytes = 0, restarts = 0, refused = 0;
+  std::uint32_t newest = 0;          // sequence
+  std::uint64_t newestSent = 0;      // ms
+  std::optional<double> sampleTime;  // s, of the newest datagram with values
+  telemetry::Pb2Status said;
+  Values values;
+
+  // Once every variable was received.
+  telemetry::GroupInfo group;  // no columns: not yet
+  std::optional<BoardColumns> columns;
+  std::vector<const Value*> words, extras;  // in the order of the columns
+  BoardMeanings meanings;
+  BoardRow row;  // the newest
+  LampMemory memory;
+  LampMemory::Lamps lamps{};
+  std::vector<BoardRow> rows;  // not taken yet
+
+  bool isDescribed() const { return columns.has_value(); }
+  bool hasBlackboard() const { return said.blackboard.value_or(true); }
+
+  /// The program that sends, or its computer, was started again: its numbers mean something else.
+  void restart(std::uint32_t next) {
+    ++restarts;
+    SequenceStats::Counts counts = sequence.counts();
+    counts.newest.reset();
+    sequence = SequenceStats(counts);
+    newest = next - 1;
+    for (auto& [name, value] : values) value.sequence = next - 1;
+  }
+};
+
+SentBoards::SentBoards() {
+  setCatalogs({{"published", VariableCatalog::published()}});
+}
+SentBoards::~SentBoards() = default;
+
+void SentBoards::setCatalogs(std::vector<NamedCatalog> catalogs) {
+  m_catalogs = std::move(catalogs);
+}
+
+void SentBoards::clear() {
+  m_robots.clear();
+}
+
+void SentBoards::forget(int number, telemetry::Address address) {
+  std::erase_if(m_robots, [&](const auto& robot) {
+    return robot->number == number && robot->sender.address == address;
+  });
+}
+
+SentBoards::Robot* SentBoards::robotOf(int number, const telemetry::Sender& sender, WallTime time) {
+  Robot *moved = nullptr, *oldest = nullptr;
+  for (const auto& robot : m_robots) {
+    const bool isSilent = time - robot->last >= m_timeout;
+    if (robot->number == number) {
+      if (robot->sender.address == sender.address) return robot.get();
+      // It has another address now.
+      if (isSilent) moved = robot.get();
+    }
+    if (isSilent && (oldest == nullptr || robot->last < oldest->last)) oldest = robot.get();
+  }
+  if (moved == nullptr && m_robots.size() < maxRobots) {
+    moved = m_robots.emplace_back(std::make_unique<Robot>()).get();
+  } else if (moved == nullptr && oldest != nullptr) {
+    *oldest = Robot();
+    moved = oldest;
+  }
+  if (moved == nullptr) return nullptr;
+  moved->number = number;
+  moved->sender = sender;
+  if (moved->isDescribed()) moved->group.attributes["sent"] = sender.address.text();
+  return moved;
+}
+
+const NamedCatalog& SentBoards::catalogOf(const Robot& robot) const {
+  const auto known = [&robot](const NamedCatalog& one) {
+    return std::ranges::count_if(robot.values, [&one](const auto& value) {
+      return one.catalog.find(value.first) != nullptr;
+    });
+  };
+  return *std::ranges::max_element(m_catalogs, {}, known);
+}
+
+/// Variables of the catalog are words in its order, as on the blackboard. What it does not have,
+/// and what comes later, stands behind them.
+void SentBoards::describe(Robot& robot) const {
+  std::vector<Variable> known;
+  for (const Variable& variable : catalogOf(robot).catalog.variables()) {
+    const auto value = robot.values.find(variable.name);
+    if (value == robot.values.end()) continue;
+    known.push_back(variable);
+    robot.words.push_back(&value->second);
+    value->second.hasColumn = true;
+  }
+  robot.columns.emplace(known);
+  robot.group.columns = robot.columns->columns();
+  robot.group.name = std::to_string(robot.number);
+  robot.group.attributes = {{"sent", robot.sender.address.text()},
+                            {"robot", std::to_string(robot.number)},
+                            {"number", std::to_string(robot.number)},
+                            {"timeout", shortest(telemetry::secondsOf(m_timeout))}};
+  robot.meanings = BoardMeanings(robot.group.columns);
+}
+
+void SentBoards::append(Robot& robot, double time) const {
+  const bool grows = robot.words.size() + robot.extras.size() < robot.values.size();
+  for (auto& [name, value] : robot.values) {
+    if (!grows) break;
+    if (std::exchange(value.hasColumn, true)) continue;
+    telemetry::ColumnInfo column;
+    column.name = name;
+    VariableMeanings::published().describe(column);
+    robot.group.columns.push_back(std::move(column));
+    robot.extras.push_back(&value);
+  }
+  if (grows) robot.meanings = BoardMeanings(robot.group.columns);
+  for (BoardRow& before : robot.rows) {
+    before.values.resize(robot.extras.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  BoardRow& row = robot.row;
+  row.time = time;
+  row.words.resize(robot.words.size());
+  row.values.resize(robot.extras.size());
+  for (std::size_t i = 0; i < row.words.size(); ++i) {
+    const bool isInt = robot.group.columns[i].type == telemetry::ColumnType::Int32;
+    row.words[i] = wordOf(robot.words[i]->value, isInt);
+  }
+  for (std::size_t i = 0; i < row.values.size(); ++i) row.values[i] = robot.extras[i]->value;
+  robot.lamps = robot.memory.note(robot.meanings.reader(row), time);
+  // A sample that is too large for one datagram comes in several, with one time.
+  if (robot.rows.empty() || robot.rows.back().time != time) {
+    if (robot.rows.size() == mostSentRows) {
+      robot.rows.erase(robot.rows.begin(), robot.rows.begin() + mostSentRows / 4);
+    }
+    robot.rows.emplace_back();
+  }
+  robot.rows.back() = row;
+  robot.columns->makeHoles(robot.rows.back().words);
+}
+
+SentBoards::Verdict SentBoards::take(const telemetry::Pb2Message& message,
+                                     const telemetry::DatagramView& datagram, int place,
+                                     double arrival) {
+  Robot* const found = robotOf(message.robot, datagram.sender, datagram.time);
+  if (found == nullptr) return Verdict::TooManyRobots;
+  Robot& robot = *found;
+  const bool isFirst = robot.messages == 0;
+  if (isFirst) robot.first = datagram.time;
+  robot.place = place;
+  robot.bytes += datagram.payload.size();
+  const auto later = static_cast<std::int64_t>(message.milliseconds - robot.newestSent);
+  const bool isBehind = !isFirst && isNewer(robot.newest, message.sequence);
+  // A number from before with a later time: a program that counts from 0 again.
+  if ((isBehind && later > 0) || (!isFirst && later < -mostDisorder)) {
+    robot.restart(message.sequence);
+  }
+  const bool hasMoved = robot.sender.port != datagram.sender.port;
+  robot.sender = datagram.sender;
+  const auto step = robot.sequence.add(message.sequence, hasMoved);
+  if (step == SequenceStats::Step::Duplicate) return Verdict::Duplicate;
+  if (step == SequenceStats::Step::Restart) robot.restart(message.sequence);
+  ++robot.messages;
+  robot.last = std::max(robot.last, datagram.time);
+  robot.arrivals.add(robot.last);
+
+  for (const telemetry::Pb2Value& said : message.values) {
+    auto known = robot.values.find(said.name);
+    if (known == robot.values.end()) {
+      if (robot.values.size() == maxVariables) {
+        ++robot.refused;
+        continue;
+      }
+      known = robot.values.emplace(said.name, Robot::Value{}).first;
+    } else if (isNewer(known->second.sequence, message.sequence)) {
+      continue;
+    }
+    known->second.value = said.value;
+    known->second.sequence = message.sequence;
+  }
+  if (step == SequenceStats::Step::Late) return Verdict::Late;
+
+  robot.newest = message.sequence;
+  robot.newestSent = message.milliseconds;
+  const double time = robot.clock.map(message.milliseconds, arrival);
+  const telemetry::Pb2Status& status = message.status;
+  if (status.refresh_ms) robot.said.refresh_ms = status.refresh_ms;
+  if (status.waiting) robot.said.waiting = status.waiting;
+  if (status.blackboard) robot.said.blackboard = status.blackboard;
+  if (message.values.empty()) return Verdict::Used;
+  if (!robot.isDescribed()) {
+    const auto refresh = std::clamp<std::int64_t>(robot.said.refresh_ms.value_or(usualRefresh),
+                                                  usualRefresh, longestRefresh);
+    const bool hasAll = robot.values.size() >= catalogOf(robot).catalog.variables().size();
+    if (!hasAll && datagram.time - robot.first < std::chrono::milliseconds(refresh)) {
+      return Verdict::Used;
+    }
+    describe(robot);
+  }
+  append(robot, time);
+  return Verdict::Used;
+}
+
+void SentBoards::takeRows(const BoardRowsTaker& take) {
+  for (const auto& robot : m_robots) {
+    if (robot->rows.empty()) continue;
+    take(robot->group, robot->rows);
+    robot->rows.clear();
+  }
+}
+
+telemetry::LinkHealth SentBoards::linkOf(const Robot& robot, WallTime now) const {
+  telemetry::LinkHealth link;
+  link.sender = robot.sender;
+  link.age = std::max(now - robot.last, Duration::zero());
+  link.timedOut = link.age >= m_timeout || !robot.hasBlackboard();
+  link.messages = robot.messages;
+  link.bytes = robot.bytes;
+  link.rate = robot.arrivals.rate(now);
+  link.jitter = robot.clock.jitter();
+  link.loss = robot.sequence.loss();
+  link.lost = robot.sequence.lost();
+  link.late = robot.sequence.late();
+  link.duplicates = robot.sequence.duplicates();
+  return link;
+}
+
+std::vector<RobotFrame> SentBoards::robots(WallTime now, const sim::FieldSpec& field) const {
+  std::vector<RobotFrame> all;
+  for (const auto& robot : m_robots) {
+    if (!robot->isDescribed()) continue;
+    RobotFrame& out = all.emplace_back();
+    out.key = {robot->place, robot->number, 0};
+    out.identity.id = {};
+    out.identity.number = robot->number;
+    out.link = linkOf(*robot, now);
+    if (!out.timedOut()) out.lamps = robot->lamps;
+    buildRobot(robot->meanings.reader(robot->row), field, false, out);
+    out.action = out.decided.value_or(0);
+    out.board = robot->meanings.contents(robot->row);
+  }
+  return all;
+}
+
+std::vector<SentStatus> SentBoards::status(WallTime now) const {
+  std::vector<SentStatus> all;
+  for (const auto& robot : m_robots) {
+    const NamedCatalog& catalog = catalogOf(*robot);
+    SentStatus& out = all.emplace_back();
+    out.robot = {robot->place, robot->number, 0};
+    out.link = linkOf(*robot, now);
+    out.variables = robot->values.size();
+    out.catalog = catalog.name;
+    for (const auto& [name, value] : robot->values) {
+      if (catalog.catalog.find(name) == nullptr) out.unknown.push_back(name);
+    }
+    out.clockOffset = robot->clock.offset();
+    out.restarts = robot->restarts;
+    out.refresh_ms = robot->said.refresh_ms;
+    out.waiting = robot->said.waiting;
+    out.blackboard = robot->hasBlackboard();
+    out.refused = robot->refused;
+  }
+  return all;
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What states, phases, set plays and penalties are called in files: the words of the screen in
+// small letters, with '_' between them. Private to robotlink/scenario.
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <simcore/world/game_state.h>
+
+namespace pitchboard::link {
+
+inline std::string keyOf(std::string_view words) {
+  std::string key;
+  for (const char c : words) {
+    key += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c == ' ' || c == '-' ? '_' : c;
+  }
+  return key;
+}
+
+/// In the order of the values. `none` stands for what has no words.
+template <class Enum>
+const std::vector<std::string>& keysOf(std::string_view none = {}) {
+  static const std::vector<std::string> all = [none] {
+    std::vector<std::string> keys;
+    for (int i = 0; i <= static_cast<int>(lastOf(Enum{})); ++i) {
+      const std::string_view words = sim::wordsOf(static_cast<Enum>(i));
+      keys.push_back(words.empty() ? std::string(none) : keyOf(words));
+    }
+    return keys;
+  }();
+  return all;
+}
+
+constexpr std::string_view kickOffKey = "kick_off", noPenaltyKey = "none";
+inline const std::vector<std::string>& setPlayKeys() {
+  return keysOf<sim::SetPlay>(kickOffKey);
+}
+inline const std::vector<std::string>& penaltyKeys() {
+  return keysOf<sim::PenaltyKind>(noPenaltyKey);
+}
+/// Of Restart::Step and ClockUse.
+inline constexpr std::array<std::string_view, 5> stepKeys{"free", "placing", "preparing", "taking",
+                                                          "executed"};
+inline constexpr std::array<std::string_view, 3> clockUseKeys{"full", "began_now", "began"};
+static_assert(stepKeys.size() == std::size_t(lastOf(sim::Restart::Step{})) + 1);
+static_assert(clockUseKeys.size() == std::size_t(lastOf(sim::ClockUse{})) + 1);
+
+}  // namespace pitchboard::link
