@@ -36,6 +36,7 @@ struct Keys : Studio {
   Keys() : Studio(QSize(1280, 800)) {
     play();
     window.activateWindow();
+    [this] { QVERIFY(QTest::qWaitForWindowActive(&window)); }();
     field()->select({blue()});
   }
   FieldView* field() { return window.field(); }
