@@ -31,7 +31,7 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
   connect(m_ports, &QToolButton::clicked, this,
           [this] { showLiveSettings(m_live, m_settings, window()); });
   m_team->setObjectName(QStringLiteral("ourTeam"));
-  m_team->setMinimumWidth(scaled(this, 150));
+  m_team->setMinimumWidth(scaled(this, 130));
   connect(m_team, &QComboBox::activated, this, [this](int at) {
     m_live->setOurTeam(m_team->itemData(at).toInt());
     m_settings->setValue(QStringLiteral("live/ourTeam"), m_team->itemData(at));
@@ -58,6 +58,10 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
   timer->start(refreshMilliseconds);
   connect(live, &LiveController::optionsChanged, this, &LiveBar::refresh);
   refresh();
+}
+
+void LiveBar::setNarrow(bool narrow) {
+  m_ports->setToolButtonStyle(narrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
 }
 
 void LiveBar::refresh() {

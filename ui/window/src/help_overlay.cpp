@@ -93,9 +93,9 @@ void HelpOverlay::paintEvent(QPaintEvent*) {
     int textWidth = 0;
     keyWidth = 0;
     // One long line is cut rather than all columns made wider.
-    const int most = pixels * 24;
+    const int most = pixels * 30;
     for (const KeyLine& line : m_lines) {
-      keyWidth = std::max(keyWidth, std::min(bold.horizontalAdvance(line.keys), pixels * 12));
+      keyWidth = std::max(keyWidth, std::min(bold.horizontalAdvance(line.keys), pixels * 15));
       textWidth = std::max(textWidth, std::min(plain.horizontalAdvance(line.text), most));
     }
     keyWidth += pixels;

@@ -64,7 +64,7 @@ const KeyRow keyTable[] = {
     {"selectAll", "Ctrl+A Ctrl+Shift+A", keysOfRobots},
     {"removeSelected", "Del", keysOfRobots},
     {nullptr, "Drag, Shift+drag", keysOfRobots, "Move, turn a robot; move, kick the ball"},
-    {nullptr, "Wheel over a selected robot", keysOfRobots, "Turn it"},
+    {nullptr, "Wheel on a selected robot", keysOfRobots, "Turn it"},
     {nullptr, "Ctrl+Alt+letter", keysOfRobots, "Referee calls; see docs/REFEREE.md"},
 
     {"fitField", "Home", keysOfField},
@@ -92,7 +92,7 @@ const KeyRow keyTable[] = {
     {nullptr, "Drag, wheel", keysOfPlots, "Move, zoom in time"},
     {nullptr, "Ctrl+wheel, Shift+drag", keysOfPlots, "Zoom the values, zoom into a box"},
     {nullptr, "Double click", keysOfPlots, "Show everything"},
-    {nullptr, "Wheel over the numbers", keysOfPlots, "Scroll the plots"},
+    {nullptr, "Wheel on the numbers", keysOfPlots, "Scroll the plots"},
 
     {nullptr, "Tab, Shift+Tab", keysOfPanels, "Next, previous control"},
     {nullptr, "Enter", keysOfPanels, "Press a button, select a card's robot, plot a variable"},

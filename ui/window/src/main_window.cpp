@@ -412,9 +412,6 @@ void MainWindow::connectNotices() {
                        finished = QStringLiteral("finished"), compared = QStringLiteral("compared"),
                        test = QStringLiteral("test"), continued = QStringLiteral("continued"),
                        replaced = QStringLiteral("replaced");
-  const auto settleAll = [this](const QStringList& topics) {
-    for (const QString& topic : topics) m_notices->settle(topic);
-  };
   const auto tell = [this](const QString& topic) {
     return [this, topic](const QString& sentence) { m_notices->show({topic}, sentence); };
   };
@@ -436,17 +433,17 @@ void MainWindow::connectNotices() {
           });
   connect(m_controller, &MatchController::askedForSpeed, m_notices,
           [this](const QStringList& programs, double wanted) { askForSpeed(programs, wanted); });
-  connect(m_controller, &MatchController::obeyed, m_notices, [settleAll] {
-    settleAll({refused, match});
-  });
-  connect(m_controller, &MatchController::rewound, m_notices, [settleAll] {
-    settleAll({refused, match, finished});
-  });
+  connect(m_controller, &MatchController::obeyed, m_notices,
+          [this] { m_notices->settle(refused); });
+  connect(m_controller, &MatchController::rewound, m_notices,
+          [this] { m_notices->settle(refused); });
   connect(m_controller, &MatchController::opened, m_notices, [this] {
     if (m_controller->isOpen()) m_notices->settle(scenario);
   });
-  connect(m_controller, &MatchController::scenarioChanged, m_notices, [this, settleAll] {
-    settleAll({match, refused, finished, continued, speedTopic});
+  connect(m_controller, &MatchController::scenarioChanged, m_notices, [this] {
+    for (const QString& topic : {match, refused, finished, continued, speedTopic}) {
+      m_notices->settle(topic);
+    }
     m_toldFinished = false;
   });
   // What cannot stand still or go faster goes on with a match in real time.

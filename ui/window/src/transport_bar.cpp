@@ -57,6 +57,7 @@ TransportBar::TransportBar(const TransportContext& context, QSettings* settings,
       m_context(context),
       m_scenarios(new ScenarioChooser(settings, this)),
       m_scoreboard(new Scoreboard(this)),
+      m_liveBar(new LiveBar(context.live, settings, this)),
       m_speed(new QComboBox(this)) {
   setObjectName(QStringLiteral("transportBar"));
   setMovable(false);
@@ -74,7 +75,7 @@ TransportBar::TransportBar(const TransportContext& context, QSettings* settings,
   addTransport();
   addSeparator();
   addRecord();
-  addControl(SourceKind::Live, addWidget(new LiveBar(context.live, settings, this)));
+  addControl(SourceKind::Live, addWidget(m_liveBar));
   // A choice made by mouse leaves the keys with the field.
   for (QComboBox* box : findChildren<QComboBox*>()) box->setFocusPolicy(Qt::TabFocus);
 
@@ -268,6 +269,7 @@ void TransportBar::resizeEvent(QResizeEvent* event) {
   m_scenarios->setFixedWidth(scaled(this, isNarrow                        ? 104
                                           : width() < scaled(this, roomy) ? 196
                                                                           : 266));
+  m_liveBar->setNarrow(width() < scaled(this, roomy));
   m_record->setToolButtonStyle(isNarrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
   m_record->setFixedWidth(scaled(this, isNarrow ? 44 : 96));
   m_speed->setFixedWidth(scaled(this, isNarrow ? 58 : 68));

@@ -16,6 +16,7 @@ class QToolButton;
 
 namespace pitchboard::ui {
 
+class LiveBar;
 class LiveController;
 class MatchController;
 class Playback;
@@ -88,6 +89,7 @@ class TransportBar : public QToolBar {
   std::vector<Control> m_controls;
   ScenarioChooser* m_scenarios;
   Scoreboard* m_scoreboard;
+  LiveBar* m_liveBar;
   QComboBox* m_speed;
   QToolButton* m_record = nullptr;
   QAction* m_recordAction = nullptr;

@@ -23,6 +23,8 @@ class LiveBar : public QWidget {
  public:
   /// Both must outlive the bar.
   LiveBar(LiveController* live, QSettings* settings, QWidget* parent);
+  /// In little room the button of the ports has no text.
+  void setNarrow(bool narrow);
 
  private:
   void refresh();
