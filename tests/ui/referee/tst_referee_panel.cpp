@@ -590,17 +590,6 @@ class TestRefereePanel : public QObject {
     desk.timeline.goLive();
     QCOMPARE(log->rowCount(), 2);
   }
-
-  // Without scrolling, at the size that the panel has in a window of 1280×800.
-  void theLogIsSeen() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    desk.dock->resize(scaled(nullptr, 416), scaled(nullptr, 500));
-    auto* log = desk.dock->findChild<QTableView*>("refereeLog");
-    QTRY_VERIFY(log->isVisible());
-    QTRY_VERIFY2(log->visibleRegion().boundingRect().height() >= scaled(nullptr, 72),
-                 qPrintable(QString::number(log->visibleRegion().boundingRect().height())));
-  }
 };
 
 PITCHBOARD_GUI_TEST(TestRefereePanel)

@@ -201,7 +201,7 @@ class TestSafeHands : public QObject {
     s.controller.settle();
     const std::uint64_t hash = s.controller.stateHash();
     const auto events = s.timeline()->events()->events();
-    QVERIFY(events.size() > 1);
+    QVERIFY(!events.empty());
     const auto rows = s.controller.series();
     const auto range = rows->range();
     QUndoStack* stack = s.controller.edits()->undoStack();
@@ -230,7 +230,10 @@ class TestSafeHands : public QObject {
     QCOMPARE(s.controller.series(), rows);
     QCOMPARE(rows->range()->begin, range->begin);
     QCOMPARE(rows->range()->end, range->end);
-    QVERIFY(std::ranges::equal(s.timeline()->events()->events(), events));
+    // A match that was over says so once more.
+    for (const link::MatchEvent& event : events) {
+      QVERIFY(std::ranges::count(s.timeline()->events()->events(), event) == 1);
+    }
     QVERIFY(!s.window.notices()->text().contains("Ctrl+Z brings the match back"));
     // The past can be looked at, and the game goes on from where it was.
     s.timeline()->seek(1.0);

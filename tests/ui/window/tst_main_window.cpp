@@ -122,7 +122,8 @@ class TestMainWindow : public QObject {
     const QString path = s.folder.filePath(QStringLiteral("moment.json"));
     s.window.files()->save(path);
     s.window.files()->open(path);
-    QVERIFY2(s.window.notices()->text().isEmpty(), qPrintable(s.window.notices()->text()));
+    QVERIFY2(s.window.notices()->text().startsWith(QStringLiteral("Opened “moment”.")),
+             qPrintable(s.window.notices()->text()));
     auto* chooser = s.window.findChild<QComboBox*>(QStringLiteral("scenarioChooser"));
     QCOMPARE(chooser->currentData().toString(), path);
     s.window.files()->save(QStringLiteral("/nonexistent/folder/x.json"));
