@@ -3,14 +3,19 @@
 // curves of curves, pictures for others. Values are computed here.
 #include <QCheckBox>
 #include <QCompleter>
+#include <QDialogButtonBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
+#include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QSplitter>
 #include <QTableView>
+#include <QToolButton>
 #include <QUndoStack>
 #include <QtTest>
+#include <set>
 
 #include <ui/base/notice_bar.h>
 #include <ui/base/theme.h>
@@ -152,7 +157,7 @@ class TestPlotWork : public QObject {
     const auto picture = [](const char* value) {
       LegendBar bar;
       bar.resize(160, 16);
-      bar.setLeft(0, 0);
+      bar.setEdges(0, 0);
       LegendEntry entry;
       entry.text = QStringLiteral("B1 VISION_BALL_DIST_FILTERED [cm]");
       entry.value = QString::fromLatin1(value);
@@ -192,13 +197,14 @@ class TestPlotWork : public QObject {
   void aSecondAxisHasLimitsOfItsOwn() {
     Bench b;
     CurveSpec angle = variableCurve(QStringLiteral("B1/ANGLE"));
+    angle.side = CurveSpec::Side::Left;
     auto* chart = qobject_cast<ChartPane*>(b.show(variableCurve(QStringLiteral("B1/DIST"))));
     chart->addCurve(angle);
     b.time.setRange({0.0, 10.0});
     QTRY_VERIFY(chart->valueScale().limits.high >= 900.0);
     const int narrow = chart->wantedRight();
     angle = chart->description(1);
-    angle.rightAxis = true;
+    angle.side = CurveSpec::Side::Right;
     chart->setCurve(1, angle);
     QVERIFY(chart->valueScale().limits.high < 300.0);
     QVERIFY(chart->rightScale().limits.high >= 900.0);
@@ -207,8 +213,8 @@ class TestPlotWork : public QObject {
     const QByteArray text = QJsonDocument(toJson(b.dock->layoutSpec())).toJson();
     const auto read = layoutFromText({text.data(), std::size_t(text.size())}, "test");
     QVERIFY(read);
-    QVERIFY(read->pages[0].panes[0].curves[1].rightAxis);
-    QVERIFY(!read->pages[0].panes[0].curves[0].rightAxis);
+    QCOMPARE(read->pages[0].panes[0].curves[1].side, CurveSpec::Side::Right);
+    QCOMPARE(read->pages[0].panes[0].curves[0].side, CurveSpec::Side::ByUnit);
   }
 
   void theSecondAxisIsSetByHandAndKept() {
@@ -219,7 +225,7 @@ class TestPlotWork : public QObject {
     AxesDialog plain(chart->spec(), {}, {}, nullptr);
     QVERIFY(!plain.findChild<QLineEdit*>(QStringLiteral("rightlowLimit")));
     CurveSpec angle = variableCurve(QStringLiteral("B1/ANGLE"));
-    angle.rightAxis = true;
+    angle.side = CurveSpec::Side::Right;
     chart->addCurve(angle);
     const ValueLimits left = chart->valueScale().limits;
     AxesDialog dialog(chart->spec(), left, chart->rightScale().limits, nullptr);
@@ -288,6 +294,46 @@ class TestPlotWork : public QObject {
         }
       }
     }
+  }
+
+  void sixteenCurvesAreToldApart() {
+    Bench b;
+    PlotPane* pane = b.show(variableCurve(QStringLiteral("B1/DIST")));
+    for (int i = 1; i < 32; ++i) {
+      pane->addCurve(expression(QStringLiteral("B1.DIST + %1").arg(i)));
+    }
+    std::set<std::pair<QRgb, int>> looks;
+    for (const LegendEntry& entry : pane->legend()->entries()) {
+      looks.emplace(entry.color.rgb(), entry.dash);
+    }
+    QCOMPARE(looks.size(), std::size_t(32));
+    // Dashes leave gaps, and scroll with the curve.
+    const auto picture = [](int dash, double shift) {
+      QImage image(200, 20, QImage::Format_ARGB32_Premultiplied);
+      image.fill(Qt::white);
+      QPainter painter(&image);
+      CurveTrace trace;
+      for (int i = 0; i <= 20; ++i) trace.samples.push_back({double(i), 10.0});
+      const TimeAxis time{{0.0 + shift, 20.0 + shift}, 0.0, 200.0};
+      TraceLook look;
+      look.color = Qt::black;
+      look.dash = dash;
+      paintTrace(painter, trace, polylines(trace, time, {{0.0, 20.0}, 0.0, 20.0}, false), time,
+                 look);
+      return image;
+    };
+    const auto dark = [](const QImage& image) {
+      int count = 0;
+      for (int x = 20; x < 180; ++x) count += qGray(image.pixel(x, 10)) < 128 ? 1 : 0;
+      return count;
+    };
+    QCOMPARE(dark(picture(0, 0.0)), 160);
+    for (const int dash : {1, 2, 3}) {
+      QVERIFY2(dark(picture(dash, 0.0)) > 60 && dark(picture(dash, 0.0)) < 130,
+               qPrintable(QString::number(dash)));
+    }
+    const QImage here = picture(1, 0.0), later = picture(1, 3.0);  // 30 px to the left
+    QCOMPARE(later.copy(30, 0, 100, 20), here.copy(60, 0, 100, 20));
   }
 
   void manyPlotsScroll() {
@@ -359,6 +405,31 @@ class TestPlotWork : public QObject {
     QCOMPARE(svg.count(QStringLiteral("font-family=")), svg.count(QStringLiteral("sans-serif\"")));
   }
 
+  void picturesHaveNoHandles() {
+    Bench b;
+    b.show(variableCurve(QStringLiteral("B1/DIST")));
+    b.show(variableCurve(QStringLiteral("B1/ANGLE")));
+    b.time.setRange({0.0, 10.0});
+    QCoreApplication::processEvents();
+    QWidget* const shown = b.dock->currentPage()->picture();
+    const QSplitter* panes = nullptr;
+    for (const QSplitter* splitter : shown->findChildren<QSplitter*>()) {
+      if (splitter->orientation() == Qt::Vertical) panes = splitter;
+    }
+    QVERIFY(panes && panes->count() == 2);
+    const QRect handle(panes->handle(1)->mapTo(shown, QPoint()), panes->handle(1)->size());
+    const auto colors = [&handle](const QImage& image) {
+      std::set<QRgb> all;
+      for (int y = handle.top(); y <= handle.bottom(); ++y) {
+        for (int x = handle.left(); x <= handle.right(); ++x) all.insert(image.pixel(x, y));
+      }
+      return all.size();
+    };
+    QVERIFY(colors(shown->grab().toImage()) > 1);  // the dots to be dragged
+    QCOMPARE(colors(plotPicture(*b.dock->currentPage(), 1.0)), std::size_t(1));
+    QCOMPARE(panes->handle(1)->isVisible(), true);
+  }
+
   void namesAreCompletedInExpressions() {
     Bench b({QStringLiteral("B1"), QStringLiteral("Robot 7")});
     CurveDialog dialog(b.dock->feed(), expression({}), nullptr);
@@ -367,7 +438,7 @@ class TestPlotWork : public QObject {
     auto* completer = line->findChild<QCompleter*>(QStringLiteral("expressionCompleter"));
     line->setFocus();
     QTest::keyClicks(line, QStringLiteral("2 * angl"));
-    QCOMPARE(completer->completionCount(), 2);
+    QCOMPARE(completer->completionCount(), 4);  // of both robots, each and first
     emit completer->activated(completer->currentCompletion());
     QCOMPARE(line->text(), QStringLiteral("2 * B1.ANGLE"));
     QVERIFY2(dialog.problem().isEmpty(), qPrintable(dialog.problem()));
@@ -376,6 +447,151 @@ class TestPlotWork : public QObject {
     emit completer->activated(completer->currentCompletion());
     QCOMPARE(line->text(), QStringLiteral("2 * B1.ANGLE + {Robot 7/DIST}"));
     QVERIFY2(dialog.problem().isEmpty(), qPrintable(dialog.problem()));
+  }
+
+  void eachAndFirstAreCompleted() {
+    Bench b({QStringLiteral("B1"), QStringLiteral("B2")});
+    b.source.store->addGroup(
+        {"B3", {{"ALONE", telemetry::ColumnType::Float64, "", "", {}, {}}}, {}});
+    b.dock->feed()->refresh();
+    CurveDialog dialog(b.dock->feed(), expression({}), nullptr);
+    dialog.show();
+    auto* line = dialog.findChild<QLineEdit*>(QStringLiteral("expression"));
+    auto* completer = line->findChild<QCompleter*>(QStringLiteral("expressionCompleter"));
+    const auto offered = [&](const QString& word) {
+      line->clear();
+      line->setFocus();
+      QTest::keyClicks(line, word);
+      QStringList all;
+      for (int i = 0; i < completer->completionModel()->rowCount(); ++i) {
+        all << completer->completionModel()->index(i, 0).data().toString();
+      }
+      return all;
+    };
+    QVERIFY(offered(QStringLiteral("each.di")).contains(QStringLiteral("each.DIST")));
+    QVERIFY(offered(QStringLiteral("first.di")).contains(QStringLiteral("first.DIST")));
+    // One robot has it: "each" would be that one.
+    QCOMPARE(offered(QStringLiteral("alone")),
+             QStringList({QStringLiteral("B3.ALONE"), QStringLiteral("first.ALONE")}));
+  }
+
+  void anUnknownVariableIsNamed() {
+    Bench b;
+    CurveDialog dialog(b.dock->feed(), expression({}), nullptr);
+    auto* line = dialog.findChild<QLineEdit*>(QStringLiteral("expression"));
+    auto* problem = dialog.findChild<QLabel*>(QStringLiteral("problem"));
+    auto* ok = dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
+    line->setText(QStringLiteral("B1.DISTANCE * 2"));
+    QCOMPARE(problem->text(), QStringLiteral("B1 has no variable DISTANCE. Did you mean DIST?"));
+    QVERIFY(ok->isEnabled());  // it may come
+    line->setText(QStringLiteral("B1.XYZQVW * 2"));
+    QCOMPARE(problem->text(), QStringLiteral("B1 has no variable XYZQVW."));
+    line->setText(QStringLiteral("B7.DIST"));
+    QCOMPARE(problem->text(), QStringLiteral("There is no B7 now. Did you mean B1?"));
+    line->setText(QStringLiteral("each.DIST + first.ANGLE - t"));
+    QCOMPARE(problem->text(), QString());
+  }
+
+  void aDropOfManyIsOneStep() {
+    Bench b;
+    QUndoStack* undo = b.dock->undoStack();
+    dropOn(b.dock->currentPage(), {"B1/DIST", "B2/DIST", "B1/ANGLE", "B1/ACTION"},
+           b.dock->currentPage()->rect().center());
+    QCOMPARE(b.dock->currentPage()->panes().size(), 2);
+    QCOMPARE(undo->count(), 1);
+    undo->undo();
+    QVERIFY(b.dock->currentPage()->panes().isEmpty());
+    undo->redo();
+    QCOMPARE(b.dock->currentPage()->panes().size(), 2);
+    b.dock->plotVariables({"B2/ANGLE", "B2/ACTION"});
+    QCOMPARE(undo->count(), 2);
+  }
+
+  void marksAndWindowAreUndone() {
+    Bench b;
+    QUndoStack* undo = b.dock->undoStack();
+    b.time.showMarks(true);
+    const auto marks = b.time.marks();
+    QCOMPARE(undo->count(), 1);
+    auto* window = b.dock->findChild<QToolButton*>(QStringLiteral("plotWindow"));
+    menu_entry::called(window->menu()->actions(), QStringLiteral("30 s"))->trigger();
+    QCOMPARE(b.time.window(), 30.0);
+    QCOMPARE(undo->count(), 2);
+    undo->undo();
+    QCOMPARE(b.time.window(), LinkedTime::defaultWindow);
+    QVERIFY(b.time.hasMarks());
+    undo->undo();
+    QVERIFY(!b.time.hasMarks());
+    undo->redo();
+    QCOMPARE(b.time.marks(), marks);
+    QCOMPARE(undo->count(), 2);
+    // A match that is put back drops marks of a time that has not come: nobody's step.
+    emit b.source.rewound(0.1);
+    QVERIFY(!b.time.hasMarks());
+    QCOMPARE(undo->count(), 2);
+  }
+
+  void eachKindOfSourceHasItsWindow() {
+    Bench b;
+    class LiveSource : public PlotSource {
+     public:
+      SourceKind kind() const override { return SourceKind::Live; }
+    } live;
+    b.sources.add(&live);
+    QCOMPARE(b.time.window(), 15.0);
+    b.sources.choose(&live);
+    QCOMPARE(b.time.window(), 60.0);
+    b.time.setWindow(120.0);
+    b.sources.choose(&b.source);
+    QCOMPARE(b.time.window(), 15.0);
+    b.sources.choose(&live);
+    QCOMPARE(b.time.window(), 120.0);
+    // The next time, too.
+    b.dock.reset();
+    b.sources.choose(&b.source);
+    LinkedTime time;
+    PlotsContext context = b.context();
+    context.time = &time;
+    PlotsDock again(context, nullptr);
+    QCOMPARE(time.window(), 15.0);
+    b.sources.choose(&live);
+    QCOMPARE(time.window(), 120.0);
+  }
+
+  void theFirstRobotIsOneThatMoves() {
+    PlotBench bench;
+    const auto still = bench.source.addRobot("B1"), moving = bench.source.addRobot("B2");
+    PlotsDock dock(bench.context(), nullptr);
+    dock.resize(800, 300);
+    dock.show();
+    PaneSpec chart, lane;
+    chart.curves << variableCurve(QStringLiteral("first/DIST"));
+    lane.kind = PaneKind::Lane;
+    lane.curves << variableCurve(QStringLiteral("first/ACTION"));
+    dock.setLayoutSpec({{{QStringLiteral("one"), {chart, lane}}}, 0});
+    const auto shown = [&] {
+      QStringList names;
+      for (const PlotPane* pane : dock.currentPage()->panes()) names << namesOf(pane);
+      return names;
+    };
+    const auto play = [&](double from, double to, bool moves) {
+      for (double time = from; time < to; time += 0.1) {
+        bench.source.append(still, time, 0, 7.0);
+        bench.source.append(moving, time, 0, moves ? 100.0 + time : 5.0);
+      }
+    };
+    play(0.0, 10.0, false);
+    QTRY_COMPARE(shown(), QStringList({QStringLiteral("DIST B1"), QStringLiteral("ACTION B1")}));
+    play(10.0, 11.0, true);
+    QTRY_COMPARE(shown(), QStringList({QStringLiteral("DIST B2"), QStringLiteral("ACTION B2")}));
+    // It stays that one, though it rests and the other begins.
+    for (double time = 11.0; time < 30.0; time += 0.1) {
+      bench.source.append(still, time, 0, time);
+      bench.source.append(moving, time, 0, 3.0);
+    }
+    QTRY_COMPARE(dock.time()->data()->end, bench.source.store->range()->end);
+    dock.feed()->refresh();
+    QCOMPARE(shown().front(), QStringLiteral("DIST B2"));
   }
 
   void aLayoutThatCannotComeBackSaysWhy() {

@@ -5,6 +5,7 @@
 #include <QtTest>
 
 #include <base/actions.h>
+#include <telemetry/series/series_pages.h>
 #include <ui/base/theme.h>
 #include <ui/plots/plots_dock.h>
 
@@ -171,6 +172,167 @@ class TestPlots : public QObject {
       const auto lines = polylines(trace, {{0.0, 32.0}, 0, 800}, {{0.0, 2.0}, 0, 100}, false);
       QCOMPARE(lines.size(), std::size_t(columns == 20 ? 2 : 3));
     }
+  }
+
+  void aBallOutOfViewIsAGap() {
+    PlotBench bench;
+    telemetry::GroupInfo info;
+    info.name = "B1";
+    info.columns.push_back({"VISION_LOST", telemetry::ColumnType::Int32, "", "", {}, {}});
+    info.columns.push_back({"VISION_BALL_DIST", telemetry::ColumnType::Float32, "cm", "", {}, {}});
+    info.columns[1].lostBy = "VISION_LOST";
+    info.columns[1].lostWhen = 1;
+    const auto group = bench.source.store->addGroup(info);
+    for (int i = 0; i <= 600; ++i) {  // lost from 4 s to 6 s and again from 9 s on
+      const double time = i / 60.0;
+      const bool lost = (time >= 4.0 && time < 6.0) || time >= 9.0;
+      const std::uint32_t words[] = {lost, std::bit_cast<std::uint32_t>(100.0F + float(i % 7))};
+      bench.source.store->append(group, {time, words, {}});
+    }
+    PlotsDock dock(bench.context(), nullptr);
+    dock.resize(1000, 300);
+    dock.show();
+    dock.plotVariables({"B1/VISION_BALL_DIST"});
+    const auto* chart = qobject_cast<ChartPane*>(dock.currentPage()->panes().value(0));
+    const auto value = [&] { return chart->legend()->entries().value(0).value; };
+    QTRY_COMPARE(value(), QStringLiteral("–"));
+    bench.time.setMoment(3.0);
+    QTRY_VERIFY(value() != QStringLiteral("–"));
+    bench.time.setMoment(5.0);
+    QTRY_COMPARE(value(), QStringLiteral("–"));
+    for (const int columns : {2000, 100}) {  // samples one by one; in columns
+      const telemetry::TimeRange range{0.0, 10.0};
+      const CurveTrace trace = traceOf(chart->curves()[0].view(), range, columns);
+      QCOMPARE(trace.exact, columns == 2000);
+      const auto lines = polylines(trace, {range, 0, 2000}, {{0.0, 200.0}, 0, 100}, false);
+      QCOMPARE(lines.size(), std::size_t(2));
+    }
+    // The table of the marks says neither the old value nor "NaN".
+    bench.time.setMark(TimeMark::A, 3.0);
+    bench.time.setMark(TimeMark::B, 5.0);
+    MarksModel model;
+    model.setRows({marksRow(chart->curves()[0], 3.0, 5.0)});
+    QCOMPARE(model.index(0, MarksModel::AtB).data().toString(), QStringLiteral("–"));
+    QCOMPARE(model.index(0, MarksModel::Delta).data().toString(), QStringLiteral("–"));
+    QVERIFY(model.index(0, MarksModel::Mean).data().toString() != QStringLiteral("–"));
+  }
+
+  void aValueOfLongAgoIsNotSaid() {
+    Shown s(1.0);
+    auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
+    const telemetry::GroupId other = s.source.addRobot("B2");
+    s.source.append(other, 10.0, 1, 1.0);
+    QTRY_VERIFY(chart->legend()->entries().value(0).value != QStringLiteral("–"));
+    s.source.append(other, 12.0, 1, 1.0);
+    QTRY_COMPARE(chart->legend()->entries().value(0).value, QStringLiteral("–"));
+  }
+
+  void aTimeOfTheMomentCoversNoNumber() {
+    Shown s;
+    s.dropped({"B1/DIST"});
+    s.time.setRange({10.0, 20.0});
+    const auto* ruler = s.dock->findChild<TimeRuler*>();
+    const auto all = ruler->labels();
+    QVERIFY(all.size() > 3);
+    s.time.setMoment(all[1].time + 0.05);
+    const auto rest = ruler->labels();
+    QCOMPARE(rest.size(), all.size() - 1);
+    QCOMPARE(rest[0].time, all[0].time);
+    QCOMPARE(rest[1].time, all[2].time);
+  }
+
+  void anEnvelopeIsABand() {
+    using namespace pitchboard::telemetry;
+    /// Two buckets of 256 rows: 10 to 30, then 50 to 60.
+    class Coarse : public SeriesPages {
+     public:
+      std::shared_ptr<const GroupSummary> summary(GroupId, bool) override {
+        auto all = std::make_shared<GroupSummary>();
+        SummaryPart part;
+        part.begin = {0.0, 10.0};
+        part.end = {9.9, 19.9};
+        part.rows = {256, 256};
+        part.columns = {{{10.0F, 50.0F}, {30.0F, 60.0F}, {20.0F, 55.0F}}};
+        all->parts.push_back(part);
+        return all;
+      }
+      std::optional<Stretch> held(GroupId, std::optional<TimeRange>) override { return {}; }
+      void want(TimeRange) override {}
+      std::optional<SeriesStatistics> statistics(GroupId, std::uint32_t, TimeRange) override {
+        return {};
+      }
+      bool isReading(TimeRange) override { return reading; }
+      std::uint64_t revision() override { return 1; }
+      void setListener(std::function<void()>) override {}
+      TimeRange range() override { return {0.0, 19.9}; }
+      std::size_t bytes() override { return 0; }
+      bool reading = true;
+    };
+    const auto pages = std::make_shared<Coarse>();
+    SeriesStore store;
+    const auto group = store.addGroup({"B1", {{"X", ColumnType::Float64, "", "", {}, {}}}, {}});
+    const ColumnView view{pagedView(store.view(group), group, pages), 0};
+    const TimeRange range{0.0, 20.0};
+    const CurveTrace trace = traceOf(view, range, 200);
+    QVERIFY(!trace.exact && trace.coarse && trace.reading);
+    pages->reading = false;
+    QVERIFY(!traceOf(view, range, 200).reading);
+    QImage image(200, 100, QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::white);
+    QPainter painter(&image);
+    const TimeAxis time{range, 0.0, 200.0};
+    TraceLook look;
+    look.color = Qt::black;
+    paintTrace(painter, trace, polylines(trace, time, {{0.0, 100.0}, 0.0, 100.0}, false), time,
+               look);
+    painter.end();
+    const auto grey = [&image](int x, int y) { return qGray(image.pixel(x, y)); };
+    // All of it between 10 and 30, paler than a line, and nothing beside it.
+    QVERIFY(grey(50, 80) > 100 && grey(50, 80) < 240);
+    QCOMPARE(grey(50, 75), grey(50, 85));
+    QCOMPARE(grey(50, 60), 255);
+    QVERIFY(grey(150, 45) < 240 && grey(150, 80) == 255);
+    // A mean of it would be a guess: it is said that it is being read.
+    QVERIFY(view.group->statistics(0, range).reading);
+  }
+
+  void slowSamplesAreDotsAndHeld() {
+    PlotSource source;
+    telemetry::GroupInfo info;
+    info.name = "B1 link";
+    info.columns.push_back({"RATE", telemetry::ColumnType::Float64, "1/s", "", {}, {}});
+    const auto group = source.store->addGroup(info);
+    for (int i = 0; i < 30; ++i) {
+      const double value = i % 2 == 0 ? 2.0 : 8.0;
+      source.store->append(group, {i * 1.0, {}, std::span(&value, 1)});
+    }
+    const telemetry::TimeRange range{0.0, 20.0};
+    const TimeAxis time{range, 0.0, 400.0};
+    const CurveTrace trace = traceOf({source.store->view(group), 0}, range, 400);
+    QVERIFY(trace.exact && trace.held);
+    TraceLook look;
+    look.color = Qt::black;
+    QImage image(400, 100, QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::white);
+    QPainter painter(&image);
+    const ValueScale values{{0.0, 10.0}, 0.0, 100.0};
+    paintTrace(painter, trace, polylines(trace, time, values, false), time, look);
+    painter.end();
+    const auto dark = [&image](double x, double y) {
+      return qGray(image.pixel(qRound(x), qRound(y)));
+    };
+    // A dot at a sample of 2 at 4 s; the line stays there until 5 s, paler, and does not slope.
+    QVERIFY(dark(80, 80) < 40);
+    QVERIFY(dark(80, 78) < 128 && dark(80, 82) < 160);
+    QVERIFY(dark(90, 80) > 60 && dark(90, 80) < 200);
+    QVERIFY(dark(90, 74) == 255 && dark(90, 50) == 255);
+    // Sixty a second, or words of a code, are drawn as before.
+    const auto fast = source.fill("B1", 3.0);
+    QVERIFY(!traceOf({source.store->view(fast), 1}, {0.0, 3.0}, 400).held);
+    // The newest value holds until now.
+    const CurveTrace newest = traceOf({source.store->view(group), 0}, {10.0, 40.0}, 400, 31.5);
+    QCOMPARE(newest.heldUntil, 31.5);
+    QCOMPARE(polylines(newest, {{10.0, 40.0}, 0.0, 300.0}, values, false).back().last().x(), 215.0);
   }
 
   void aThinnedCurveKeepsItsExtremes() {

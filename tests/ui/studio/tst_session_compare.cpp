@@ -3,6 +3,7 @@
 #include <QContextMenuEvent>
 #include <QGraphicsView>
 #include <QMenu>
+#include <QToolButton>
 
 #include <telemetry/session/session_writer.h>
 #include <ui/field/field_view.h>
@@ -13,6 +14,10 @@
 #include "compared_item.h"
 #include "lane_pane.h"
 #include "legend_bar.h"
+#include "marks_model.h"
+#include "marks_panel.h"
+#include "plot_feed.h"
+#include "plot_page.h"
 #include "session_rig.h"
 #include "timeline_strip.h"
 #include "xy_pane.h"
@@ -286,6 +291,8 @@ class TestSessionCompare : public QObject {
       };
       if (!QTest::qWaitFor(ready)) return false;
       if (compared) s.window.compared()->setOffset(-3.37);
+      // Short enough for every sample to be drawn.
+      s.window.findChild<PlotsDock*>()->time()->setWindow(15.0);
       return true;
     };
     const auto picture = [](Studio& s) {
@@ -322,6 +329,62 @@ class TestSessionCompare : public QObject {
     // Moments are read all the same.
     pages.window.timeline()->seek(456.0);
     QTRY_COMPARE(legend->entries().value(0).value, valueText(distanceIn(456 * 50)));
+  }
+
+  void anEnvelopeIsMarkedAndCompletesByItself() {
+    QTemporaryDir folder;
+    Studio s(0);
+    s.window.setMemoryBudget(1);
+    auto* plots = s.window.findChild<PlotsDock*>();
+    plots->setLayoutSpec(everyKind());
+    s.window.openSession(longSession(folder));
+    QTRY_VERIFY(s.window.replay()->isOpen() && s.window.replay()->loaded() == 1.0);
+    const auto* pane = s.window.findChild<ChartPane*>();
+    plots->time()->setRange({0.0, longSeconds});  // every summary is read
+    QTRY_VERIFY(pane->traces()[0].coarse && pane->traces()[0].columns.size() > 100);
+    QCOMPARE(pane->captions(), QStringList(QStringLiteral("envelope: zoom in for every sample")));
+    const auto band = pane->surface()->grab().toImage();
+    // Rows say that they have come, whoever looks.
+    QSignalSpy came(s.window.replay(), &FrameSource::rowsCame);
+    plots->time()->setRange({800.0, 810.0});
+    QTRY_VERIFY(pane->traces()[0].exact && !pane->traces()[0].coarse);
+    QVERIFY(!came.isEmpty());
+    QVERIFY(pane->captions().isEmpty());
+    QVERIFY(pane->surface()->grab().toImage() != band);
+  }
+
+  void theWholeSessionIsMeasured() {
+    QTemporaryDir folder;
+    Studio s(0);
+    s.window.setMemoryBudget(1);
+    auto* plots = s.window.findChild<PlotsDock*>();
+    plots->setLayoutSpec(everyKind());
+    s.window.openSession(longSession(folder));
+    QTRY_VERIFY(s.window.replay()->isOpen() && s.window.replay()->loaded() == 1.0);
+    plots->time()->setRange({100.0, 110.0});
+    plots->time()->showMarks(true);
+    auto* panel = plots->currentPage()->marksPanel();
+    QTRY_VERIFY(panel->isVisible());
+    const auto mean = [&] { return panel->model()->index(0, MarksModel::Mean).data().toString(); };
+    auto* span = panel->findChild<QToolButton*>(QStringLiteral("statisticsSpan"));
+    span->menu()->actions()[1]->trigger();
+    QCOMPARE(span->text(), QStringLiteral("Whole session"));
+    double sum = 0.0, squares = 0.0, low = 1e9, high = -1e9;
+    const int rows = static_cast<int>(longSeconds * rowsPerSecond);
+    for (int row = 0; row < rows; ++row) {
+      const double value = distanceIn(row);
+      sum += value;
+      squares += value * value;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+    QTRY_COMPARE(mean(), valueText(sum / rows));
+    QCOMPARE(panel->model()->index(0, MarksModel::Rms).data().toString(),
+             valueText(std::sqrt(squares / rows)));
+    QCOMPARE(panel->model()->index(0, MarksModel::Min).data().toString(), valueText(low));
+    QCOMPARE(panel->model()->index(0, MarksModel::Max).data().toString(), valueText(high));
+    span->menu()->actions()[0]->trigger();
+    QTRY_VERIFY(mean() != valueText(sum / rows));
   }
 
   void itIsMovedByHand() {

@@ -5,6 +5,7 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <ui/base/theme.h>
 #include <ui/sources/linked_time.h>
@@ -66,8 +67,7 @@ int ChartPane::wantedRight() const {
 }
 
 bool ChartPane::hasRightAxis() const {
-  return std::any_of(m_curves.begin(), m_curves.end(),
-                     [](const Curve& curve) { return curve.spec().rightAxis; });
+  return m_axes.hasRight();
 }
 
 ValueScale ChartPane::rightScale() const {
@@ -114,11 +114,12 @@ void ChartPane::draw() {
   if (area.isEmpty()) return;
   const telemetry::TimeRange range = m_feed->time()->range();
   const int columns = std::max(1, static_cast<int>(area.width() * devicePixelRatioF()));
+  const double now = m_feed->time()->data().value_or(range).end;
   m_traces.clear();
   m_traces.resize(m_curves.size());
   sideBySide(static_cast<int>(m_curves.size()), [&](int number) {
     const auto i = static_cast<std::size_t>(number);
-    m_traces[i] = traceOf(m_curves[i].view(), range, columns);
+    if (!m_curves[i].isHidden()) m_traces[i] = traceOf(m_curves[i].view(), range, columns, now);
   });
   traceCompared(range, columns);
   const Extent leftExtent = extent(false), rightExtent = extent(true);
@@ -145,22 +146,26 @@ void ChartPane::draw() {
   m_chart->setTitles({}, m_spec.valueTitle, hasRightAxis() ? m_spec.rightTitle : QString());
   shape();
   m_chart->redraw();
-  if (std::pair(wantedLeft(), wantedRight()) != before) emit leftChanged();
+  const std::pair wanted(wantedLeft(), wantedRight());
+  if (wanted == before && wanted == m_wanted) return;
+  m_wanted = wanted;
+  emit leftChanged();
 }
 
-void ChartPane::Extent::take(const CurveTrace& trace) {
+void ChartPane::Extent::take(const CurveTrace& trace, double factor) {
   if (!trace.any) return;
-  low = any ? std::min(low, trace.low) : trace.low;
-  high = any ? std::max(high, trace.high) : trace.high;
+  low = any ? std::min(low, factor * trace.low) : factor * trace.low;
+  high = any ? std::max(high, factor * trace.high) : factor * trace.high;
   any = true;
 }
 
 ChartPane::Extent ChartPane::extent(bool right) const {
   Extent all;
   for (std::size_t i = 0; i < m_curves.size(); ++i) {
-    if (m_curves[i].spec().rightAxis != right) continue;
-    all.take(m_traces[i]);
-    all.take(m_comparedTraces[i]);
+    const AxisPlan::Place& place = m_axes.places[i];
+    if (place.right != right) continue;
+    all.take(m_traces[i], place.factor);
+    all.take(m_comparedTraces[i], place.factor);
   }
   return all;
 }
@@ -172,11 +177,12 @@ void ChartPane::traceCompared(telemetry::TimeRange range, int columns) {
   const double offset = m_feed->comparedOffset();
   for (std::size_t i = 0; i < m_curves.size(); ++i) {
     const ColumnView view = m_curves[i].compared(*m_feed);
-    if (!view) continue;
+    if (!view || m_curves[i].isHidden()) continue;
     CurveTrace& trace = m_comparedTraces[i];
     trace = traceOf(view, {range.begin - offset, range.end - offset}, columns);
     for (telemetry::Sample& sample : trace.samples) sample.time += offset;
     for (CurveTrace::Column& column : trace.columns) column.time += offset;
+    trace.heldUntil += offset;
   }
 }
 
@@ -187,24 +193,28 @@ void ChartPane::shape() {
   }
   m_shapes.clear();
   m_shapedFor = timeAxis();
+  const double pixel = scaled(this, 100) / 100.0;
   const ValueScale atLeft = valueScale(), atRight = rightScale();
+  // In the curve's own unit, which the axis' is a multiple of.
   const auto values = [&](std::size_t curve) {
-    return m_curves[curve].spec().rightAxis ? atRight : atLeft;
+    const AxisPlan::Place& place = m_axes.places[curve];
+    ValueScale scale = place.right ? atRight : atLeft;
+    scale.limits = {scale.limits.low / place.factor, scale.limits.high / place.factor};
+    return scale;
   };
   for (const Curve& curve : m_curves) {
     const CurveSpec& spec = curve.spec();
-    m_shapes.push_back(
-        {{},
-         {curve.color(), spec.style, spec.width * scaled(this, 100) / 100.0, points > manyPoints}});
+    m_shapes.push_back({{},
+                        {curve.color(), spec.style, spec.width * pixel, points > manyPoints, pixel,
+                         curveDash(spec.colorNumber)}});
   }
   sideBySide(static_cast<int>(m_shapes.size()), [&](int number) {
     const auto i = static_cast<std::size_t>(number);
     m_shapes[i].lines =
         polylines(m_traces[i], m_shapedFor, values(i), m_shapes[i].look.style == CurveStyle::Steps);
   });
-  m_caption = {QStringLiteral("thin: ") + m_feed->comparedCaption(),
-               m_chart->plotArea().adjusted(4, 2, -4, -2), themeFont(TypeRole::Secondary),
-               palette().color(QPalette::PlaceholderText)};
+  m_caption = {captions().join(QStringLiteral(" · ")), m_chart->plotArea().adjusted(4, 2, -4, -2),
+               themeFont(TypeRole::Secondary), palette().color(QPalette::PlaceholderText)};
   m_comparedShapes.assign(m_curves.size(), {});
   for (std::size_t i = 0; i < m_comparedShapes.size(); ++i) {
     // Thinner and paler than the curve beside it; the same hue says which one it belongs to.
@@ -218,14 +228,30 @@ void ChartPane::shape() {
   }
 }
 
+QStringList ChartPane::captions() const {
+  QStringList all;
+  const auto any = [this](bool CurveTrace::*what) {
+    const auto is = [what](const CurveTrace& trace) { return trace.*what; };
+    return std::ranges::any_of(m_traces, is) || std::ranges::any_of(m_comparedTraces, is);
+  };
+  if (any(&CurveTrace::reading)) {
+    all << QStringLiteral("reading…");
+  } else if (any(&CurveTrace::coarse)) {
+    all << QStringLiteral("envelope: zoom in for every sample");
+  }
+  const auto isDrawn = [](const CurveTrace& trace) { return trace.any; };
+  if (std::ranges::any_of(m_comparedTraces, isDrawn)) {
+    all << QStringLiteral("thin: ") + m_feed->comparedCaption();
+  }
+  return all;
+}
+
 void ChartPane::paintCurves(QPainter& painter) const {
-  bool compared = false;
   for (std::size_t i = 0; i < m_comparedShapes.size(); ++i) {
-    compared = compared || !m_comparedShapes[i].lines.empty();
     paintTrace(painter, m_comparedTraces[i], m_comparedShapes[i].lines, m_shapedFor,
                m_comparedShapes[i].look);
   }
-  if (compared) {
+  if (!m_caption.text.isEmpty()) {
     painter.setPen(m_caption.color);
     painter.setFont(m_caption.font);
     painter.drawText(m_caption.place, Qt::AlignTop | Qt::AlignRight, m_caption.text);

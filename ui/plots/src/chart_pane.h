@@ -27,6 +27,9 @@ class ChartPane : public PlotPane {
   ValueScale valueScale() const;
   /// Of the second axis; that of the first one while no curve is read there.
   ValueScale rightScale() const;
+  bool hasRightAxis() const;
+  /// What the drawing does not say by itself, at its upper right.
+  QStringList captions() const;
   void extendMenu(QMenu* menu) override;
 
  protected:
@@ -39,11 +42,10 @@ class ChartPane : public PlotPane {
   struct Extent {
     bool any = false;
     double low = 0.0, high = 0.0;
-    void take(const CurveTrace& trace);
+    void take(const CurveTrace& trace, double factor);
   };
   /// Of the curves at one of the two axes, as far as visible.
   Extent extent(bool right) const;
-  bool hasRightAxis() const;
   void traceCompared(telemetry::TimeRange range, int columns);
   void setValues(ValueLimits limits);
 
@@ -62,8 +64,9 @@ class ChartPane : public PlotPane {
     QFont font;
     QColor color;
   };
-  Caption m_caption;  // which session the thin curves are of
+  Caption m_caption;  // captions(), at the upper right
   TimeAxis m_shapedFor;
+  std::pair<int, int> m_wanted;  // wantedLeft() and wantedRight(), as the page was told
 };
 
 }  // namespace pitchboard::ui

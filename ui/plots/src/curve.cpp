@@ -5,6 +5,7 @@
 
 #include <ui/sources/linked_time.h>
 
+#include "curve_trace.h"
 #include "derived_series.h"
 
 namespace pitchboard::ui {
@@ -88,7 +89,9 @@ std::optional<double> Curve::valueAt(std::optional<double> time) const {
   if (!m_view) return {};
   const auto sample =
       time ? m_view.group->at(m_view.column, *time) : m_view.group->latest(m_view.column);
-  if (!sample) return {};
+  // What is no longer drawn is no longer said either.
+  const bool old = sample && time && *time - sample->time > longestBridge;
+  if (!sample || old || std::isnan(sample->value)) return {};
   return sample->value;
 }
 

@@ -5,7 +5,10 @@
 // column is the source's; a derived curve has a column of its own that is computed beside the UI
 // thread. UI thread only.
 
+#include <QLineF>
+#include <QList>
 #include <memory>
+#include <span>
 
 #include <ui/plots/plot_layout.h>
 
@@ -45,7 +48,8 @@ class Curve {
   QString name() const { return curveName(m_spec); }
   QString unit() const;
   QColor color() const;
-  /// At the cursor, or the newest value without one.
+  bool isHidden() const { return m_spec.hidden.contains(name()); }
+  /// At this time, or the newest value without one; nothing where the curve has a gap.
   std::optional<double> valueAt(std::optional<double> time) const;
   /// The same as text, codes in words.
   QString valueTextAt(std::optional<double> time) const;
@@ -64,6 +68,13 @@ class Curve {
 /// Curves of the mock, then four more; each has a shade for either theme.
 QColor curveColor(int number);
 inline constexpr int curveColors = 8;
+/// Of the curves that have a colour for the second time and more: 0 is a whole line. There are
+/// four.
+int curveDash(int number);
+/// The parts of the line of neighbouring points that its dash leaves, for QPainter::drawLines().
+/// They depend on x only, counted from `origin`: a curve that scrolls takes its dashes along.
+/// `pixel`: of the mock.
+QList<QLineF> dashedLine(std::span<const QPointF> line, int dash, double pixel, double origin);
 /// A curve of the compared session beside its own: so much paler and so thin.
 inline constexpr double comparedPaleness = 0.5, comparedWidth = 0.66;
 QColor mixedColor(const QColor& a, const QColor& b, double share);

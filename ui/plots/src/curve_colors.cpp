@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
 
 #include <ui/base/theme.h>
 
@@ -41,6 +44,56 @@ QColor curveColor(int number) {
                                                            {"#ef8378", "#b23a2e"},
                                                            {"#c9cfd6", "#4d5763"}}};
   return shade(curves[static_cast<std::size_t>(number % curveColors)]);
+}
+
+namespace {
+// Line, gap, line, gap, px of the mock.
+constexpr std::array<std::array<double, 4>, 4> dashes{
+    {{1, 0, 1, 0}, {6, 3, 6, 3}, {2, 2, 2, 2}, {8, 3, 2, 3}}};
+}  // namespace
+
+int curveDash(int number) {
+  return number / curveColors % static_cast<int>(dashes.size());
+}
+
+QList<QLineF> dashedLine(std::span<const QPointF> line, int dash, double pixel, double origin) {
+  QList<QLineF> pieces;
+  const auto& pattern = dashes[static_cast<std::size_t>(dash)];
+  const double period = std::accumulate(pattern.begin(), pattern.end(), 0.0) * pixel;
+  // The part of the pattern at x: whether it is drawn, and where it ends.
+  const auto partAt = [&](double x) {
+    const double turns = std::floor((x - origin) / period);
+    double end = origin + turns * period;
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+      end += pattern[i] * pixel;
+      if (x < end) return std::pair(i % 2 == 0, end);
+    }
+    return std::pair(true, end + pattern[0] * pixel);
+  };
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const QPointF a = line[i], b = line[i + 1];
+    if (dash == 0) {
+      pieces << QLineF(a, b);
+      continue;
+    }
+    const auto [drawn, end] = partAt(a.x());
+    if (b.x() <= end) {
+      if (drawn) pieces << QLineF(a, b);
+      continue;
+    }
+    const auto at = [&](double x) {
+      return QPointF(x, a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x()));
+    };
+    QPointF from = a;
+    while (from.x() < b.x()) {
+      const auto [on, until] = partAt(from.x());
+      const QPointF to = until < b.x() ? at(until) : b;
+      if (on) pieces << QLineF(from, to);
+      if (!(to.x() > from.x())) break;
+      from = to;
+    }
+  }
+  return pieces;
 }
 
 QColor laneColor(const QString& word, int code) {

@@ -11,6 +11,10 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include <ui/base/number_box.h>
 #include <ui/base/theme.h>
@@ -86,6 +90,54 @@ void completeNames(QLineEdit* edit, const QStringList& names) {
                    });
 }
 
+/// `each/NAME` of what two groups have at least, and `first/NAME` of all that robots have.
+QStringList templateNames(const QStringList& names) {
+  std::map<QString, int> groups;
+  for (const QString& name : names) {
+    const QString group = name.section(QLatin1Char('/'), 0, 0);
+    if (group == QLatin1String("curve") || group == QLatin1String("match")) continue;
+    ++groups[name.section(QLatin1Char('/'), 1)];
+  }
+  QStringList each, first;
+  for (const auto& [column, count] : groups) {
+    if (count > 1) each << QStringLiteral("each/") + column;
+    first << QStringLiteral("first/") + column;
+  }
+  return each + first;
+}
+
+/// Letters that have to be put in, left out or changed.
+int distanceOf(const QString& a, const QString& b) {
+  std::vector<int> row(static_cast<std::size_t>(b.size()) + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (qsizetype i = 0; i < a.size(); ++i) {
+    int before = row[0]++;
+    for (std::size_t j = 1; j < row.size(); ++j) {
+      const int change = before + (a[i] == b[static_cast<qsizetype>(j) - 1] ? 0 : 1);
+      before = row[j];
+      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// What somebody may have meant; empty where nothing is near.
+QString nearestName(const QString& written, const QStringList& names) {
+  QString best;
+  int least = 1 + std::max(3, static_cast<int>(written.size()) / 2);
+  for (const QString& name : names) {
+    // A part of a name is nearer than other letters.
+    const bool part =
+        std::min(written.size(), name.size()) > 2 && (name.contains(written, Qt::CaseInsensitive) ||
+                                                      written.contains(name, Qt::CaseInsensitive));
+    const int apart = part ? 1 : distanceOf(written.toUpper(), name.toUpper());
+    if (apart >= least) continue;
+    least = apart;
+    best = name;
+  }
+  return best;
+}
+
 QDialogButtonBox* buttons(QDialog* dialog) {
   auto* box = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, dialog);
   QObject::connect(box, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
@@ -111,6 +163,7 @@ CurveDialog::CurveDialog(PlotFeed* feed, const CurveSpec& curve, QWidget* parent
     : QDialog(parent),
       m_feed(feed),
       m_curve(curve),
+      m_names(feed->names() + templateNames(feed->names())),
       m_form(new QFormLayout(this)),
       m_kind(new QComboBox(this)),
       m_first(new QLineEdit(this)),
@@ -129,9 +182,8 @@ CurveDialog::CurveDialog(PlotFeed* feed, const CurveSpec& curve, QWidget* parent
   m_second->setObjectName(QStringLiteral("secondVariable"));
   m_expression->setObjectName(QStringLiteral("expression"));
   m_parameter->setObjectName(QStringLiteral("parameter"));
-  const QStringList names = feed->names();
   for (QLineEdit* edit : {m_first, m_second}) {
-    auto* completer = new QCompleter(names, edit);
+    auto* completer = new QCompleter(m_names, edit);
     completer->setFilterMode(Qt::MatchContains);
     completer->setCaseSensitivity(Qt::CaseInsensitive);
     completer->setMaxVisibleItems(15);
@@ -144,7 +196,7 @@ CurveDialog::CurveDialog(PlotFeed* feed, const CurveSpec& curve, QWidget* parent
                      "cos, atan2, sqrt, abs, min, max, hypot, deg, rad, wrap(angle, turn); "
                      "pi; t is the time in seconds. Variables: GROUP.NAME; each.NAME for every "
                      "robot, first.NAME for the first; {curve/NAME} is another computed curve"));
-  completeNames(m_expression, names);
+  completeNames(m_expression, m_names);
   m_title->setPlaceholderText(QStringLiteral("as the variable"));
   m_unit->setPlaceholderText(QStringLiteral("as the variable"));
   m_form->addRow(QStringLiteral("Kind"), m_kind);
@@ -220,12 +272,43 @@ QString CurveDialog::problem() const {
   return {};
 }
 
+QString CurveDialog::unknownVariable() const {
+  const CurveSpec spec = curve();
+  QStringList inputs = spec.inputs;
+  if (spec.kind == CurveKind::Expression) {
+    const auto parsed = Expression::parse(spec.expression);
+    if (!parsed) return {};
+    inputs = parsed->variables();
+  }
+  for (const QString& input : std::as_const(inputs)) {
+    const QString group = input.section(QLatin1Char('/'), 0, 0);
+    const QString column = input.section(QLatin1Char('/'), 1);
+    if (m_names.isEmpty() || m_names.contains(input) || m_feed->find(input)) continue;
+    QStringList groups, columns;
+    for (const QString& name : m_names) {
+      const QString known = name.section(QLatin1Char('/'), 0, 0);
+      if (!groups.contains(known)) groups << known;
+      if (known == group) columns << name.section(QLatin1Char('/'), 1);
+    }
+    const QString near =
+        columns.isEmpty() ? nearestName(group, groups) : nearestName(column, columns);
+    const QString words = columns.isEmpty()
+                              ? QStringLiteral("There is no %1 now.").arg(group)
+                              : QStringLiteral("%1 has no variable %2.").arg(group, column);
+    return near.isEmpty() ? words : words + QStringLiteral(" Did you mean %1?").arg(near);
+  }
+  return {};
+}
+
 void CurveDialog::check() {
   const QString wrong = problem();
   m_accept->setEnabled(wrong.isEmpty());
-  // An empty form needs no complaint yet.
+  // An empty form needs no complaint yet. What is not there now may come: that is no error.
   const bool empty = m_first->text().isEmpty() && m_expression->text().isEmpty();
-  m_problem->setText(empty ? QString() : wrong);
+  QPalette palette = m_problem->palette();
+  palette.setColor(QPalette::WindowText, wrong.isEmpty() ? theme().warningText : theme().errorText);
+  m_problem->setPalette(palette);
+  m_problem->setText(empty ? QString() : wrong.isEmpty() ? unknownVariable() : wrong);
 }
 
 CurveSpec CurveDialog::curve() const {
@@ -242,13 +325,12 @@ CurveSpec CurveDialog::curve() const {
   spec.parameter = parameter ? m_parameter->value() : 0.0;
   spec.offset = spec.kind == CurveKind::Conversion ? m_offset->value() : 0.0;
   spec.unit = m_unit->text().trimmed();
-  spec.rightAxis = m_curve.rightAxis;
   spec.title = m_title->text().trimmed();
   return spec;
 }
 
-AxesDialog::AxesDialog(const PaneSpec& pane, ValueLimits shown, ValueLimits shownRight,
-                       QWidget* parent)
+AxesDialog::AxesDialog(const PaneSpec& pane, ValueLimits shown,
+                       std::optional<ValueLimits> shownRight, QWidget* parent)
     : QDialog(parent),
       m_pane(pane),
       m_form(new QFormLayout(this)),
@@ -259,11 +341,9 @@ AxesDialog::AxesDialog(const PaneSpec& pane, ValueLimits shown, ValueLimits show
   m_form->addRow(QStringLiteral("Title"), m_title);
   m_left = addAxis(QStringLiteral("Value axis"), {}, pane.valueTitle, !pane.autoValues,
                    pane.autoValues ? shown : pane.values);
-  const bool hasRight = std::any_of(pane.curves.begin(), pane.curves.end(),
-                                    [](const CurveSpec& curve) { return curve.rightAxis; });
-  if (hasRight) {
+  if (shownRight) {
     m_right = addAxis(QStringLiteral("Right axis"), QStringLiteral("right"), pane.rightTitle,
-                      !pane.autoRight, pane.autoRight ? shownRight : pane.right);
+                      !pane.autoRight, pane.autoRight ? *shownRight : pane.right);
   }
   m_form->addRow(m_problem);
   QDialogButtonBox* box = buttons(this);

@@ -4,6 +4,7 @@
 // Dialogs for one curve, and for title and axes of a plot.
 
 #include <QDialog>
+#include <optional>
 
 #include <ui/plots/plot_layout.h>
 
@@ -27,6 +28,8 @@ class CurveDialog : public QDialog {
   CurveSpec curve() const;
   /// What is wrong at the moment; empty when nothing is.
   QString problem() const;
+  /// "B1 has no variable NOSUCH. Did you mean …?" Empty where the source has all of them.
+  QString unknownVariable() const;
 
  private:
   void showKind();
@@ -34,6 +37,7 @@ class CurveDialog : public QDialog {
 
   PlotFeed* m_feed;
   CurveSpec m_curve;
+  QStringList m_names;  // of variables, to choose from
   QFormLayout* m_form;
   QComboBox* m_kind;
   QLineEdit* m_first;
@@ -53,7 +57,8 @@ class AxesDialog : public QDialog {
  public:
   /// `shown`, `shownRight`: the limits in force, offered when fixed ones are wanted. The second
   /// axis is asked for only when a curve of the plot is read there.
-  AxesDialog(const PaneSpec& pane, ValueLimits shown, ValueLimits shownRight, QWidget* parent);
+  AxesDialog(const PaneSpec& pane, ValueLimits shown, std::optional<ValueLimits> shownRight,
+             QWidget* parent);
   PaneSpec pane() const;
 
  private:

@@ -78,7 +78,7 @@ bool isTemplate(const CurveSpec& curve) {
                      [](const QString& name) { return isWord(groupOf(name)); });
 }
 
-QList<CurveSpec> curvesOf(const CurveSpec& curve, const PlotFeed& feed) {
+QList<CurveSpec> curvesOf(const CurveSpec& curve, PlotFeed& feed) {
   QStringList columns;
   bool every = false;
   for (const QString& name : variablesOf(curve)) {
@@ -95,15 +95,13 @@ QList<CurveSpec> curvesOf(const CurveSpec& curve, const PlotFeed& feed) {
     }
     return {named};
   }
-  QStringList groups = feed.groupsWith(columns);
-  // Of a keeper there is little to see.
-  if (!every) {
-    std::stable_partition(groups.begin(), groups.end(),
-                          [&](const QString& group) { return !feed.keepers().contains(group); });
-  }
+  QStringList groups;
+  if (every)
+    groups = feed.groupsWith(columns).mid(0, mostCurves);
+  else if (const QString first = feed.firstGroup(columns); !first.isEmpty())
+    groups << first;
   QList<CurveSpec> all;
   for (const QString& group : groups) {
-    if (all.size() == (every ? mostCurves : 1)) break;
     all << ofGroup(curve, group, feed);
     all.back().colorNumber += static_cast<int>(all.size()) - 1;
   }

@@ -2,9 +2,8 @@
 #pragma once
 
 // Descriptions of curves that stand for one curve of every robot (`each/NAME`, `each.NAME` in an
-// expression) or of the first robot that is not a keeper (`first`; of a keeper where there are only
-// keepers): so a layout survives another number of robots. `first/A|B` is A, or B in a robot that
-// has no A: what robots in Live say is named by their team's profile. Plain values.
+// expression) or of the first robot that moves (`first`, PlotFeed::firstGroup()): so a layout
+// survives another number of robots. Plain values.
 
 #include <QStringList>
 
@@ -18,7 +17,7 @@ class PlotFeed;
 bool isTemplate(const CurveSpec& curve);
 /// The curves that it stands for in this source, each named after its group, in the colours that
 /// follow its own; itself while no group has the columns, and for a plain curve.
-QList<CurveSpec> curvesOf(const CurveSpec& curve, const PlotFeed& feed);
+QList<CurveSpec> curvesOf(const CurveSpec& curve, PlotFeed& feed);
 /// The same curve for every group: of a curve with inputs of one group only, else nothing changes.
 CurveSpec forEachGroup(const CurveSpec& curve);
 

@@ -9,6 +9,8 @@
 #include <limits>
 #include <span>
 
+#include "curve.h"
+
 namespace pitchboard::ui {
 namespace {
 
@@ -24,6 +26,10 @@ constexpr qsizetype strokedAtOnce = 24;  // points
 constexpr double widestUnjoined = 2.0;   // px; wider lines show whether they have joints
 // Single samples get a dot only where dots do not run into each other.
 constexpr double dotDistance = 6.0;  // px
+// A curve whose samples are mostly farther apart is drawn as dots.
+constexpr double slowSamples = 0.9;  // s
+constexpr double heldOpacity = 0.55, bandOpacity = 0.35;
+constexpr double heldDot = 2.5;  // px of the mock
 // Far outside of the picture Qt's line clipping loses precision.
 constexpr double farAway = 1e5;  // px
 
@@ -55,7 +61,24 @@ void takeSamples(CurveTrace& trace, const ColumnView& view, TimeRange range) {
 
 }  // namespace
 
-CurveTrace traceOf(const ColumnView& view, TimeRange range, int columns) {
+namespace {
+
+/// Most of the distances between neighbours are this long; 0 where there are no two.
+double usualDistance(const std::vector<Sample>& samples) {
+  std::vector<double> distances;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double distance = samples[i].time - samples[i - 1].time;
+    if (distance > 0.0 && distance <= longestBridge) distances.push_back(distance);
+  }
+  if (distances.empty()) return 0.0;
+  const auto middle = distances.begin() + std::ssize(distances) / 2;
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+}  // namespace
+
+CurveTrace traceOf(const ColumnView& view, TimeRange range, int columns, double now) {
   CurveTrace trace;
   if (!view || columns < 1) return trace;
   // Columns stand on whole multiples of their width: what scrolls does not shimmer.
@@ -69,9 +92,13 @@ CurveTrace traceOf(const ColumnView& view, TimeRange range, int columns) {
   // While rows are being read there is an envelope, which must not look like a curve.
   if (samples <= count && view.group->hasEveryRow(range)) {
     takeSamples(trace, view, range);
+    trace.held = !view.isCoded() && usualDistance(trace.samples) >= slowSamples;
+    if (trace.held) trace.heldUntil = std::min(now, trace.samples.back().time + longestBridge);
     return trace;
   }
   trace.exact = false;
+  trace.coarse = !view.group->hasEveryRow(range);
+  trace.reading = trace.coarse && view.group->isReading(range);
   trace.columns.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const SeriesBucket& bucket = buckets[i];
@@ -90,6 +117,37 @@ CurveTrace traceOf(const ColumnView& view, TimeRange range, int columns) {
   return trace;
 }
 
+namespace {
+
+/// Round what the columns cover, at least a pixel high: forth along the top, back below.
+std::vector<QPolygonF> outlines(const CurveTrace& trace, const TimeAxis& time,
+                                const ValueScale& values) {
+  std::vector<QPolygonF> all;
+  QPolygonF top, bottom;
+  const auto end = [&] {
+    std::reverse(bottom.begin(), bottom.end());
+    if (!top.isEmpty()) all.push_back(top + bottom);
+    top.clear();
+    bottom.clear();
+  };
+  double previous = nan;
+  for (const CurveTrace::Column& column : trace.columns) {
+    if (!std::isfinite(column.min) || column.time - previous > longestBridge) end();
+    previous = column.time;
+    if (!std::isfinite(column.min)) continue;
+    const double x = std::clamp(time.pixel(column.time), -farAway, farAway);
+    const double high = std::clamp(values.toY(column.max), -farAway, farAway);
+    const double low = std::clamp(values.toY(column.min), -farAway, farAway);
+    const double more = std::max(0.0, 1.0 - (low - high)) / 2;
+    top << QPointF(x, high - more);
+    bottom << QPointF(x, low + more);
+  }
+  end();
+  return all;
+}
+
+}  // namespace
+
 std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeAxis& time,
                                  const ValueScale& values, bool steps) {
   std::vector<QPolygonF> lines;
@@ -103,6 +161,7 @@ std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeAxis& time,
     line << QPointF(std::clamp(x, -farAway, farAway), y);
   };
   double previous = nan;
+  if (trace.held) steps = true;
   if (trace.exact) {
     for (const Sample& sample : trace.samples) {
       if (!std::isfinite(sample.value) || sample.time - previous > longestBridge) end();
@@ -112,9 +171,13 @@ std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeAxis& time,
       if (steps && !line.isEmpty()) line << QPointF(x, line.last().y());
       point(x, sample.value);
     }
+    if (trace.held && !line.isEmpty() && trace.heldUntil > previous) {
+      line << QPointF(std::min(time.pixel(trace.heldUntil), farAway), line.last().y());
+    }
     end();
     return lines;
   }
+  if (trace.coarse) return outlines(trace, time, values);
   const double pixel = (time.shown.end - time.shown.begin) / std::max(time.width, 1.0);
   for (const CurveTrace::Column& column : trace.columns) {
     if (!std::isfinite(column.min) || column.time - previous > std::max(longestBridge, 3 * pixel)) {
@@ -256,26 +319,43 @@ void paintWide(QPainter& painter, const QPolygonF& line, double left, double rig
 
 void paintTrace(QPainter& painter, const CurveTrace& trace, const std::vector<QPolygonF>& lines,
                 const TimeAxis& time, const TraceLook& look) {
-  const bool dots = look.style == CurveStyle::Points || look.style == CurveStyle::LineAndPoints;
-  const double radius = std::max(1.8, look.width * 1.2);
+  const bool held = trace.held && look.style == CurveStyle::Line;
+  const bool dots =
+      held || look.style == CurveStyle::Points || look.style == CurveStyle::LineAndPoints;
+  const double radius = held ? heldDot * look.pixel : std::max(1.8, look.width * 1.2);
   const QRectF clip = painter.hasClipping() ? painter.clipBoundingRect()
                                             : QRectF(-farAway, -farAway, 2 * farAway, 2 * farAway);
   const double reach = std::max(radius, look.width) + 2.0;
   const double left = clip.left() - reach, right = clip.right() + reach;
   painter.setRenderHint(QPainter::Antialiasing, true);
   painter.setBrush(Qt::NoBrush);
+  if (trace.coarse) {
+    QColor band = look.color;
+    band.setAlphaF(static_cast<float>(bandOpacity));
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(band);
+    for (const QPolygonF& outline : lines) painter.drawPolygon(outline);
+    return;
+  }
   if (look.style != CurveStyle::Points || !trace.exact) {
-    painter.setPen(
-        QPen(look.color, look.thin ? 0.0 : look.width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin));
+    QColor ink = look.color;
+    if (held) ink.setAlphaF(static_cast<float>(heldOpacity));
+    const double width = held ? look.pixel : look.thin ? 0.0 : look.width;
+    painter.setPen(QPen(ink, width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin));
     QList<QRectF> rects;
     // Ends that lie on each other are seen where a line is pale, and when a file is looked at.
     const bool shapes = painter.paintEngine()->type() != QPaintEngine::Raster;
     for (const QPolygonF& line : lines) {
-      if (!look.thin && (look.width > widestUnjoined || shapes || look.color.alpha() < 255)) {
+      if (held || (!look.thin && look.dash == 0 &&
+                   (look.width > widestUnjoined || shapes || look.color.alpha() < 255))) {
         paintWide(painter, line, left, right);
         continue;
       }
       const Stretch part = visiblePart(line, left, right);
+      if (look.dash > 0) {
+        painter.drawLines(dashedLine(part, look.dash, look.pixel, time.pixel(0.0)));
+        continue;
+      }
       if (!look.thin) {
         paintNarrow(painter, part);
         continue;
@@ -294,8 +374,12 @@ void paintTrace(QPainter& painter, const CurveTrace& trace, const std::vector<QP
     const bool lonely = line.size() == 1;
     if (!lonely && !(dots && trace.exact)) continue;
     if (!lonely && look.style == CurveStyle::LineAndPoints && distance < dotDistance) continue;
-    for (const QPointF& at : visiblePart(line, left, right)) {
-      painter.drawEllipse(at, radius, radius);
+    // Steps have a corner between two samples.
+    const bool corners = trace.held || look.style == CurveStyle::Steps;
+    const Stretch part = visiblePart(line, left, right);
+    std::ptrdiff_t number = part.data() - line.constData();
+    for (const QPointF& at : part) {
+      if (!corners || number++ % 2 == 0) painter.drawEllipse(at, radius, radius);
     }
   }
 }

@@ -39,7 +39,13 @@ struct CurveTrace {
   struct Column {
     double time, first, min, max, last;
   };
-  bool exact = true;                       ///< `samples` are all there are; else `columns`
+  bool exact = true;  ///< `samples` are all there are; else `columns`
+  /// The rows of this range are not in memory: `columns` are an envelope of many rows each.
+  bool coarse = false;
+  bool reading = false;  ///< and they are on their way
+  /// Samples come about once a second or less often: each is a dot, and holds until the next one.
+  bool held = false;
+  double heldUntil = 0.0;                  ///< the last one of them (s)
   std::vector<telemetry::Sample> samples;  ///< NaN breaks the line
   std::vector<Column> columns;             ///< NaN in min breaks the line
   bool any = false;                        ///< low and high hold
@@ -49,10 +55,12 @@ struct CurveTrace {
 };
 
 /// `columns`: device pixels of the range. Includes the neighbours outside, so that lines run on to
-/// the edges.
-CurveTrace traceOf(const ColumnView& view, telemetry::TimeRange range, int columns);
+/// the edges. `now`: up to here the newest sample holds.
+CurveTrace traceOf(const ColumnView& view, telemetry::TimeRange range, int columns,
+                   double now = -1e300);
 
-/// The line in pixels, one polygon for each unbroken stretch.
+/// The line in pixels, one polygon for each unbroken stretch; of an envelope its outline. In steps
+/// and where values hold, every other point is a sample, the first one included.
 std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeAxis& time,
                                  const ValueScale& values, bool steps);
 
@@ -62,6 +70,8 @@ struct TraceLook {
   double width = 1.5;  ///< px
   /// So many points that wide lines would take too long: they are one pixel wide.
   bool thin = false;
+  double pixel = 1.0;  ///< of the mock
+  int dash = 0;        ///< of curveDash()
 };
 /// Points of all curves of a plot from which lines are thin.
 inline constexpr std::size_t manyPoints = 2500;

@@ -183,6 +183,9 @@ void LanePane::paintLanes(QPainter& painter) const {
       painter.setPen(colors.secondaryText);
       drawWords(painter, name.adjusted(used, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
                 curve.valueTextAt(m_feed->time()->readAt()));
+      if (curve.view().group->isReading(axis.shown)) {
+        drawWords(painter, name, Qt::AlignRight | Qt::AlignVCenter, QStringLiteral("reading…"));
+      }
     }
     y += scaled(this, nameHeight);
     const double height = scaled(this, laneHeight);

@@ -25,10 +25,12 @@ bool MarksRow::operator==(const MarksRow& o) const {
          sameNumber(b, o.b) && between.samples == o.between.samples &&
          between.mean == o.between.mean && between.min == o.between.min &&
          between.max == o.between.max && between.sigma == o.between.sigma &&
-         between.rms == o.between.rms && aText == o.aText && bText == o.bText;
+         between.rms == o.between.rms && between.reading == o.between.reading && aText == o.aText &&
+         bText == o.bText;
 }
 
-MarksRow marksRow(const Curve& curve, double a, double b) {
+MarksRow marksRow(const Curve& curve, double a, double b,
+                  std::optional<telemetry::TimeRange> measured) {
   MarksRow row;
   row.name = curve.name();
   row.unit = curve.unit();
@@ -37,7 +39,8 @@ MarksRow marksRow(const Curve& curve, double a, double b) {
   row.a = curve.valueAt(a);
   row.b = curve.valueAt(b);
   const ColumnView& view = curve.view();
-  row.between = view.group->statistics(view.column, {std::min(a, b), std::max(a, b)});
+  row.between = view.group->statistics(
+      view.column, measured.value_or(telemetry::TimeRange{std::min(a, b), std::max(a, b)}));
   if (view.isCoded()) {
     if (row.a) row.aText = curve.codeText(*row.a);
     if (row.b) row.bText = curve.codeText(*row.b);
@@ -74,6 +77,7 @@ QString MarksModel::cell(const MarksRow& row, int column) const {
     return value ? valueText(*value) : none;
   };
   const auto between = [&](double value) {
+    if (row.between.reading && !coded) return QStringLiteral("…");
     return row.between.samples > 0 && !coded ? valueText(value) : none;
   };
   switch (column) {

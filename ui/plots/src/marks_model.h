@@ -43,7 +43,8 @@ class MarksModel : public QAbstractTableModel {
   QList<MarksRow> m_rows;
 };
 
-/// Of a curve, between the earlier and the later mark.
-MarksRow marksRow(const Curve& curve, double a, double b);
+/// Of a curve, between the earlier and the later mark, or over `measured` instead.
+MarksRow marksRow(const Curve& curve, double a, double b,
+                  std::optional<telemetry::TimeRange> measured = {});
 
 }  // namespace pitchboard::ui

@@ -6,10 +6,13 @@
 #include <QClipboard>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMenu>
 #include <QStyledItemDelegate>
+#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include <ui/base/elided_words.h>
 #include <ui/base/table_style.h>
@@ -26,6 +29,10 @@ constexpr int mostEventsNamed = 3;
 constexpr int nameWidth = 188, numberWidth = 54, wordWidth = 84;  // px of the mock
 constexpr int widestWord = 124;
 constexpr int wordColumns[] = {MarksModel::AtA, MarksModel::AtB};
+
+QString spanText(bool whole) {
+  return whole ? QStringLiteral("Whole session") : QStringLiteral("Between A and B");
+}
 
 // Robot and unit stand at the end of a name.
 class MarksDelegate : public QStyledItemDelegate {
@@ -71,6 +78,7 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
       m_feed(feed),
       m_timeline(timeline),
       m_model(new MarksModel(this)),
+      m_span(new QToolButton(this)),
       m_times(new QLabel(this)),
       m_difference(new QLabel(this)),
       m_table(new QTableView(this)),
@@ -102,6 +110,18 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
   auto* head = new QHBoxLayout;
   head->setContentsMargins(gap, scaled(this, 4), gap, scaled(this, 2));
   head->addWidget(m_times, 1);
+  head->addWidget(m_span);
+  m_span->setObjectName(QStringLiteral("statisticsSpan"));
+  m_span->setToolTip(QStringLiteral("Choose what mean, σ, min, max and RMS are of"));
+  m_span->setFont(themeFont(TypeRole::Secondary));
+  m_span->setAutoRaise(true);
+  m_span->setPopupMode(QToolButton::InstantPopup);
+  auto* spans = new QMenu(m_span);
+  for (const bool whole : {false, true}) {
+    spans->addAction(spanText(whole), this, [this, whole] { setWhole(whole); });
+  }
+  m_span->setMenu(spans);
+  m_span->setText(spanText(false));
   head->addWidget(m_difference);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -149,6 +169,16 @@ void MarksPanel::fitWords() {
   }
 }
 
+void MarksPanel::setWhole(bool on) {
+  m_whole = on;
+  m_span->setText(spanText(on));
+  QList<PlotPane*> panes;
+  for (const auto& pane : std::as_const(m_panes)) {
+    if (pane) panes << pane;
+  }
+  refresh(panes);
+}
+
 void MarksPanel::copyTable() const {
   QApplication::clipboard()->setText(m_model->text());
 }
@@ -157,6 +187,8 @@ void MarksPanel::refresh(const QList<PlotPane*>& panes) {
   LinkedTime* time = m_feed->time();
   if (isHidden()) forgetWords();
   setVisible(time->hasMarks());
+  m_panes.clear();
+  for (PlotPane* pane : panes) m_panes << pane;
   if (!time->hasMarks()) return;
   const double a = *time->mark(TimeMark::A);
   const double b = *time->mark(TimeMark::B);
@@ -167,7 +199,9 @@ void MarksPanel::refresh(const QList<PlotPane*>& panes) {
   QList<MarksRow> rows;
   for (const PlotPane* pane : panes) {
     if (!pane->isOverTime()) continue;
-    for (const Curve& curve : pane->curves()) rows << marksRow(curve, a, b);
+    for (const Curve& curve : pane->curves()) {
+      if (!curve.isHidden()) rows << marksRow(curve, a, b, m_whole ? time->data() : std::nullopt);
+    }
   }
   m_model->setRows(std::move(rows));
   fitWords();

@@ -3,6 +3,8 @@
 
 // Beside the plots: the times of A and B, the table between them, and what happened there.
 
+#include <QList>
+#include <QPointer>
 #include <QWidget>
 #include <deque>
 
@@ -10,6 +12,7 @@
 
 class QLabel;
 class QTableView;
+class QToolButton;
 
 namespace pitchboard::ui {
 
@@ -36,6 +39,11 @@ class MarksPanel : public QWidget {
   PlotFeed* m_feed;
   Timeline* m_timeline;
   MarksModel* m_model;
+  void setWhole(bool on);
+
+  QToolButton* m_span;  // what mean, σ, min, max and RMS are of
+  bool m_whole = false;
+  QList<QPointer<PlotPane>> m_panes;
   QLabel* m_times;
   QLabel* m_difference;
   QTableView* m_table;

@@ -3,6 +3,8 @@
 
 #include <QTimer>
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include <robotlink/frame/match_frame.h>
 #include <telemetry/wire/meanings.h>
@@ -45,6 +47,9 @@ PlotFeed::PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent)
     : QObject(parent), m_source(source), m_time(time), m_timer(new QTimer(this)) {
   m_timer->setInterval(refreshMilliseconds);
   connect(m_timer, &QTimer::timeout, this, &PlotFeed::refresh);
+  connect(source, &FrameSource::rowsCame, this, [this] {
+    if (m_timer->isActive()) refresh();
+  });
   connect(source, &FrameSource::restarted, this, &PlotFeed::forget);
   connect(source, &FrameSource::rewound, time, &LinkedTime::rewind);
 }
@@ -67,6 +72,8 @@ void PlotFeed::forget() {
   m_found.clear();
   m_views.clear();
   m_store.reset();
+  m_first.clear();
+  m_firstAsked.clear();
   ++m_generation;
   ++m_looks;
   if (m_timer->isActive()) refresh();
@@ -86,7 +93,8 @@ void PlotFeed::refresh() {
     ++m_looks;
     lookAgain();
   }
-  findKeepers();
+  orderRobots();
+  findFirst();
   m_rowsRead =
       (m_store ? m_store->pagesRevision() : 0) + (m_compared ? m_compared->pagesRevision() : 0);
   m_views.clear();
@@ -95,19 +103,72 @@ void PlotFeed::refresh() {
   emit refreshed();
 }
 
-void PlotFeed::findKeepers() {
+void PlotFeed::orderRobots() {
   const FramePtr frame = m_source->frame();
   if (!frame) return;
+  std::vector<const link::RobotFrame*> robots;
+  for (const link::RobotFrame& robot : frame->robots) robots.push_back(&robot);
+  std::ranges::stable_sort(robots, {}, [](const link::RobotFrame* robot) {
+    return std::pair(robot->behaviour == keeperBehaviour, robot->key);
+  });
   QStringList now;
-  for (const link::RobotFrame& robot : frame->robots) {
-    if (robot.behaviour == keeperBehaviour) {
-      now << QString::fromStdString(robot.name);
-    }
-  }
-  if (now == m_keepers) return;
-  m_keepers = std::move(now);
+  for (const link::RobotFrame* robot : robots) now << QString::fromStdString(robot->name);
+  if (now == m_robots) return;
+  m_robots = std::move(now);
   ++m_looks;
   ++m_generation;  // drawn anew in a match that is paused, too
+}
+
+bool PlotFeed::isMoving(const QString& group, const QStringList& columns) const {
+  constexpr double lately = 5.0;  // s
+  const auto all = m_store->range();
+  if (!all) return false;
+  // Of a recording what comes next, of a source that goes on what came last.
+  const auto moment = m_time->moment();
+  const telemetry::TimeRange looked{moment.value_or(all->end - lately),
+                                    moment ? *moment + lately : all->end};
+  return std::ranges::any_of(columns, [&](const QString& column) {
+    const auto id = idOf(*m_store, group + QLatin1Char('/') + column);
+    const auto view = id ? m_store->view(id->group) : nullptr;
+    if (!view || view->info().columns[id->column].kind != telemetry::ColumnKind::Number) {
+      return false;
+    }
+    telemetry::SeriesBucket values;
+    view->buckets(id->column, looked, std::span(&values, 1));
+    return values.samples > 0 && values.min < values.max;
+  });
+}
+
+QString PlotFeed::firstGroup(const QStringList& columns) {
+  QStringList groups = groupsWith(columns);
+  if (groups.isEmpty() || groups.contains(m_first)) return groups.isEmpty() ? QString() : m_first;
+  const auto rank = [this](const QString& group) {
+    const qsizetype place = m_robots.indexOf(group);
+    return place < 0 ? m_robots.size() : place;
+  };
+  std::ranges::stable_sort(groups, {}, rank);
+  const auto moving =
+      std::ranges::find_if(groups, [&](const QString& group) { return isMoving(group, columns); });
+  if (moving == groups.end()) {
+    if (std::ranges::find(m_firstAsked, columns) == m_firstAsked.end()) {
+      m_firstAsked.push_back(columns);
+    }
+    return groups.front();
+  }
+  m_first = *moving;
+  m_firstAsked.clear();
+  ++m_looks;  // others that asked before
+  ++m_generation;
+  return m_first;
+}
+
+void PlotFeed::findFirst() {
+  // A robot that is gone leaves its place to another one.
+  if (!m_first.isEmpty() && m_store && !m_store->findGroup(m_first.toStdString())) m_first.clear();
+  for (const QStringList& columns : std::exchange(m_firstAsked, {})) {
+    if (!m_first.isEmpty()) break;
+    (void)firstGroup(columns);
+  }
 }
 
 // A robot that is heard for the first time says nothing new of the others: their derived curves

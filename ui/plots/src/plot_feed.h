@@ -50,8 +50,10 @@ class PlotFeed : public QObject {
   QStringList groupsWith(const QStringList& columns) const;
   /// `GROUP/COLUMN` with the name that the group has now; itself where there is none.
   QString presentName(const QString& name) const;
-  /// Groups of the robots that keep a goal now.
-  const QStringList& keepers() const { return m_keepers; }
+  /// The group that `first` stands for: of the robots that have these columns one whose value
+  /// moves, ours before others and keepers last. Once one has moved it stays that one until it is
+  /// gone. Empty where there is none.
+  QString firstGroup(const QStringList& columns);
   /// Every variable there is, `GROUP/COLUMN`.
   QStringList names() const;
   /// Wall clock at second 0, where the source has one (Live): then times are written as time of
@@ -62,7 +64,8 @@ class PlotFeed : public QObject {
   QString timeText(double time, int decimals) const;
   /// Grows when variables came or went: what find() said before is void.
   quint64 generation() const { return m_generation; }
-  /// Grows when there are other groups, columns or keepers: what groupsWith() said before is void.
+  /// Grows when there are other groups or columns, or `first` is another robot: what groupsWith()
+  /// said before is void.
   quint64 looks() const { return m_looks; }
 
   /// Rows of a second session, whose second 0 is at `offset` (s); null: none.
@@ -92,7 +95,10 @@ class PlotFeed : public QObject {
   ColumnView named(const QString& name);
   void forget();
   void lookAgain();
-  void findKeepers();
+  void orderRobots();
+  void findFirst();
+  /// A number of these columns changes about the moment that is shown.
+  bool isMoving(const QString& group, const QStringList& columns) const;
 
   FrameSource* m_source;
   LinkedTime* m_time;
@@ -102,8 +108,10 @@ class PlotFeed : public QObject {
   quint64 m_generation = 1;
   quint64 m_looks = 1;
   quint64 m_rowsRead = 0;
-  QStringList m_keepers;
-  bool m_missed = false;  // somebody waits for a variable that is not there
+  QStringList m_robots;  // ours before others, keepers last
+  QString m_first;       // what `first` stands for; empty while none of them has moved
+  std::vector<QStringList> m_firstAsked;  // columns, while it is empty
+  bool m_missed = false;                  // somebody waits for a variable that is not there
   std::optional<QDateTime> m_clock;
   std::shared_ptr<const telemetry::SeriesStore> m_compared;
   quint64 m_comparedGeneration = 0;

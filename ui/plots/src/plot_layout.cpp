@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, 8> curveKinds{"variable",   "derivative",
                                                      "average",    "difference", "wrap",
                                                      "conversion", "expression"};
 constexpr std::array<std::string_view, 4> styles{"line", "steps", "points", "line-and-points"};
+constexpr std::array<std::string_view, 3> sides{"unit", "left", "right"};
 constexpr std::array<std::string_view, 3> paneKinds{"chart", "lane", "xy"};
 constexpr const char* versionKey = "pitchboardPlots";
 constexpr int formatVersion = 1;
@@ -67,20 +68,29 @@ QJsonObject curveToJson(const CurveSpec& curve) {
   if (!curve.unit.isEmpty()) o["unit"] = curve.unit;
   if (!curve.title.isEmpty()) o["title"] = curve.title;
   if (curve.color.isValid()) o["color"] = curve.color.name();
-  if (curve.rightAxis) o["rightAxis"] = true;
+  if (curve.side != CurveSpec::Side::ByUnit) o["axis"] = word(sides, curve.side);
+  if (!curve.hidden.isEmpty()) o["hidden"] = QJsonArray::fromStringList(curve.hidden);
   return o;
+}
+
+QStringList namesOf(const JsonObject& o, std::string_view key) {
+  QStringList names;
+  if (const auto* items = o.array(key, mostOfAnything)) {
+    for (const JsonNode& item : *items) {
+      if (item.kind != JsonNode::Kind::Text) o.fail(key, "must be names in quotes");
+      names << QString::fromStdString(item.text);
+    }
+  }
+  return names;
 }
 
 CurveSpec curveFrom(const JsonObject& o) {
   CurveSpec curve;
   curve.kind = readWord<CurveKind>(o, "kind", curveKinds, "kind of curve");
   curve.style = readWord<CurveStyle>(o, "style", styles, "style of curve");
-  if (const auto* inputs = o.array("inputs", mostOfAnything)) {
-    for (const JsonNode& input : *inputs) {
-      if (input.kind != JsonNode::Kind::Text) o.fail("inputs", "must be names in quotes");
-      // Version 0.8 wrote `A|B` where Live called A otherwise.
-      curve.inputs << QString::fromStdString(input.text).section(QLatin1Char('|'), 0, 0);
-    }
+  for (const QString& input : namesOf(o, "inputs")) {
+    // Version 0.8 wrote `A|B` where Live called A otherwise.
+    curve.inputs << input.section(QLatin1Char('|'), 0, 0);
   }
   curve.expression = textOf(o, "expression");
   const qsizetype wanted = curve.kind == CurveKind::Expression   ? 0
@@ -96,7 +106,10 @@ CurveSpec curveFrom(const JsonObject& o) {
   curve.title = textOf(o, "title");
   curve.colorNumber = wholeOf(o, "colorNumber", 0, 0, std::numeric_limits<int>::max());
   if (o.find("color")) curve.color = QColor(textOf(o, "color"));
-  curve.rightAxis = o.boolean("rightAxis", false);
+  curve.side = readWord<CurveSpec::Side>(o, "axis", sides, "value axis");
+  // As versions up to 0.11 wrote it.
+  if (o.boolean("rightAxis", false)) curve.side = CurveSpec::Side::Right;
+  curve.hidden = namesOf(o, "hidden");
   curve.width = std::clamp(o.number("width", 1.5, anyNumber), 0.5, 10.0);
   return curve;
 }
@@ -196,6 +209,8 @@ QString curveName(const CurveSpec& curve) {
   if (!curve.title.isEmpty()) return curve.title;
   const auto shown = [&curve](qsizetype i) {
     const QString name = curve.inputs.value(i);
+    constexpr QLatin1String computed("curve/");
+    if (name.startsWith(computed)) return name.mid(computed.size());
     const qsizetype slash = name.indexOf(QLatin1Char('/'));
     return slash < 0 ? name : name.mid(slash + 1) + QLatin1Char(' ') + name.left(slash);
   };

@@ -164,8 +164,11 @@ void addLooks(QMenu* menu, PlotPane* pane, int curve) {
                       {QStringLiteral("Thick"), 2.5},
                       {QStringLiteral("Very thick"), 4.0}});
   if (pane->kind() != PaneKind::Chart) return;
-  addChoices<bool>(menu->addMenu(QStringLiteral("Value axis")), pane, curve, &CurveSpec::rightAxis,
-                   {{QStringLiteral("Left"), false}, {QStringLiteral("Right"), true}});
+  using Side = CurveSpec::Side;
+  addChoices<Side>(menu->addMenu(QStringLiteral("Value axis")), pane, curve, &CurveSpec::side,
+                   {{QStringLiteral("By its unit"), Side::ByUnit},
+                    {QStringLiteral("Left"), Side::Left},
+                    {QStringLiteral("Right"), Side::Right}});
 }
 
 /// One description for all robots, now and in other matches.
@@ -201,7 +204,7 @@ void addDerived(QMenu* menu, PlotPage* page, PlotPane* pane, int index) {
     spec.parameter = parameter;
     return spec;
   };
-  // What has another unit gets a plot of its own; Value axis > Right puts it beside the first.
+  // What has another unit gets a plot of its own, which has more room for it than a second axis.
   offer(QStringLiteral("Derivative"), with(CurveKind::Derivative, 0.0), true);
   offer(QStringLiteral("Integral"), with(CurveKind::Integral, 0.0), true);
   for (const double seconds : {0.2, 1.0, 5.0}) {
@@ -231,18 +234,34 @@ void addKinds(QMenu* menu, PlotPage* page, PlotPane* pane) {
     menu->addAction(name, page, [page, pane, spec] { page->replacePane(pane, spec); });
   };
   const PaneSpec spec = pane->spec();
-  const auto plain = std::all_of(spec.curves.begin(), spec.curves.end(),
-                                 [](const CurveSpec& c) { return c.kind == CurveKind::Variable; });
-  if (pane->kind() == PaneKind::Chart && spec.curves.size() >= 2 && plain) {
+  const bool several = std::ranges::any_of(spec.curves, isTemplate);
+  if (pane->kind() == PaneKind::Chart && spec.curves.size() >= 2 && !several) {
     PaneSpec xy = spec;
+    xy.kind = PaneKind::Xy;
     xy.autoValues = true;
     xy.curves.clear();
+    const auto input = [](const CurveSpec& curve) {
+      return curve.kind == CurveKind::Variable ? curve.inputs.value(0)
+                                               : QStringLiteral("curve/") + curveName(curve);
+    };
+    bool computed = false;
     for (qsizetype i = 0; i + 1 < spec.curves.size(); i += 2) {
-      CurveSpec pair = spec.curves[i];
-      pair.inputs << spec.curves[i + 1].inputs.value(0);
+      CurveSpec pair = variableCurve(input(spec.curves[i]));
+      pair.inputs << input(spec.curves[i + 1]);
+      pair.colorNumber = spec.curves[i].colorNumber;
+      computed = computed || spec.curves[i].kind != CurveKind::Variable ||
+                 spec.curves[i + 1].kind != CurveKind::Variable;
       xy.curves << pair;
     }
-    offer(QStringLiteral("Show one over the other (XY)"), xy, PaneKind::Xy);
+    const QString words = QStringLiteral("Show one over the other (XY)");
+    if (computed) {
+      // What is computed is computed where it is shown over time: that stays.
+      menu->addAction(words, page, [page, pane, xy] {
+        page->insertPane(static_cast<int>(page->panes().indexOf(pane)) + 1, xy);
+      });
+    } else {
+      offer(words, xy, PaneKind::Xy);
+    }
   }
   if (pane->kind() == PaneKind::Xy) {
     PaneSpec chart = spec;
@@ -263,7 +282,10 @@ void addKinds(QMenu* menu, PlotPage* page, PlotPane* pane) {
 void askForAxes(PlotsDock* dock, PlotPane* pane) {
   const auto* chart = qobject_cast<ChartPane*>(pane);
   AxesDialog dialog(pane->spec(), chart != nullptr ? chart->valueScale().limits : ValueLimits{},
-                    chart != nullptr ? chart->rightScale().limits : ValueLimits{}, dock);
+                    chart != nullptr && chart->hasRightAxis()
+                        ? std::optional(chart->rightScale().limits)
+                        : std::nullopt,
+                    dock);
   if (dialog.exec() == QDialog::Accepted) pane->setOptions(dialog.pane());
 }
 
@@ -305,13 +327,22 @@ void showPlotMenu(PlotsDock* dock, PlotPage* page, PlotPane* pane, int curve, co
   const auto offerCurve = [&](QMenu* into, int index) {
     into->addAction(QStringLiteral("Edit…"), dock,
                     [dock, pane, index] { editCurve(dock, pane, index); });
-    if (pane->kind() != PaneKind::Lane) addLooks(into, pane, index);
+    if (pane->kind() != PaneKind::Lane) {
+      const bool hidden = pane->curves()[static_cast<std::size_t>(index)].isHidden();
+      into->addAction(hidden ? QStringLiteral("Show") : QStringLiteral("Hide"), pane,
+                      [pane, index] { pane->toggleCurve(index); });
+      into->addAction(QStringLiteral("Show only this one"), pane,
+                      [pane, index] { pane->showOnly(index); });
+      addLooks(into, pane, index);
+    }
     addForEach(into, pane, index);
     addDerived(into, page, pane, index);
     into->addAction(themedIcon(QStringLiteral("edit-delete")), QStringLiteral("Remove curve"), page,
                     [page, pane, index] {
-                      pane->removeCurve(index);
-                      if (pane->curves().empty()) page->removePane(pane);
+                      if (pane->spec().curves.size() == 1)
+                        page->removePane(pane);
+                      else
+                        pane->removeCurve(index);
                     });
   };
   if (curve >= 0) {

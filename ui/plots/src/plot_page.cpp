@@ -9,6 +9,8 @@
 #include <QScrollBar>
 #include <QSplitter>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
 
 #include <ui/base/plot_target.h>
 #include <ui/base/theme.h>
@@ -80,7 +82,7 @@ PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWi
   row->setContentsMargins(0, 0, 0, 0);
   row->addWidget(m_split);
   m_stack->installEventFilter(this);
-  connect(m_panes, &QSplitter::splitterMoved, this, &PlotPage::changed);
+  connect(m_panes, &QSplitter::splitterMoved, this, &PlotPage::tellChanged);
   for (const auto moved : {&LinkedTime::cursorChanged, &LinkedTime::momentChanged}) {
     connect(feed->time(), moved, this, [this] {
       if (!isVisible()) return;
@@ -100,6 +102,28 @@ PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWi
   align();
 }
 
+class PlotPage::Batch {
+ public:
+  explicit Batch(PlotPage* page) : m_page(page) { ++m_page->m_batches; }
+  ~Batch() {
+    if (--m_page->m_batches == 0 && std::exchange(m_page->m_changedInBatch, false)) {
+      emit m_page->changed();
+    }
+  }
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
+
+ private:
+  PlotPage* m_page;
+};
+
+void PlotPage::tellChanged() {
+  if (m_batches > 0)
+    m_changedInBatch = true;
+  else
+    emit changed();
+}
+
 PageSpec PlotPage::spec() const {
   PageSpec spec{m_name, {}};
   const QList<int> sizes = m_panes->sizes();
@@ -115,7 +139,7 @@ PageSpec PlotPage::spec() const {
 
 void PlotPage::setName(const QString& name) {
   m_name = name;
-  emit changed();
+  tellChanged();
 }
 
 QList<PlotPane*> PlotPage::panes() const {
@@ -130,7 +154,7 @@ PlotPane* PlotPage::insertPane(int index, const PaneSpec& spec) {
   m_panes->setStretchFactor(index, spec.kind == PaneKind::Lane ? 0 : 1);
   pane->setBoxTool(m_boxTool);
   connect(pane, &PlotPane::leftChanged, this, &PlotPage::align);
-  connect(pane, &PlotPane::changed, this, &PlotPage::changed);
+  connect(pane, &PlotPane::changed, this, &PlotPage::tellChanged);
   connect(pane, &PlotPane::changed, this, &PlotPage::showMarks);
   connect(pane, &PlotPane::pointed, this, [this, pane](std::optional<QPointF> at) {
     m_pointedPane = pane;
@@ -139,13 +163,11 @@ PlotPane* PlotPage::insertPane(int index, const PaneSpec& spec) {
   });
   connect(pane, &PlotPane::menuRequested, this,
           [this, pane](int curve, const QPoint& at) { emit menuRequested(pane, curve, at); });
-  connect(pane, &PlotPane::editRequested, this,
-          [this, pane](int curve) { emit editRequested(pane, curve); });
   pane->refresh();
   pane->show();
   align();
   m_lines->raise();
-  emit changed();
+  tellChanged();
   return pane;
 }
 
@@ -154,7 +176,7 @@ void PlotPage::removePane(PlotPane* pane) {
   pane->deleteLater();
   align();
   showMarks();
-  emit changed();
+  tellChanged();
 }
 
 void PlotPage::removeAll() {
@@ -164,7 +186,7 @@ void PlotPage::removeAll() {
   }
   align();
   showMarks();
-  emit changed();
+  tellChanged();
 }
 
 // The table gets the width that its columns want, as long as the plots keep half.
@@ -189,6 +211,7 @@ void PlotPage::showPointed() {
 void PlotPage::setForPicture(bool on) {
   m_lines->setForPicture(on);
   m_ruler->setForPicture(on);
+  for (int i = 1; i < m_panes->count(); ++i) m_panes->handle(i)->setVisible(!on);
   m_scroll->setVerticalScrollBarPolicy(on ? Qt::ScrollBarAlwaysOff : Qt::ScrollBarAsNeeded);
 }
 
@@ -207,18 +230,30 @@ bool PlotPage::isCoded(const QString& name) const {
   return view && view.isCoded();
 }
 
-void PlotPage::addVariables(const QStringList& names) {
+QString PlotPage::unitOf(const QString& name) const {
+  const ColumnView view = m_feed->find(name);
+  return view ? QString::fromStdString(view.info().unit) : QString();
+}
+
+void PlotPage::place(const QStringList& names, QList<PlotPane*> takers, int index) {
+  const Batch batch(this);
   for (const QString& name : names) {
     const PaneKind kind = isCoded(name) ? PaneKind::Lane : PaneKind::Chart;
-    PlotPane* taker = nullptr;
-    for (PlotPane* pane : panes()) {
-      if (pane->kind() == kind) taker = pane;  // the last one: where somebody worked last
-    }
-    if (taker != nullptr)
-      taker->addCurve(variableCurve(name));
+    const QString unit = unitOf(name);
+    const auto taker = std::ranges::find_if(
+        takers, [&](const PlotPane* pane) { return pane->kind() == kind && pane->canTake(unit); });
+    if (taker != takers.end())
+      (*taker)->addCurve(variableCurve(name));
     else
-      insertPane(m_panes->count(), paneOf(kind, variableCurve(name)));
+      takers << insertPane(index++, paneOf(kind, variableCurve(name)));
   }
+}
+
+void PlotPage::addVariables(const QStringList& names) {
+  // The last one is where somebody worked last.
+  QList<PlotPane*> takers = panes();
+  std::reverse(takers.begin(), takers.end());
+  place(names, takers, m_panes->count());
 }
 
 void PlotPage::addCurve(const CurveSpec& curve) {
@@ -232,20 +267,25 @@ void PlotPage::addCurve(const CurveSpec& curve) {
 }
 
 void PlotPage::align() {
-  // A new width can change the numbers, and with them the wish.
   if (m_aligning) return;
   m_aligning = true;
-  int left = scaled(this, plainLeft);
-  int right = scaled(this, PlotPane::rightMargin);
   bool overTime = false;
-  for (PlotPane* pane : panes()) {
-    left = qMax(left, pane->wantedLeft());
-    right = qMax(right, pane->wantedRight());
-    overTime = overTime || pane->isOverTime();
+  // A new width can change the numbers, and with them the wish: what stands there in the end does
+  // not depend on what stood there before.
+  constexpr int mostPasses = 3;
+  for (int pass = 0; pass < mostPasses; ++pass) {
+    int left = scaled(this, plainLeft);
+    int right = scaled(this, PlotPane::rightMargin);
+    for (PlotPane* pane : panes()) {
+      left = qMax(left, pane->wantedLeft());
+      right = qMax(right, pane->wantedRight());
+      overTime = overTime || pane->isOverTime();
+    }
+    if (pass > 0 && left == m_left && right == m_right) break;
+    m_left = left;
+    m_right = right;
+    for (PlotPane* pane : panes()) pane->setEdges(left, right);
   }
-  m_left = left;
-  m_right = right;
-  for (PlotPane* pane : panes()) pane->setEdges(left, right);
   giveLanesTheirHeight();
   const bool empty = m_panes->count() == 0;
   m_empty->setVisible(empty);
@@ -279,6 +319,7 @@ void PlotPage::giveLanesTheirHeight() {
   bool wrong = false;
   int freed = 0, charts = 0;
   for (qsizetype i = 0; i < all.size(); ++i) {
+    if (all[i]->isHidden()) continue;
     if (all[i]->kind() != PaneKind::Lane) {
       ++charts;
       continue;
@@ -407,23 +448,10 @@ void PlotPage::drop(const QStringList& names, const QPoint& position) {
     insertPane(m_panes->count(), xy);
     return;
   }
-  PaneSpec chart, lane;
-  lane.kind = PaneKind::Lane;
-  int number = 0;
-  for (const QString& name : names) {
-    const bool coded = isCoded(name);
-    const PaneKind kind = coded ? PaneKind::Lane : PaneKind::Chart;
-    if (target.place == Place::OnPane && target.pane->kind() == kind) {
-      target.pane->addCurve(variableCurve(name));
-      continue;
-    }
-    CurveSpec curve = variableCurve(name);
-    curve.colorNumber = number++;
-    (coded ? lane : chart).curves << curve;
-  }
-  int index = target.place == Place::OnPane ? target.index + 1 : target.index;
-  if (!chart.curves.isEmpty()) insertPane(index++, chart);
-  if (!lane.curves.isEmpty()) insertPane(index, lane);
+  if (target.place == Place::OnPane)
+    place(names, {target.pane}, target.index + 1);
+  else
+    place(names, {}, target.index);
 }
 
 void PlotPage::dragEnterEvent(QDragEnterEvent* event) {

@@ -41,7 +41,7 @@ class PlotPage : public QWidget {
   /// A pane in place of another, of another kind.
   void replacePane(PlotPane* pane, const PaneSpec& spec);
 
-  /// Where variables go when nobody said where: the first plot that can take them, lanes for codes.
+  /// Where variables go when nobody said where: the last plot that can take them, lanes for codes.
   void addVariables(const QStringList& names);
   /// What a drop there does. `position` in the page.
   void drop(const QStringList& names, const QPoint& position);
@@ -50,7 +50,8 @@ class PlotPage : public QWidget {
   MarksPanel* marksPanel() const { return m_marks; }
   /// What a picture of the page shows: the plots with their marks, without the table.
   QWidget* picture() const { return m_stack; }
-  /// While on, nothing is drawn that only makes sense on the screen: pointer, moment, scroll bar.
+  /// While on, nothing is drawn that only makes sense on the screen: pointer, moment, scroll bar,
+  /// the handles between plots.
   void setForPicture(bool on);
   void removeAll();
   void setBoxTool(bool on);
@@ -62,7 +63,6 @@ class PlotPage : public QWidget {
  signals:
   void changed();
   void menuRequested(pitchboard::ui::PlotPane* pane, int curve, const QPoint& globalPosition);
-  void editRequested(pitchboard::ui::PlotPane* pane, int curve);
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -80,7 +80,13 @@ class PlotPage : public QWidget {
     QRect area;  // in m_stack
   };
   Target targetAt(const QPoint& position, qsizetype count) const;
+  /// Changes that are one for whoever undoes them: changed() comes at their end.
+  class Batch;
+  void tellChanged();
   bool isCoded(const QString& name) const;
+  QString unitOf(const QString& name) const;
+  /// Each to the first of these plots that can show it, else to a new one at `index`.
+  void place(const QStringList& names, QList<PlotPane*> takers, int index);
   void align();
   void placeLines();
   void giveLanesTheirHeight();
@@ -103,6 +109,8 @@ class PlotPage : public QWidget {
   QPointer<PlotPane> m_pointedPane;
   std::optional<QPointF> m_pointedAt;  // in the pane's surface
   int m_left = 0, m_right = 0;
+  int m_batches = 0;
+  bool m_changedInBatch = false;
   bool m_boxTool = false;
   bool m_aligning = false;
 };

@@ -32,7 +32,8 @@ PlotPane::PlotPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   m_column->setSpacing(0);
   m_column->addWidget(m_legend);
   connect(m_legend, &LegendBar::menuRequested, this, &PlotPane::menuRequested);
-  connect(m_legend, &LegendBar::activated, this, &PlotPane::editRequested);
+  connect(m_legend, &LegendBar::toggled, this, &PlotPane::toggleCurve);
+  connect(m_legend, &LegendBar::isolated, this, &PlotPane::showOnly);
 }
 
 PlotPane::~PlotPane() = default;
@@ -58,10 +59,7 @@ void PlotPane::setOptions(const PaneSpec& spec) {
 
 int PlotPane::freeColor() const {
   for (int number = 0;; ++number) {
-    const auto uses = [number](const Curve& c) {
-      return c.spec().colorNumber % curveColors == number;
-    };
-    if (number == curveColors) return static_cast<int>(m_curves.size());
+    const auto uses = [number](const Curve& c) { return c.spec().colorNumber == number; };
     if (std::none_of(m_curves.begin(), m_curves.end(), uses)) return number;
   }
 }
@@ -118,6 +116,44 @@ void PlotPane::expand() {
       m_describedBy.push_back(d);
     }
   }
+  m_axes = planAxes(unitsOfCurves());
+}
+
+std::vector<UnitWish> PlotPane::unitsOfCurves() const {
+  std::vector<UnitWish> all;
+  for (const Curve& curve : m_curves) all.push_back({curve.unit(), curve.spec().side});
+  return all;
+}
+
+bool PlotPane::canTake(const QString& unit) const {
+  if (kind() != PaneKind::Chart) return true;
+  std::vector<UnitWish> all = unitsOfCurves();
+  all.push_back({unit});
+  return !planAxes(all).places.back().stranger;
+}
+
+void PlotPane::setHidden(int index, bool on) {
+  const auto curve = static_cast<std::size_t>(index);
+  QStringList& hidden = m_descriptions[m_describedBy[curve]].hidden;
+  const QString name = m_curves[curve].name();
+  hidden.removeAll(name);
+  if (on) hidden << name;
+}
+
+void PlotPane::toggleCurve(int index) {
+  if (index < 0 || static_cast<std::size_t>(index) >= m_curves.size()) return;
+  setHidden(index, !m_curves[static_cast<std::size_t>(index)].isHidden());
+  expand();
+  edited();
+}
+
+void PlotPane::showOnly(int index) {
+  if (index < 0 || static_cast<std::size_t>(index) >= m_curves.size()) return;
+  // The first click of a double click on the only one that was shown has hidden it.
+  const bool none = std::ranges::all_of(m_curves, &Curve::isHidden);
+  for (int i = 0; i < static_cast<int>(m_curves.size()); ++i) setHidden(i, !none && i != index);
+  expand();
+  edited();
 }
 
 void PlotPane::edited() {
@@ -129,7 +165,7 @@ void PlotPane::setEdges(int left, int right) {
   if (left == m_left && right == m_right) return;
   m_left = left;
   m_right = right;
-  m_legend->setLeft(left, scaled(this, rightMargin));
+  m_legend->setEdges(left, right);
   draw();
 }
 
@@ -141,31 +177,50 @@ TimeAxis PlotPane::timeAxis() const {
 void PlotPane::refresh() {
   if (m_feed->looks() != m_expandedFor) expand();
   for (Curve& curve : m_curves) curve.update(*m_feed);
+  m_axes = planAxes(unitsOfCurves());
   showValues();
   draw();
+}
+
+LegendEntry PlotPane::legendEntry(std::size_t index) const {
+  const Curve& curve = m_curves[index];
+  LegendEntry entry;
+  entry.text = curve.name();
+  entry.color = curve.color();
+  entry.dash = curveDash(curve.spec().colorNumber);
+  entry.hidden = curve.isHidden();
+  entry.tip = curve.spec().expression.isEmpty() ? curve.spec().inputs.join(QStringLiteral(", "))
+                                                : curve.spec().expression;
+  if (!curve.note().isEmpty()) {
+    entry.muted = true;
+    entry.faulty = curve.isFaulty();
+    entry.text = entry.faulty ? entry.text + QStringLiteral(": ") + curve.note() : curve.note();
+    return entry;
+  }
+  entry.value = curve.valueTextAt(m_feed->time()->readAt());
+  const AxisPlan::Place& place = m_axes.places[index];
+  const bool chart = kind() == PaneKind::Chart;
+  QStringList side;
+  if (chart && place.right) side << QStringLiteral("right");
+  const QString axis = !chart ? QString() : place.right ? m_axes.right : m_axes.left;
+  if (!curve.unit().isEmpty() && curve.unit() != axis)
+    side << QStringLiteral("[%1]").arg(curve.unit());
+  entry.side = side.join(QLatin1Char(' '));
+  entry.odd = chart && place.stranger;
+  if (entry.odd) {
+    entry.tip += QStringLiteral("\nNeither axis has the unit %1").arg(curve.unit());
+  }
+  return entry;
 }
 
 void PlotPane::showValues() {
   m_legend->setVisible(wantsLegend());
   if (!wantsLegend()) return;
   QList<LegendEntry> entries;
-  for (const Curve& curve : m_curves) {
-    LegendEntry entry;
-    entry.text = curve.name();
-    if (!curve.note().isEmpty()) {
-      entry.muted = true;
-      entry.faulty = curve.isFaulty();
-      entry.text = entry.faulty ? entry.text + QStringLiteral(": ") + curve.note() : curve.note();
-    } else {
-      if (!curve.unit().isEmpty()) entry.text += QStringLiteral(" [%1]").arg(curve.unit());
-      entry.value = curve.valueTextAt(m_feed->time()->readAt());
-    }
-    entry.color = curve.color();
-    entry.tip = curve.spec().inputs.join(QStringLiteral(", "));
-    if (!curve.spec().expression.isEmpty()) entry.tip = curve.spec().expression;
-    entries << entry;
-  }
+  for (std::size_t i = 0; i < m_curves.size(); ++i) entries << legendEntry(i);
+  const bool chart = kind() == PaneKind::Chart;
   m_legend->setTitle(m_spec.title);
+  m_legend->setUnits(chart ? m_axes.left : QString(), chart ? m_axes.right : QString());
   m_legend->setEntries(entries);
 }
 

@@ -7,6 +7,7 @@
 #include <QWidget>
 #include <vector>
 
+#include "axis_units.h"
 #include "curve.h"
 #include "curve_trace.h"
 
@@ -17,6 +18,7 @@ namespace pitchboard::ui {
 
 class LegendBar;
 class LinkedTime;
+struct LegendEntry;
 
 class PlotPane : public QWidget {
   Q_OBJECT
@@ -40,6 +42,14 @@ class PlotPane : public QWidget {
   void setCurve(int index, const CurveSpec& curve);
   void removeCurve(int index);
   bool hasCurve(const CurveSpec& curve) const;
+  /// A variable of this unit has a value axis here, or can have one.
+  bool canTake(const QString& unit) const;
+  /// Hides a curve, or shows it again.
+  void toggleCurve(int index);
+  /// Hides all others; shows all again where that leaves nothing to do.
+  void showOnly(int index);
+  /// At which axis each curve is read.
+  const AxisPlan& axes() const { return m_axes; }
 
   LegendBar* legend() const { return m_legend; }
   /// The part that curves are drawn in.
@@ -73,8 +83,7 @@ class PlotPane : public QWidget {
   void changed();      ///< something that a preset holds
   void leftChanged();  ///< wantedLeft() or a fixed height did
   void menuRequested(int curve, const QPoint& globalPosition);  ///< curve: -1 for the plot
-  void editRequested(int curve);
-  void pointed(std::optional<QPointF> at);  ///< the pointer, in the surface
+  void pointed(std::optional<QPointF> at);                      ///< the pointer, in the surface
 
  protected:
   PlotPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent);
@@ -90,10 +99,15 @@ class PlotPane : public QWidget {
   PlotFeed* m_feed;
   PaneSpec m_spec;  // without curves
   std::vector<Curve> m_curves;
+  AxisPlan m_axes;
 
  private:
   void edited();
   void expand();
+  std::vector<UnitWish> unitsOfCurves() const;
+  LegendEntry legendEntry(std::size_t index) const;
+  /// Without drawing anew.
+  void setHidden(int index, bool on);
   int freeColor() const;
 
   LegendBar* m_legend;

@@ -8,6 +8,7 @@
 #include <QJsonDocument>
 #include <QLayout>
 #include <QMenu>
+#include <QScopedValueRollback>
 #include <QSettings>
 #include <QStackedWidget>
 #include <QTabBar>
@@ -39,7 +40,16 @@ constexpr int drawMilliseconds = 16;
 constexpr int saveMilliseconds = 1000;
 const QString noticeTopic = QStringLiteral("plots");
 const QString layoutKey = QStringLiteral("plots/layout");
-const QString windowKey = QStringLiteral("plots/window");
+
+/// How much is shown while following is kept for each kind of source.
+QString windowKey(SourceKind kind) {
+  return kind == SourceKind::Simulate ? QStringLiteral("plots/window")
+         : kind == SourceKind::Live   ? QStringLiteral("plots/liveWindow")
+                                      : QStringLiteral("plots/replayWindow");
+}
+double firstWindow(SourceKind kind) {
+  return kind == SourceKind::Simulate ? LinkedTime::defaultWindow : LinkedTime::longWindow;
+}
 
 }  // namespace
 
@@ -95,6 +105,13 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
     connect(context.plots, &PlotTarget::requested, this, &PlotsDock::plotVariables);
   }
   connect(context.source, &SourceSwitch::timesOfDayChanged, this, &PlotsDock::scheduleDraw);
+  connect(context.source, &SourceSwitch::changed, this, &PlotsDock::takeWindow);
+  connect(context.time, &LinkedTime::marksMoved, this, [this](const TimeMarks& before) {
+    pushTimeEdit(
+        QStringLiteral("Move marks A and B"), QStringLiteral("marks"),
+        [now = m_time->marks()](LinkedTime* time) { time->setMarks(now); },
+        [before](LinkedTime* time) { time->setMarks(before); });
+  });
   if (context.timeline != nullptr) {
     connect(context.time, &LinkedTime::momentRequested, context.timeline, &Timeline::seek);
     connect(context.time, &LinkedTime::nowRequested, context.timeline, &Timeline::goLive);
@@ -124,12 +141,37 @@ void PlotsDock::restore() {
                      .arg(QString::fromStdString(read.error().text())));
     }
   }
-  const double window = settings != nullptr ? settings->value(windowKey).toDouble() : 0.0;
-  if (window > 0.0) m_context.time->setWindow(window);
+  m_windows.clear();  // what the tools showed until now is nobody's choice
+  takeWindow();
   put(layout);
   m_known = layoutSpec();
   changed();
   m_saveSoon.stop();
+}
+
+/// The window of the source that is shown now, as it was left.
+void PlotsDock::takeWindow() {
+  m_windowOf = m_context.source->kind();
+  const QSettings* settings = m_context.settings;
+  const auto known = m_windows.find(m_windowOf);
+  const double saved = known != m_windows.end() ? known->second
+                       : settings != nullptr    ? settings->value(windowKey(m_windowOf)).toDouble()
+                                                : 0.0;
+  m_context.time->setWindow(saved > 0.0 ? saved : firstWindow(m_windowOf));
+}
+
+/// A change of what the layout does not hold; it has happened already.
+void PlotsDock::pushTimeEdit(const QString& text, const QString& key,
+                             const std::function<void(LinkedTime*)>& redo,
+                             const std::function<void(LinkedTime*)>& undo) {
+  if (m_restoring) return;
+  const auto run = [this](const std::function<void(LinkedTime*)>& change) {
+    return [this, change] {
+      const QScopedValueRollback restoring(m_restoring, true);
+      if (m_time) change(m_time);
+    };
+  };
+  m_undo->push(new EditCommand({text, run(redo), run(undo), key, true}));
 }
 
 /// Plots are at the moment that field and cards show.
@@ -192,8 +234,6 @@ PlotPage* PlotsDock::addPage(const PageSpec& spec) {
           [this, page](PlotPane* pane, int curve, const QPoint& at) {
             showPlotMenu(this, page, pane, curve, at);
           });
-  connect(page, &PlotPage::editRequested, this,
-          [this](PlotPane* pane, int curve) { editCurve(this, pane, curve); });
   changed();
   return page;
 }
@@ -274,7 +314,9 @@ void PlotsDock::save() {
   if (m_context.settings == nullptr) return;
   m_context.settings->setValue(layoutKey,
                                QJsonDocument(toJson(layoutSpec())).toJson(QJsonDocument::Compact));
-  if (m_time) m_context.settings->setValue(windowKey, m_time->window());
+  for (const auto& [kind, seconds] : m_windows) {
+    m_context.settings->setValue(windowKey(kind), seconds);
+  }
 }
 
 void PlotsDock::showNotice(const QString& sentence) {
@@ -383,9 +425,15 @@ QToolBar* PlotsDock::makeTools() {
   m_window->setPopupMode(QToolButton::InstantPopup);
   auto* windows = new QMenu(m_window);
   for (const double seconds : LinkedTime::windows) {
-    windows->addAction(windowText(seconds), this, [time, seconds] {
-      time->setWindow(seconds);
+    windows->addAction(windowText(seconds), this, [this, time, seconds] {
+      const double before = time->window();
       time->setFollowing(true);
+      if (seconds == before) return;
+      time->setWindow(seconds);
+      pushTimeEdit(
+          QStringLiteral("Show %1").arg(windowText(seconds)), {},
+          [seconds](LinkedTime* to) { to->setWindow(seconds); },
+          [before](LinkedTime* to) { to->setWindow(before); });
     });
   }
   m_window->setMenu(windows);
@@ -441,6 +489,7 @@ QToolBar* PlotsDock::makeTools() {
 
 void PlotsDock::showWindow() {
   const double seconds = m_context.time->window();
+  m_windows[m_windowOf] = seconds;
   const auto& offered = LinkedTime::windows;
   const bool round = std::find(offered.begin(), offered.end(), seconds) != offered.end();
   m_window->setText(round ? windowText(seconds) : QStringLiteral("%1 s").arg(seconds, 0, 'g', 3));

@@ -3,6 +3,7 @@
 
 #include <QMouseEvent>
 #include <QPainter>
+#include <algorithm>
 #include <cmath>
 
 #include <ui/base/quick_painting.h>
@@ -34,39 +35,59 @@ QSize TimeRuler::sizeHint() const {
   return {100, scaled(this, rulerHeight)};
 }
 
+std::vector<AxisTick> TimeRuler::labels() const {
+  std::vector<AxisTick> shown = ticksOf(m_axis(), *m_feed, this);
+  const TimeAxis axis = m_axis();
+  const std::vector<Tag> covering = tags();
+  const QFont font = themeFont(TypeRole::Small);
+  std::erase_if(shown, [&](const AxisTick& tick) {
+    const double wide = wordsWidth(font, tick.label) + scaled(this, 6);
+    const QRectF box(axis.pixel(tick.time) - wide / 2, 0, wide, height());
+    return std::ranges::any_of(covering,
+                               [&box](const Tag& tag) { return tag.box.intersects(box); });
+  });
+  return shown;
+}
+
 void TimeRuler::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setFont(themeFont(TypeRole::Small));
   painter.setPen(theme().secondaryText);
   const TimeAxis axis = m_axis();
   const double half = scaled(this, pixelsPerStep);
-  for (const AxisTick& tick : ticksOf(axis, *m_feed, this)) {
+  for (const AxisTick& tick : labels()) {
     const double x = axis.pixel(tick.time);
     drawWords(painter, QRectF(x - half, 0, 2 * half, height()), Qt::AlignCenter, tick.label);
   }
-  if (m_forPicture) return;
-  const LinkedTime& time = *m_feed->time();
-  if (time.moment()) paintTag(painter, *time.moment(), theme().accentFill, Qt::white);
-  if (time.cursor()) paintTag(painter, *time.cursor(), theme().button, theme().text);
+  for (const Tag& tag : tags()) {
+    painter.setPen(theme().innerLine);
+    painter.setBrush(tag.isMoment ? theme().accentFill : theme().button);
+    painter.drawRoundedRect(tag.box, 2, 2);
+    painter.setPen(tag.isMoment ? QColor(Qt::white) : theme().text);
+    painter.drawText(tag.box, Qt::AlignCenter, tag.words);
+  }
 }
 
-void TimeRuler::paintTag(QPainter& painter, double time, const QColor& ground,
-                         const QColor& text) const {
+std::vector<TimeRuler::Tag> TimeRuler::tags() const {
+  std::vector<Tag> all;
+  if (m_forPicture) return all;
   const TimeAxis axis = m_axis();
-  const double x = axis.pixel(time);
-  if (x < axis.left - 0.5 || x > axis.right() + 0.5) return;
-  constexpr double fine = 0.003, coarse = 0.03;  // s for each pixel
-  const double each = axis.secondsPerPixel();
-  const QString words = m_feed->timeText(time, each < fine ? 3 : each < coarse ? 2 : 1);
-  const double wide = painter.fontMetrics().horizontalAdvance(words) + scaled(this, 8);
-  QRectF box(x - wide / 2, 0.5, wide, height() - 1.0);
-  if (box.left() < 0) box.moveLeft(0);
-  if (box.right() > width()) box.moveRight(width());
-  painter.setPen(theme().innerLine);
-  painter.setBrush(ground);
-  painter.drawRoundedRect(box, 2, 2);
-  painter.setPen(text);
-  painter.drawText(box, Qt::AlignCenter, words);
+  const QFontMetrics metrics(themeFont(TypeRole::Small));
+  const auto add = [&](std::optional<double> time, bool isMoment) {
+    const double x = time ? axis.pixel(*time) : -1.0;
+    if (!time || x < axis.left - 0.5 || x > axis.right() + 0.5) return;
+    constexpr double fine = 0.003, coarse = 0.03;  // s for each pixel
+    const double each = axis.secondsPerPixel();
+    const QString words = m_feed->timeText(*time, each < fine ? 3 : each < coarse ? 2 : 1);
+    const double wide = metrics.horizontalAdvance(words) + scaled(this, 8);
+    QRectF box(x - wide / 2, 0.5, wide, height() - 1.0);
+    if (box.left() < 0) box.moveLeft(0);
+    if (box.right() > width()) box.moveRight(width());
+    all.push_back({box, words, isMoment});
+  };
+  add(m_feed->time()->moment(), true);
+  add(m_feed->time()->cursor(), false);
+  return all;
 }
 
 MarkHeads::MarkHeads(LinkedTime* time, std::function<TimeAxis()> axis, QWidget* parent)

@@ -26,12 +26,21 @@ class TimeRuler : public QWidget {
   QSize sizeHint() const override;
   /// Without the times of pointer and moment.
   void setForPicture(bool on) { m_forPicture = on; }
+  /// The numbers that are drawn: those that a time of pointer or moment would cover are not.
+  std::vector<AxisTick> labels() const;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  void paintTag(QPainter& painter, double time, const QColor& ground, const QColor& text) const;
+  /// The time of pointer or moment.
+  struct Tag {
+    QRectF box;
+    QString words;
+    bool isMoment = false;
+  };
+  std::vector<Tag> tags() const;
+
   const PlotFeed* m_feed;
   std::function<TimeAxis()> m_axis;
   bool m_forPicture = false;

@@ -24,6 +24,7 @@ namespace {
 constexpr std::size_t mostPoints = 8000;  // more do not show on a screen
 constexpr int pixelsPerStepX = 64;        // px of the mock
 constexpr int pixelsPerStepY = 24;
+constexpr int roomBelow = 46;  // for the numbers and the title of the lower axis
 // A line with more breaks is shown as points: Qt needs a series for each stretch.
 constexpr std::size_t mostStretches = 100;
 
@@ -125,7 +126,7 @@ void XyPane::restyle() {
 
 void XyPane::draw() {
   m_chart->setMargins(std::max(left(), m_chart->wantedLeft()), scaled(this, 5), right(),
-                      scaled(this, 34));
+                      scaled(this, roomBelow));
   const QRectF area = m_chart->plotArea();
   if (area.isEmpty()) return;
   m_points.clear();
@@ -135,6 +136,11 @@ void XyPane::draw() {
   const double offset = m_feed->comparedOffset();
   m_comparedPoints.clear();
   for (Curve& curve : m_curves) {
+    if (curve.isHidden()) {
+      m_points.emplace_back();
+      m_comparedPoints.emplace_back();
+      continue;
+    }
     m_points.push_back(xyPoints(curve.view(), curve.ordinate(), range, mostPoints));
     m_comparedPoints.push_back(xyPoints(curve.compared(*m_feed), curve.comparedOrdinate(*m_feed),
                                         {range.begin - offset, range.end - offset}, mostPoints));
@@ -242,7 +248,7 @@ void XyPane::showMarkers() {
   for (std::size_t i = 0; i < m_markers.size(); ++i) {
     QScatterSeries* marker = m_markers[i];
     marker->setVisible(false);
-    if (i >= m_curves.size()) continue;
+    if (i >= m_curves.size() || m_curves[i].isHidden()) continue;
     const Curve& curve = m_curves[i];
     const auto x = curve.valueAt(cursor);
     const auto y = !curve.ordinate() ? std::nullopt

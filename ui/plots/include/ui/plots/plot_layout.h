@@ -32,6 +32,11 @@ enum class CurveKind {
 enum class CurveStyle { Line, Steps, Points, LineAndPoints };
 
 struct CurveSpec {
+  enum class Side {
+    ByUnit,  ///< with the curves whose unit it has, or can be converted to
+    Left,
+    Right
+  };
   CurveKind kind = CurveKind::Variable;
   QStringList inputs;
   QString expression;
@@ -42,8 +47,9 @@ struct CurveSpec {
   int colorNumber = 0;  ///< of the palette of curves, which has one for each theme
   QColor color;         ///< chosen by hand; not valid: the palette's
   CurveStyle style = CurveStyle::Line;
-  double width = 1.5;      ///< px of the mock
-  bool rightAxis = false;  ///< read at the second value axis
+  double width = 1.5;        ///< px of the mock
+  Side side = Side::ByUnit;  ///< the value axis that it is read at
+  QStringList hidden;        ///< names of the shown curves (curveName) that are not drawn
   bool operator==(const CurveSpec&) const = default;
 };
 

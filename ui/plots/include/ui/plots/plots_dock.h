@@ -7,10 +7,13 @@
 #include <QPointer>
 #include <QTimer>
 #include <QWidget>
+#include <functional>
+#include <map>
 #include <optional>
 
 #include <telemetry/series/series_store.h>
 #include <ui/plots/plot_layout.h>
+#include <ui/sources/frame_source.h>
 #include <ui/sources/linked_time.h>
 
 class QAction;
@@ -94,6 +97,10 @@ class PlotsDock : public QWidget {
   void takeRows();
   void save();
   void showWindow();
+  void takeWindow();
+  void pushTimeEdit(const QString& text, const QString& key,
+                    const std::function<void(LinkedTime*)>& redo,
+                    const std::function<void(LinkedTime*)>& undo);
   PlotPage* pageAt(int tab) const;
 
   PlotsContext m_context;
@@ -111,6 +118,8 @@ class PlotsDock : public QWidget {
   QAction* m_box;
   QTimer m_draw, m_saveSoon;
   bool m_restoring = false;
+  std::map<SourceKind, double> m_windows;  // s, of the sources that were shown
+  SourceKind m_windowOf{};
   quint64 m_drawnGeneration = 0;
   quint64 m_drawnRows = 0;
   std::optional<telemetry::TimeRange> m_drawnData;

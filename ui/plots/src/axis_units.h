@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// At which value axis of a chart a curve is read, by its unit: the first unit has the left axis,
+// and so has what can be converted to it; the next one that cannot has the right axis. Pure.
+
+#include <QString>
+#include <span>
+#include <vector>
+
+#include <ui/plots/plot_layout.h>
+
+namespace pitchboard::ui {
+
+struct AxisPlan {
+  struct Place {
+    bool right = false;
+    double factor = 1.0;    ///< number at the axis = factor × value of the curve
+    bool stranger = false;  ///< its unit is none of the axis, nor can be converted to it
+    bool operator==(const Place&) const = default;
+  };
+  QString left, right;        ///< units of the axes; empty: unknown, or there is no such axis
+  std::vector<Place> places;  ///< of the curves, in their order
+  bool hasRight() const;
+};
+
+struct UnitWish {
+  QString unit;  ///< empty: unknown, and so is whether it fits; it goes to the left
+  CurveSpec::Side side = CurveSpec::Side::ByUnit;
+};
+AxisPlan planAxes(std::span<const UnitWish> curves);
+
+}  // namespace pitchboard::ui
