@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Waits for as many whole seconds as the first argument says in every way that C++ knows, those of C
-// among them: see every_wait.h.
+// Waits for as many whole seconds as the first argument says in every way that C++ knows, those of
+// C among them: see every_wait.h.
 #include <chrono>
 #include <condition_variable>
 #include <future>

@@ -144,7 +144,8 @@ void LiveRows::renew(Robot& robot, std::string name) {
   const std::string before = robot.groupName();
   const std::string link = linkGroup(std::exchange(robot.name, std::move(name)), {}).name;
   robot.hasBoard = m_options.boards.contains(robot.key);
-  robot.link = m_sink->renameGroup(link, linkGroup(robot.name, orderOf(robot.key, m_options.teams)));
+  robot.link =
+      m_sink->renameGroup(link, linkGroup(robot.name, orderOf(robot.key, m_options.teams)));
   if (!robot.columns.empty()) robot.group = m_sink->renameGroup(before, groupOf(robot));
   // A group that was there already does not go back.
   robot.lastTime = std::max(robot.lastTime, m_newest);
