@@ -405,11 +405,11 @@ class RefereePanel : public QScrollArea {
     for (std::size_t i = 0; i < m_steps.size(); ++i) {
       QPushButton* one = m_steps[i];
       one->setVisible(i < m_offered.size());
+      one->setEnabled(i < m_offered.size() && m_why.isEmpty());
       if (i >= m_offered.size()) continue;
       const NextStep& step = m_offered[i];
       one->setText(step.text);
       one->setObjectName(QStringLiteral("referee ") + step.text);
-      one->setEnabled(m_why.isEmpty());
       one->setToolTip(!m_why.isEmpty() ? m_why
                                        : step.tip + (step.call ? keyOf(*step.call) : QString()));
       setPrimary(one, i == 0);
