@@ -152,7 +152,7 @@ void addInspectCommand(CLI::App& parent, int& exitCode) {
                             "read. Exits with 1 if it is truncated or damaged, or if "
                             "part of it is unknown.\n"
                             "Example: pitchboard-cli inspect match.mcap --events");
-  command->add_option("file", options->file, "The session")->required()->type_name("FILE");
+  command->add_option("file", options->file, "The recording")->required()->type_name("FILE");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->add_flag("--events", options->events, "List the events");
   command->add_flag("--progress", options->progress,

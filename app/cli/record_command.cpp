@@ -178,6 +178,7 @@ void addRecordCommand(CLI::App& parent, int& exitCode) {
     live->excludes(command->get_option(ofAMatch));
   }
   addListenOptions(*command, o.network);
+  addGroup(*command, "Live", {"--profile", "--team", "--our-team"});
   command->add_flag("--progress", o.progress,
                     "Print progress to stderr even if it is not a terminal");
   whenChosen(*command, options, exitCode, record);

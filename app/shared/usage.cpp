@@ -87,9 +87,12 @@ bool isPositional(const CLI::Option& option) {
   return option.get_positional();
 }
 
+/// What stands for its value: "FILE". A positional that has no type of ours has its name.
 std::string typeOf(const CLI::Option& option) {
-  const std::string type = option.get_type_name();  // "N:INT in [0 - 45]": validators stand behind
-  return type.substr(0, type.find(':'));
+  std::string type = option.get_type_name();  // "N:INT in [0 - 45]": validators stand behind
+  type.resize(std::min(type.size(), type.find(':')));
+  const bool isTheLibrarys = type == "TEXT" || type == "INT" || type == "UINT" || type == "FLOAT";
+  return isPositional(option) && isTheLibrarys ? option.get_name(true) : type;
 }
 
 std::string entryOf(const CLI::Option& option) {

@@ -273,7 +273,7 @@ class TestCliLive : public QObject {
     row("no profile", {"listen", "--profile", "/nonexistent.json"}, "/nonexistent.json");
     row("no file", {"decode", "telemetry", "/nonexistent.txt"}, "/nonexistent.txt");
     row("a folder", {"decode", "gamecontroller", "/"}, "cannot be read");
-    row("no kind", {"decode"}, "subcommand");
+    row("no kind", {"decode"}, "a command is missing");
     row("no files", {"decode", "telemetry"}, "FILE");
   }
   void mistakesEndWithTwo() {

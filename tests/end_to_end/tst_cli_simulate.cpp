@@ -141,12 +141,14 @@ class TestCliSimulate : public QObject {
     QTemporaryDir dir;
     const QString path = dir.filePath("moment.json");
     const QString session = dir.filePath("match.mcap");
-    QVERIFY(simulate({"--duration", "149", "--save-moment", path}).exitCode == 0);
+    QVERIFY(simulate({"--duration", "120", "--save-moment", path}).exitCode == 0);
     QFile file(path);
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QJsonObject saved = QJsonDocument::fromJson(file.readAll()).object();
     const QJsonObject game = saved["game"].toObject();
     QCOMPARE(game["state"].toString(), QString("playing"));
+    // The ball is in play, so that the clock runs.
+    QCOMPARE(game["set_play"].toObject()["step"].toString(), QString("free"));
     const double clock = game["clock"].toDouble();
     QVERIFY(clock > 400 && clock < 590);
     QVERIFY(!saved.contains("score") && !saved.contains("clock"));

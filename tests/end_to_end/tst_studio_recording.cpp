@@ -93,7 +93,7 @@ class TestStudioRecording : public QObject {
                  longWait),
              studio.readAllStandardError());
     QCOMPARE(studio.state(), QProcess::Running);
-    QCOMPARE(Studio::segments(), std::size_t(mode == QStringLiteral("external") ? 6 : 0));
+    QCOMPARE(Studio::segments(), std::size_t(mode == QStringLiteral("external") ? 8 : 0));
 
     if (way == "SIGTERM")
       studio.terminate();

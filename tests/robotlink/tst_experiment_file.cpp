@@ -30,7 +30,7 @@ class TestExperimentFile : public QObject {
 void TestExperimentFile::builtInFilesAreGood() {
   const auto all = builtInExperiments(), situations = builtInSituations();
   QVERIFY(all.size() >= 2);
-  QCOMPARE(situations.size(), std::size_t{5});
+  QCOMPARE(situations.size(), std::size_t{8});
   for (const auto* list : {&all, &situations}) {
     for (const ExperimentName& one : *list) {
       const auto loaded = loadExperiment(one.name);

@@ -167,7 +167,11 @@ class TestLiveReplay : public QObject {
     QVERIFY(any([](const RobotFrame& r) { return r.battery && r.battery->low; }));
     QVERIFY(any(
         [](const RobotFrame& r) { return r.lamps[1].state == telemetry::HeartbeatState::Silent; }));
-    QVERIFY(last.robots[0].identity.team != m_frames.front().robots[0].identity.team);
+    // The referee told the colours, which nobody knew at first.
+    const RobotFrame& first = m_frames.front().robots[0];
+    QVERIFY(any([&](const RobotFrame& r) {
+      return r.key.number == first.key.number && r.name != first.name;
+    }));
     QVERIFY(m_frames.front().robots[0].link->messages >= 1);
   }
 

@@ -390,8 +390,8 @@ class TestMatchPackets : public QObject {
         QVERIFY(std::isfinite(*reply.ballAge));
       }
     }
-    QCOMPARE(robots.size(), std::size_t{6});
-    QVERIFY(robots.contains({1, 1}) && robots.contains({2, 3}));
+    QCOMPARE(robots.size(), std::size_t{8});
+    QVERIFY(robots.contains({1, 1}) && robots.contains({2, 4}));
   }
 };
 

@@ -36,7 +36,7 @@ MatchOptions shared(Cognition cognition) {
 
 /// Two halves of two minutes by these rules, four against four.
 Scenario shortMatch(const QString& rules) {
-  Scenario scenario = builtIn("match-4v4");
+  Scenario scenario = builtIn("match");
   sim::RefereeRules& set = scenario.settings.referee.emplace();
   set = refereeRuleSet(rules.toStdString()).value().value();
   set.halfTime = 120;

@@ -191,7 +191,9 @@ void Collisions::advance(Tick& tick) {
   m_solver.prepare(tick.world);
   if (m_bodies.capacity() <= robots) {
     m_bodies.reserve(robots + 1);
+    m_radii.reserve(robots + 1);
     m_pairs.reserve(mostPairs(robots));
+    m_separation.reserve(robots + 1, mostPairs(robots));
   }
   const Surface& surface = settings.field.surface;
   updateRolling(surface.keptPerFrame, tick.dt);

@@ -34,6 +34,16 @@ class Separation {
   void separate(std::span<MovingBody> bodies, std::span<const double> radius,
                 std::span<const NearPair> pairs, const Obstacles& obstacles, std::size_t ball);
 
+  /// Room for so many, so that separate() allocates nothing.
+  void reserve(std::size_t bodies, std::size_t pairs) {
+    m_places.reserve(bodies);
+    m_turns.reserve(bodies);
+    m_given.reserve(pairs);
+    m_ordered.reserve(pairs);
+    m_turn.reserve(pairs);
+    m_begins.reserve(pairs + 2);
+  }
+
  private:
   Pair pairOf(const NearPair& pair, std::span<const MovingBody> bodies,
               std::span<const double> radius, const Obstacles& obstacles, std::size_t ball) const;

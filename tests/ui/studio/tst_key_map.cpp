@@ -152,6 +152,7 @@ class TestKeyMap : public QObject {
     Keys k;
     QVERIFY(k.controller.isPaused());
     auto* canvas = k.window.field()->findChild<QAbstractScrollArea*>();
+    QTRY_VERIFY(k.window.findChild<RobotCard*>() != nullptr);
     QWidget* card = k.window.findChild<RobotCard*>();
     card->setFocus();
     QTest::keyPress(card, Qt::Key_Space);

@@ -93,7 +93,7 @@ class TestLive : public QObject {
     QVERIFY(!chooser->isVisible() && team->isVisible());
     QTRY_COMPARE(s.scoreboard()->state().state, QStringLiteral("NO REFEREE"));
     QTRY_VERIFY(s.label("noRobots").contains(QStringLiteral("Nothing heard yet")));
-    QTRY_VERIFY(s.label("statusPace").contains(QStringLiteral("UDP 0/s, 0 lost, 0 bad")));
+    QTRY_VERIFY(s.label("statusPace").contains(QStringLiteral("UDP 0.0/s, 0 lost, 0 bad")));
     s.window.showSource(SourceKind::Simulate);
     QTRY_VERIFY(chooser->isVisible() && !team->isVisible());
     QVERIFY(s.live()->isListening());

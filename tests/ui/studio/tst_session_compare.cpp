@@ -283,6 +283,7 @@ class TestSessionCompare : public QObject {
     const auto open = [&](Studio& s, int megabytes) {
       s.window.setMemoryBudget(megabytes);
       s.window.findChild<PlotsDock*>()->setLayoutSpec(everyKind());
+      s.window.findChild<PlotsDock*>()->setFixedHeight(240);
       s.window.openSession(path);
       if (!QTest::qWaitFor([&s] { return s.window.replay()->isOpen(); })) return false;
       if (compared) s.window.compared()->open(path);

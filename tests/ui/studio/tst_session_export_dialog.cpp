@@ -62,9 +62,16 @@ class TestSessionExportDialog : public QObject {
       const Point a = past->robots[i].pose.position, b = now->robots[i].pose.position;
       return std::hypot(a.x - b.x, a.y - b.y);
     };
+    // Nobody has taken its place since.
+    const auto isFree = [&](const Point& place) {
+      return std::ranges::all_of(now->robots, [&](const link::RobotFrame& other) {
+        const Point& at = other.pose.position;
+        return std::hypot(at.x - place.x, at.y - place.y) > 0.6;
+      });
+    };
     std::size_t robot = 0;
     for (std::size_t i = 1; i < now->robots.size(); ++i) {
-      if (moved(i) > moved(robot)) robot = i;
+      if (moved(i) > moved(robot) && isFree(past->robots[i].pose.position)) robot = i;
     }
     QVERIFY2(moved(robot) > 0.8, "nobody has walked");
     const QColor team = theme().team(now->robots[robot].identity.team);
@@ -74,11 +81,11 @@ class TestSessionExportDialog : public QObject {
                                     image.height() / (field.width + 2 * field.border));
       const QPoint at(qRound(image.width() / 2.0 + p.x * scale),
                       qRound(image.height() / 2.0 - p.y * scale));
-      int found = 0;
-      for (int y = -3; y <= 3; ++y) {
-        for (int x = -3; x <= 3; ++x) found += image.pixelColor(at + QPoint(x, y)) == team;
+      int found = 0;  // around the number, which is drawn over it
+      for (int y = -6; y <= 6; ++y) {
+        for (int x = -6; x <= 6; ++x) found += image.pixelColor(at + QPoint(x, y)) == team;
       }
-      return found > 8;
+      return found > 40;
     };
     ExportDialog* dialog = openExport(s);
     QVERIFY(dialog != nullptr);

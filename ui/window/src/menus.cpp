@@ -350,7 +350,7 @@ void StudioMenus::makeTimeline() {
   SourceSwitch* source = m_parts.source;
   const auto refresh = [asItWas, goOn, timeline, source] {
     const FramePtr frame = source->frame();
-    asItWas->setEnabled(frame && frame->truthKnown);
+    asItWas->setEnabled(!frame || frame->truthKnown);
     goOn->setEnabled(timeline->isLookingBack() && source->kind() == SourceKind::Simulate);
   };
   QObject::connect(timeline, &Timeline::lookingBackChanged, goOn, refresh);
