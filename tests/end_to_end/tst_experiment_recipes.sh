@@ -46,7 +46,7 @@ expect 1 "FAILED  as the scenario: success_rate == 1 (success_rate = 0)" experim
 grep -q '<failure message="success_rate = 0"/>' bad/junit.xml || fail "junit.xml tells no failure"
 mkdir cases && cp bad.json short.json cases
 expect 1 "2 tests, 2 assertions, 1 failed" test cases --junit all.xml
-expect 0 "5 tests, 21 assertions, 0 failed" test
+expect 0 "8 tests, 25 assertions, 0 failed" test
 expect 0 "1 tests, " test ready-positions
 expect 2 "no example of this name" test no-such-test
 # What cannot be read is an error of its own; the rest, in subfolders too, is played, and the JUnit file is written.
