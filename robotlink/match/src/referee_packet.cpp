@@ -229,7 +229,7 @@ void showReferee(const sim::WorldState& world, MatchFrame& frame) {
   const GameState& game = *world.game;
   const telemetry::RefereeState packet = refereePacket(world, 0, true);
   const sim::RefereeRules& rules = *world.settings.referee;
-  frame.desk = std::make_shared<const RefereeDesk>(game, rules);
+  frame.desk = std::make_shared<const RefereeDesk>(RefereeDesk{game, rules});
   for (const sim::GameTeam& team : game.teams) {
     frame.teams[static_cast<std::size_t>(team.colour) + 1].number = team.number;
   }

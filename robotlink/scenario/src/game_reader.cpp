@@ -56,7 +56,7 @@ class GameReader {
     m_out.left = team(game, "left");
     m_out.firstKickOff = team(game, "first_kick_off");
     if (const JsonNode* said = game.find("kick_off")) {
-      m_out.kickOff.emplace();
+      m_out.kickOff = GameStart::KickOff{};
       if (said->kind != JsonNode::Kind::Null) m_out.kickOff->team = team(game, "kick_off");
     }
     eachTeam(game, "score", [](const JsonObject& of, std::string_view key, GameStart::Team& out) {
@@ -196,7 +196,8 @@ class GameReader {
     const JsonObject object(m_report, *node, game.pathOf("set_play"),
                             {"kind", "team", "step", "x", "y", "kicker", "passed", "only_taker"});
     object.require("kind");
-    GameStart::Taking& out = m_out.setPlay.emplace();
+    m_out.setPlay = GameStart::Taking{};
+    GameStart::Taking& out = *m_out.setPlay;
     choose(object, "kind", setPlayKeys(), "set play", out.kind);
     out.team = team(object, "team");
     if (const auto step = object.choice("step", stepKeys, "step of a set play")) {
