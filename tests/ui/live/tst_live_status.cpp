@@ -45,7 +45,8 @@ class TestLiveStatus : public QObject {
         const double said = words.mid(before.size()).section(QLatin1Char('/'), 0, 0).toDouble();
         return std::abs(said - wanted) < 0.25;
       };
-      QVERIFY2(near(text.referee, QStringLiteral("Referee: version 12, "), 2.0), qPrintable(text.referee));
+      QVERIFY2(near(text.referee, QStringLiteral("Referee: version 12, "), 2.0),
+               qPrintable(text.referee));
       QVERIFY2(near(text.network, QStringLiteral("UDP "), 6.0), qPrintable(text.network));
     }
   }
