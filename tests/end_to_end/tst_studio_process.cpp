@@ -91,7 +91,7 @@ class TestStudioProcess : public QObject {
     Studio studio(m_folder);
     QVERIFY(studio.launch({}));
     QTRY_VERIFY_WITH_TIMEOUT(Studio::robotProcesses() > 0, 20000);
-    QTRY_COMPARE_WITH_TIMEOUT(Studio::segments(), std::size_t(6), 20000);
+    QTRY_COMPARE_WITH_TIMEOUT(Studio::segments(), std::size_t(8), 20000);
     ::kill(static_cast<pid_t>(studio.processId()), signal);
     QVERIFY(studio.waitForFinished(60'000));
     QTRY_COMPARE(Studio::robotProcesses(), 0);
