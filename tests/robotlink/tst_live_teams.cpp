@@ -3,6 +3,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include <robotlink/live/live_pipeline.h>
 #include <robotlink/live/live_state.h>
 #include <robotlink/live/live_teams.h>
 #include <telemetry/series/series_store.h>
@@ -61,6 +62,23 @@ class TestLiveTeams : public QObject {
     QCOMPARE(teams.at(2).number, 7);
     QCOMPARE(ownNameOf(options, team.robots[0].key), std::string("Ana"));
     QCOMPARE(options.team.teams[1].title(), std::string("Team 7"));
+  }
+
+  /// A frame from before would show nobody under the new name, and drop what is selected.
+  void robotsAreRenamedWithTheFrameThatShowsIt() {
+    LiveOptions options;
+    LivePipeline pipeline(options, start);
+    pipeline.take(from("10.0.0.3", 1243, words));
+    QCOMPARE(pipeline.frame(start).robots.at(0).key, (RobotKey{0, 3, 0}));
+    options.team.teams = {setupOf(R"({"number": 12, "colour": "blue"})")};
+    pipeline.setOptions(options, start);
+    QVERIFY(pipeline.takeNews().renamings.empty());
+    QCOMPARE(pipeline.frame(start).robots.at(0).key, (RobotKey{1, 3, 0}));
+    const auto renamings = pipeline.takeNews().renamings;
+    QCOMPARE(renamings.size(), std::size_t{1});
+    QCOMPARE(renamings[0].size(), std::size_t{1});
+    QCOMPARE(renamed({0, 3, 0}, renamings[0]), (RobotKey{1, 3, 0}));
+    QVERIFY(pipeline.takeNews().renamings.empty());
   }
 
   /// The same curve has the same name as in a simulation.

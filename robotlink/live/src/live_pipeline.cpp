@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include <robotlink/frame/join_boards.h>
 #include <robotlink/live/live_teams.h>
@@ -233,6 +235,7 @@ MatchFrame LivePipeline::frame(WallTime now, AttachedRobots* boards) {
   const double time = seconds(now);
   MatchFrame frame = m_state.frame(m_options, team, time);
   frame.serial = ++m_serial;
+  std::ranges::move(std::exchange(m_renamings, {}), std::back_inserter(m_news.renamings));
   addBoards(frame, boards, now);
   tell(m_events.compare(frame));
   for (const auto& observer : m_observers) observer->frameMade(frame);
@@ -387,7 +390,7 @@ void LivePipeline::noteTeams(const std::vector<Renaming>& renamings) {
   m_rows.setOptions(rowsOptions(m_options, m_teams, m_zero, m_boardNames), renamings);
   if (renamings.empty()) return;
   m_events.rename(renamings);
-  m_news.renamings.push_back(renamings);
+  m_renamings.push_back(renamings);
 }
 
 void LivePipeline::tell(const LiveDatagram& datagram) {

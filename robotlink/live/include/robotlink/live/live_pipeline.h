@@ -103,6 +103,7 @@ class LivePipeline {
   std::uint64_t m_badVariables = 0, m_refusedVariables = 0;
   std::string m_badReason;
   LiveNews m_news;
+  std::vector<std::vector<Renaming>> m_renamings;  // that no frame shows yet
   std::vector<std::shared_ptr<LiveObserver>> m_observers;
 };
 

@@ -78,7 +78,7 @@ struct LiveDetails {
 
 /// What is new since it was asked for the last time, in the order in which it is to be shown.
 struct LiveNews {
-  std::vector<std::vector<Renaming>> renamings;  ///< one after the other
+  std::vector<std::vector<Renaming>> renamings;  ///< one after the other; `frame` shows them
   std::vector<MatchEvent> events;                ///< at most the newest 10 000
   std::shared_ptr<const MatchFrame> frame;       ///< the newest one; null before the first
 };
