@@ -72,6 +72,7 @@ class TestLiveTeams : public QObject {
     QCOMPARE(pipeline.frame(start).robots.at(0).key, (RobotKey{0, 3, 0}));
     options.team.teams = {setupOf(R"({"number": 12, "colour": "blue"})")};
     pipeline.setOptions(options, start);
+    pipeline.take(from("10.0.0.3", 1243, words));
     QVERIFY(pipeline.takeNews().renamings.empty());
     QCOMPARE(pipeline.frame(start).robots.at(0).key, (RobotKey{1, 3, 0}));
     const auto renamings = pipeline.takeNews().renamings;
