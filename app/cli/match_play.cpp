@@ -42,7 +42,8 @@ class ProcessNews : public link::TickObserver {
       using Kind = link::MatchEventKind;
       constexpr std::array told{
           Kind::ProcessDied,    Kind::ProcessEnded,    Kind::ProcessRestarted,  Kind::ProcessSilent,
-          Kind::ProcessGivenUp, Kind::ProcessRealTime, Kind::ProcessNotAttached};
+          Kind::ProcessGivenUp, Kind::ProcessRealTime, Kind::ProcessNotAttached,
+          Kind::CycleLate};
       if (std::ranges::find(told, event.kind) == told.end()) continue;
       std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
                    link::sentenceOf(event).c_str());
