@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// pitchboard-agent: runs on the robot and sends the variables of its blackboard (docs/AGENT.md).
+// pitchboard-agent: runs on the robot and sends the variables of its blackboard (docs/agent.md).
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

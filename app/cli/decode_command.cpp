@@ -211,7 +211,7 @@ void addDecodeCommand(CLI::App& parent, int& exitCode) {
       "Example: pitchboard-cli decode telemetry --profile mitecom message.bin");
   telemetry->add_option("FILE", text->files, "Files; - is standard input")->required();
   telemetry->add_option("--profile", text->profile,
-                        "Format of the messages: a file (docs/LIVE.md), or " + profileNames());
+                        "Format of the messages: a file (docs/live.md), or " + profileNames());
   telemetry->add_flag("--json", text->json, "One JSON object per datagram");
   whenChosen(*telemetry, text, exitCode, decodeTelemetry);
 

@@ -56,7 +56,7 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
       ->capture_default_str();
   command
       .add_option("--profile", options.profile,
-                  "Format of the robots' messages: a file (docs/LIVE.md), or " + profileNames())
+                  "Format of the robots' messages: a file (docs/live.md), or " + profileNames())
       ->type_name("FILE|NAME");
   command.add_option("--team", options.teams,
                      "Team setup as JSON: ports, senders, profile, colour; may be repeated");

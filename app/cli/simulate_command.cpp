@@ -241,7 +241,7 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
   CLI::Option* stdio =
       command->add_flag("--stdio", a.stdio,
                         "Let another program step worlds by lines of JSON on standard input "
-                        "(docs/LEARNING.md)");
+                        "(docs/learning.md)");
   for (const char* other : {"--scenario", "--seed", "--noise", "--physics"}) {
     from->excludes(command->get_option(other));
   }

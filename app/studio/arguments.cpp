@@ -72,7 +72,7 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "Live: our team, by the referee's number or its colour, such as blue or red")
       ->type_name("N|COLOUR");
   app.add_option("--profile", a.profile,
-                 "Live: what stands in a message; a file, or a name that docs/LIVE.md lists")
+                 "Live: what stands in a message; a file, or a name that docs/live.md lists")
       ->type_name("FILE|NAME");
   app.add_option("--team", a.teams, "Live: team setup as JSON; may be repeated")->type_name("FILE");
   app.add_option("--attach", a.attached,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole window as a person has it (docs/PERFORMANCE.md):
+// The whole window as a person has it (docs/performance.md):
 //   bench_studio live [SECONDS]   22 robots at 60 messages a second each and a referee over UDP,
 //     every panel open: CPU time of the studio as a share of a core
 //   bench_studio start [TIMES]    from the start of a process to its first frame of a match

@@ -61,7 +61,7 @@ class TestCooperation : public QObject {
   void theGuideShowsThesePrograms() {
     QFETCH(QString, file);
     QFETCH(QString, language);
-    QFile guide(PITCHBOARD_SOURCE_DIR "/docs/ROBOTS.md");
+    QFile guide(PITCHBOARD_SOURCE_DIR "/docs/robot-programs.md");
     QFile program(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/" + file);
     QVERIFY(guide.open(QIODevice::ReadOnly) && program.open(QIODevice::ReadOnly));
     QVERIFY(

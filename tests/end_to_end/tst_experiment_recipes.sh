@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tst_experiment_recipes.sh RECIPES BIN: the recipes of docs/EXPERIMENTS.md, and the command line of
+# tst_experiment_recipes.sh RECIPES BIN: the recipes of docs/experiments.md, and the command line of
 # experiments from outside: exit codes, interruption, shards, replay, situation tests.
 set -uo pipefail
 recipes=$1

@@ -99,7 +99,7 @@ class TestUnchangedProcess : public QObject {
  private slots:
   void cleanup() { removeSegment(m_base + 100); }
 
-  // What docs/ROBOTS.md shows is what runs here.
+  // What docs/robot-programs.md shows is what runs here.
   void theGuideShowsThesePrograms_data() {
     QTest::addColumn<QString>("file");
     QTest::addColumn<QString>("language");
@@ -111,7 +111,7 @@ class TestUnchangedProcess : public QObject {
   void theGuideShowsThesePrograms() {
     QFETCH(QString, file);
     QFETCH(QString, language);
-    QFile guide(PITCHBOARD_SOURCE_DIR "/docs/ROBOTS.md");
+    QFile guide(PITCHBOARD_SOURCE_DIR "/docs/robot-programs.md");
     QFile program(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/" + file);
     QVERIFY(guide.open(QIODevice::ReadOnly) && program.open(QIODevice::ReadOnly));
     const QByteArray text = program.readAll();

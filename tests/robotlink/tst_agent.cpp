@@ -249,7 +249,7 @@ class TestAgent : public QObject {
     shmdt(words);
   }
 
-  // What docs/AGENT.md shows is what runs here.
+  // What docs/agent.md shows is what runs here.
   void theGuideShowsThesePrograms_data() {
     QTest::addColumn<QString>("file");
     QTest::addColumn<QString>("language");
@@ -261,7 +261,7 @@ class TestAgent : public QObject {
   void theGuideShowsThesePrograms() {
     QFETCH(QString, file);
     QFETCH(QString, language);
-    QFile guide(PITCHBOARD_SOURCE_DIR "/docs/AGENT.md");
+    QFile guide(PITCHBOARD_SOURCE_DIR "/docs/agent.md");
     QFile program(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/" + file);
     QVERIFY(guide.open(QIODevice::ReadOnly) && program.open(QIODevice::ReadOnly));
     const QByteArray text = program.readAll();

@@ -85,7 +85,7 @@ class TestMatchEvents : public QObject {
   }
 
   void theDocumentNamesEveryKind() {
-    QFile file(QStringLiteral(PITCHBOARD_SOURCE_DIR "/docs/SESSIONS.md"));
+    QFile file(QStringLiteral(PITCHBOARD_SOURCE_DIR "/docs/sessions.md"));
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QString text = QString::fromUtf8(file.readAll());
     for (std::size_t i = 0; i < matchEventKindCount; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The default scenario from kick-off to the final whistle, with short halves, by each rule set. The
-// long version is the tool whole_matches (docs/REFEREE.md).
+// long version is the tool whole_matches (docs/referee.md).
 #include <robotlink/cognition/referee_orders.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 

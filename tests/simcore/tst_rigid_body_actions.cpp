@@ -14,7 +14,7 @@ class TestRigidBodyActions : public QObject {
 
  private slots:
   void steadySpeed_data() {
-    // SYSTEM.md section 3 by hand: 0.30 cm per frame · 60 frames/s = 0.18 m/s; 0.30° · 60 = 18°/s.
+    // system.md section 3 by hand: 0.30 cm per frame · 60 frames/s = 0.18 m/s; 0.30° · 60 = 18°/s.
     QTest::addColumn<int>("action");
     QTest::addColumn<int>("b");
     QTest::addColumn<double>("forward");

@@ -68,7 +68,7 @@ void DrawingsMenu::fill() {
   const bool none = drawnLayers(*m_scene).empty();
   addSeparator();
   if (none) {
-    addAction(QStringLiteral("No program draws at the moment (docs/DRAWINGS.md)"))
+    addAction(QStringLiteral("No program draws at the moment (docs/drawings.md)"))
         ->setEnabled(false);
   }
   if (frame != nullptr && !frame->drawingProblem.empty()) {

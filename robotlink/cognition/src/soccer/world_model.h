@@ -6,7 +6,7 @@
 // plays on: a behaviour is written once. Metres, radians, seconds.
 //
 // Which goal is whose stands nowhere on the blackboard, but the IMU knows: its zero is the
-// direction of the opponents' goal (SYSTEM.md section 4), so LOCALIZATION_THETA minus IMU_EULER_Z
+// direction of the opponents' goal (system.md section 4), so LOCALIZATION_THETA minus IMU_EULER_Z
 // is near 0 for a team that attacks right and near 180 degrees for one that attacks left.
 
 #include <array>

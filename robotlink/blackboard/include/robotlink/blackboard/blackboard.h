@@ -2,7 +2,7 @@
 #pragma once
 
 // A typed view over a robot's blackboard: 512 words of 4 bytes, int variable i at word i, float
-// variable j at word 125 + j (SYSTEM.md section 2). The memory is a System V segment (shared with a
+// variable j at word 125 + j (system.md section 2). The memory is a System V segment (shared with a
 // robot's own processes) or plain heap memory (accelerated runs). Words are read and written
 // atomically and relaxed: a reader never sees half a float; there is no order between variables.
 // Any thread and any process may use the same words at the same time.

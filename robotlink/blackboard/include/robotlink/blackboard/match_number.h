@@ -22,7 +22,7 @@ struct MatchNumber {
   constexpr int keyBase() const { return value * 10'000; }
   /// Telemetry goes to this + robot number (1..64).
   constexpr int telemetryPortBase() const { return value == 0 ? 1240 : block(); }
-  /// What programs of this computer draw on the field (docs/DRAWINGS.md).
+  /// What programs of this computer draw on the field (docs/drawings.md).
   constexpr int drawingPort() const { return telemetryPortBase(); }
   /// The published team messages go to this + 1..4.
   constexpr int teamPortBase() const { return value == 0 ? 1230 : block() + 70; }

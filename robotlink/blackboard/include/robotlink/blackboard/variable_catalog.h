@@ -40,7 +40,7 @@ class VariableCatalog {
  public:
   /// The published map of 83 int and 122 float variables.
   static const VariableCatalog& published();
-  /// The published map and its extension (docs/BLACKBOARD.md).
+  /// The published map and its extension (docs/blackboard.md).
   static const VariableCatalog& extended();
 
   // Each fails with file, line (or JSON path) and what is wrong; `source` names the file.

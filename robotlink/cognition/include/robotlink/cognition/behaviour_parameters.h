@@ -3,7 +3,7 @@
 
 // The one table of the numbers of behaviours that a team tunes: from where they kick, how well they
 // aim, how they search, where a keeper stands. Scenario files, experiments, the command line and
-// docs/BEHAVIOURS.md are made from it. In memory metres, radians, seconds; people write degrees.
+// docs/behaviours.md are made from it. In memory metres, radians, seconds; people write degrees.
 // Any thread.
 
 #include <array>

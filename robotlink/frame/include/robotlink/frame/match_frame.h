@@ -54,7 +54,7 @@ struct MatchFrame {
   sim::GameSnapshot snapshot;
   std::vector<RobotFrame> robots;
   Teams teams;                                     ///< what RobotKey::team counts
-  std::vector<telemetry::RobotDrawings> drawings;  ///< of the robots' programs (docs/DRAWINGS.md)
+  std::vector<telemetry::RobotDrawings> drawings;  ///< of the robots' programs (docs/drawings.md)
   std::string drawingProblem;                      ///< why the last one was not drawn; or empty
   std::optional<RefereeView> referee;              ///< once one was heard
   std::string refereeRules;                 ///< of a simulated match; empty: without a referee

@@ -2,7 +2,7 @@
 #pragma once
 
 // What programs of this computer draw on the field of a simulated match: datagrams to the match's
-// drawing port on 127.0.0.1 (docs/DRAWINGS.md), stamped with the match's time. It changes nothing
+// drawing port on 127.0.0.1 (docs/drawings.md), stamped with the match's time. It changes nothing
 // in the match. Owned by the SimulatedMatch, on its thread; the socket has a thread of its own.
 
 #include <memory>

@@ -2,7 +2,7 @@
 #pragma once
 
 // Kinds of robots are data (resources/robots): what a robot can do and how it sees, by name, as an
-// object of a scenario file, or as a file (docs/ROBOTS.md). Any thread.
+// object of a scenario file, or as a file (docs/robot-programs.md). Any thread.
 
 #include <optional>
 #include <string>

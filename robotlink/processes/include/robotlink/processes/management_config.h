@@ -2,7 +2,7 @@
 #pragma once
 
 // Which processes management starts, and how: the section [Pitchboard Management] of a robot's INI
-// file (docs/ROBOTS.md). Any thread.
+// file (docs/robot-programs.md). Any thread.
 
 #include <map>
 #include <string>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The INI file of a robot (SYSTEM.md section 2): [Communication] no_player_robofei = n gives its
+// The INI file of a robot (system.md section 2): [Communication] no_player_robofei = n gives its
 // number. As the published processes read it (Python's ConfigParser): comments start with # or ;,
 // names of values in any case, = or : between name and value. A team's file holds much that means
-// nothing here; sections whose name begins with "Pitchboard" are ours (docs/ROBOTS.md), and there
-// nothing is passed over in silence.
+// nothing here; sections whose name begins with "Pitchboard" are ours (docs/robot-programs.md), and
+// there nothing is passed over in silence.
 
 #include <string>
 #include <string_view>

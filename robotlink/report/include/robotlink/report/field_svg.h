@@ -2,7 +2,7 @@
 #pragma once
 
 // The field with the trajectories of many runs, for reports of experiments, which are made without
-// the studio. Pictures of a moment are painted by the studio (docs/SESSIONS.md).
+// the studio. Pictures of a moment are painted by the studio (docs/sessions.md).
 
 #include <span>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What every page of ours has: its style sheet (colours as in docs/DESIGN_LANGUAGE.md), text that
+// What every page of ours has: its style sheet (colours as in docs/design-language.md), text that
 // cannot become markup, numbers that do not follow the locale. Pure; any thread.
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A scenario: everything that a simulated match starts from. A JSON file (docs/SCENARIOS.md) with
+// A scenario: everything that a simulated match starts from. A JSON file (docs/scenarios.md) with
 // poses in metres and degrees; here in metres and radians.
 
 #include <cstdint>

@@ -16,7 +16,7 @@
 namespace pitchboard::link {
 
 /// How the referee stands in a session: one JSON object with "time", the packet (names:
-/// docs/LIVE.md) and what RefereeView makes of it ("sender", "ourTeam", the teams' "playersLeft",
+/// docs/live.md) and what RefereeView makes of it ("sender", "ourTeam", the teams' "playersLeft",
 /// ...).
 std::string refereeToJson(const telemetry::RefereeState& packet, const RefereeView& referee,
                           double time);

@@ -5,7 +5,7 @@
 // robot (its whole blackboard, truth, belief errors) and one for the match. The groups are named
 // like the robots ("B1") and "match"; a robot's attributes hold its identity: "robot" (number of
 // its blackboard), "team", "number" (on the shirt), "key" (System V, 0: heap), "imu180" (0 or 1),
-// "behaviour". The match's attributes: "physics", "seed", "tick_rate". Columns: docs/PLOTS.md.
+// "behaviour". The match's attributes: "physics", "seed", "tick_rate". Columns: docs/plots.md.
 
 #include <algorithm>
 #include <memory>

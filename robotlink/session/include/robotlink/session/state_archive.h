@@ -43,7 +43,7 @@ struct ArchiveOptions {
   double interval = 1.0;                             ///< simulated s between checkpoints
   std::size_t memoryBudget = std::size_t{64} << 20;  ///< bytes; about 10 hours of six robots
   double memoryInterval = 10.0;  ///< simulated s between two looks at what processes remember
-  std::size_t robotsBudget = std::size_t{64} << 20;  ///< bytes of these; see docs/STUDIO.md
+  std::size_t robotsBudget = std::size_t{64} << 20;  ///< bytes of these; see docs/studio.md
 };
 
 class StateArchive : public TickObserver {

@@ -3,7 +3,7 @@
 
 // The codes of DECISION_ACTION_A: of which kind each one is, and what people read for it on cards,
 // lanes, logs and in files. How control carries them out is told in <simcore/world/action.h>, the
-// published table in docs/reference/SYSTEM.md section 3. Plain values; any thread.
+// published table in docs/reference/system.md section 3. Plain values; any thread.
 
 #include <array>
 #include <cstdint>

@@ -52,7 +52,7 @@ struct FieldSpec {
 };
 
 /// The built-in fields, the published one first (sizes: rules of the years named; see
-/// docs/SCENARIOS.md).
+/// docs/scenarios.md).
 std::span<const FieldSpec> builtInFields();
 Result<FieldSpec> fieldByName(std::string_view name);
 

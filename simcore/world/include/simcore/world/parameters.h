@@ -3,7 +3,7 @@
 
 // The one table of the numbers that people may set: noise, kinds of robots, ball and contacts, the
 // field, the tick rate. Scenario files, the simulation's own checks, the rows of the Noise and
-// physics dock and the tables of docs/SCENARIOS.md are all made from it. Ranges are in the unit in
+// physics dock and the tables of docs/scenarios.md are all made from it. Ranges are in the unit in
 // which people write a value; the only one that differs from the unit in memory is the degree.
 // Defaults are those of the structs. Constant data, for any thread.
 

@@ -2,7 +2,7 @@
 #pragma once
 
 // The one table of what people may set in a referee's rules: files, checks and the tables of
-// docs/REFEREE.md are made from it. As parameters.h. Constant data, for any thread.
+// docs/referee.md are made from it. As parameters.h. Constant data, for any thread.
 
 #include <array>
 #include <string_view>

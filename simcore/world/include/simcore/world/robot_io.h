@@ -3,7 +3,7 @@
 
 // The simulated robot's side of its blackboard, as plain values: what control and vision read
 // (RobotCommand) and what vision, control and IMU wrote in one tick (Percepts). Percepts are in the
-// units and signs that robots expect (SYSTEM.md: centimetres, degrees, left positive unless said),
+// units and signs that robots expect (system.md: centimetres, degrees, left positive unless said),
 // because the published model computes them there and they must arrive bit for bit.
 
 #include <array>

@@ -5,7 +5,7 @@
 // camera sees and how far all that is from perfect. Every robot of a match has its own copy, so
 // that one may be changed alone. Metres, radians, seconds; plain values. The numbers of a
 // RobotModel{} are the published simulator's; further models are data: resources/robots/*.json
-// (docs/SCENARIOS.md). The `published` physics knows one robot only and does not look here.
+// (docs/scenarios.md). The `published` physics knows one robot only and does not look here.
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// PB2, the text in which a robot sends any of its variables by UDP (docs/AGENT.md):
+// PB2, the text in which a robot sends any of its variables by UDP (docs/agent.md):
 //
 //   PB2 ROBOT SEQUENCE MILLISECONDS NAME=VALUE ... OUT
 //

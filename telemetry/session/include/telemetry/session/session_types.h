@@ -3,7 +3,7 @@
 
 // What stands in a session file besides rows: who wrote it, events, datagrams. Times are
 // seconds of the source (simulated time, or seconds since Live began). Plain values.
-// The format is told in docs/SESSIONS.md.
+// The format is told in docs/sessions.md.
 
 #include <cstdint>
 #include <map>
@@ -62,7 +62,7 @@ struct EventFacts {
 /// Something that happened: a goal, a fall, a bookmark.
 struct SessionEvent {
   double time = 0.0;
-  std::string kind;   ///< "goal", "kick", ...: docs/SESSIONS.md
+  std::string kind;   ///< "goal", "kick", ...: docs/sessions.md
   std::string group;  ///< the robot's name, or empty
   std::string text;   ///< for people; programs read the facts
   /// Nothing in sessions before 0.2.

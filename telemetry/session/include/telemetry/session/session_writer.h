@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Records a session into a file in a thread of its own (docs/SESSIONS.md has the format). Rows and
+// Records a session into a file in a thread of its own (docs/sessions.md has the format). Rows and
 // messages go through a bounded queue that counts what it had to drop. What was appended is in
 // the file after a second at the latest, also while the disk stalls; a process that is killed loses
 // no more. Never overwrites.

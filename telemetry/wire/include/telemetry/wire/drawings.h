@@ -2,7 +2,7 @@
 #pragma once
 
 // What a robot's program draws on the field: named layers of lines, arrows, circles, polygons,
-// points and texts, as one datagram of text says it (docs/DRAWINGS.md has the format). Plain
+// points and texts, as one datagram of text says it (docs/drawings.md has the format). Plain
 // values and pure functions; metres, seconds. Whatever is refused is refused with a sentence, and
 // nothing that is accepted is larger than DrawingLimits.
 

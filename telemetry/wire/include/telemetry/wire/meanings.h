@@ -31,7 +31,7 @@ inline constexpr std::array<MeaningInfo, fieldMeaningCount> meaningTable = [] {
       {M::X, "x", "LOCALIZATION_X", "X", "cm", "Localization", K::Length},
       {M::Y, "y", "LOCALIZATION_Y", "Y", "cm", "Localization", K::Length},
       {M::Theta, "theta", "LOCALIZATION_THETA", "THETA", "°", "Localization", K::Angle},
-      // The published localization publishes its belief under this name (SYSTEM.md section 5).
+      // The published localization publishes its belief under this name (system.md section 5).
       {M::Belief, "belief", "LOCALIZATION_RBT01_X", "BELIEF", "cm", "Localization", K::Length},
       {M::BallDistance, "ball-distance", "VISION_BALL_DIST", "BALL_DIST", "cm", "Vision",
        K::Length},

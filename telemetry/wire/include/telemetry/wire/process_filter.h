@@ -2,7 +2,7 @@
 #pragma once
 
 // Does a process of a robot work? Robots clear their *_WORKING flags after each message, so a busy
-// process may miss one; the published filter forgives that (SYSTEM.md section 7).
+// process may miss one; the published filter forgives that (system.md section 7).
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 // What stands where in a robot's datagram, and what it means, as data: every team sends its own
 // message, and a program that knows only the published order would show the wrong numbers
-// (docs/LIVE.md, "Profiles"). Plain values; any thread.
+// (docs/live.md, "Profiles"). Plain values; any thread.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The referee's packets as JSON, with the names that docs/LIVE.md lists: what `listen` and `decode`
+// The referee's packets as JSON, with the names that docs/live.md lists: what `listen` and `decode`
 // print and what a session keeps.
 
 #include <nlohmann/json_fwd.hpp>

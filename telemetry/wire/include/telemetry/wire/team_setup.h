@@ -2,7 +2,7 @@
 #pragma once
 
 // Who is heard, as a file that a team keeps: its name and colour, where its messages come from, how
-// they are written, what its robots are called (docs/LIVE.md, "Team setups"). And the choice of the
+// they are written, what its robots are called (docs/live.md, "Team setups"). And the choice of the
 // team for each datagram. Values; any thread. A TeamRouter belongs to the one who decodes.
 
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Reads the robots' datagrams as a profile says they are written: text (SYSTEM.md section 7),
+// Reads the robots' datagrams as a profile says they are written: text (system.md section 7),
 // key=value, JSON, Lua, binary, protobuf. What the program itself uses (pose, ball, voltage) comes
 // out in published units whatever the message has: TextDecoder::profile() is the profile of the
 // values as they are shown.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The text datagrams that robots broadcast about once a second (SYSTEM.md section 7):
+// The text datagrams that robots broadcast about once a second (system.md section 7):
 // n X Y THETA BELIEF BALL_DIST BALL_ANGLE CONTROL VISION LOCALIZATION DECISION IMU ACTION_A
 // IMU_EULER_Z VOLTAGE OUT
 
