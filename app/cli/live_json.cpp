@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include <base/actions.h>
 #include <robotlink/live/live_teams.h>
+#include <simcore/world/action_codes.h>
 
 namespace pitchboard::cli {
 namespace {

@@ -68,7 +68,7 @@ inline const QList<Module>& table() {
         {"telemetry/expression", {base}, {"muParser.h"}},
         {"telemetry/mcap", {base}, {"zlib.h", "zstd.h"}},
         {"telemetry/session", {base, wire, series, "telemetry/mcap"}, {"nlohmann/", "zlib.h"}},
-        {board, {base, series, wire, "resources"}, {"nlohmann/"}},
+        {board, {base, world, series, wire, "resources"}, {"nlohmann/"}},
         {processes, {base, board, "resources"}, {}},
         {models, {base, world, "resources"}, {"nlohmann/"}},
         {cognition, {base, world, wire, board, processes, models}, {"Eigen/", "nlohmann/"}},

@@ -326,8 +326,8 @@ class TestAgent : public QObject {
   int m_key = 0, m_number = 0;
 };
 
-}  // namespace tst_agent
+PITCHBOARD_TEST(TestAgent)
 
-QTEST_GUILESS_MAIN(tst_agent::TestAgent)
+}  // namespace tst_agent
 
 #include "tst_agent.moc"

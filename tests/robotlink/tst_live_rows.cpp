@@ -3,8 +3,8 @@
 
 #include <QtTest>
 
-#include <base/actions.h>
 #include <robotlink/live/live_rows.h>
+#include <simcore/world/action_codes.h>
 #include <telemetry/series/derived_curve.h>
 #include <telemetry/series/series_store.h>
 

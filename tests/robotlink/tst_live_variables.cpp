@@ -83,7 +83,7 @@ class Studio {
   static LiveOptions optionsOfTest() {
     LiveOptions made = freeOptions(4);
     made.variablesPortBase = made.refereePort;
-    made.team.teams.emplace_back().colour = TeamColor::Blue;
+    made.team.teams.emplace_back().colour = "blue";
     return made;
   }
 
@@ -271,8 +271,8 @@ class TestLiveVariables : public QObject {
   int m_key = 0, m_number = 0;
 };
 
-}  // namespace tst_live_variables
+PITCHBOARD_TEST(TestLiveVariables)
 
-QTEST_GUILESS_MAIN(tst_live_variables::TestLiveVariables)
+}  // namespace tst_live_variables
 
 #include "tst_live_variables.moc"

@@ -11,13 +11,13 @@
 #include <tuple>
 #include <vector>
 
-#include <base/actions.h>
 #include <base/angles.h>
 #include <resources/resources.h>
 #include <robotlink/blackboard/variable_meanings.h>
 #include <robotlink/live/board_columns.h>
 #include <robotlink/match/match_runner.h>
 #include <robotlink/session/match_sampler.h>
+#include <simcore/world/action_codes.h>
 #include <telemetry/series/series_store.h>
 
 namespace tst_match_sampler {

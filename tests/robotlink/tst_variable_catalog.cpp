@@ -4,9 +4,9 @@
 #include <QtTest>
 #include <random>
 
-#include <base/actions.h>
 #include <robotlink/blackboard/variable_catalog.h>
 #include <robotlink/blackboard/variable_meanings.h>
+#include <simcore/world/action_codes.h>
 
 namespace tst_variable_catalog {
 

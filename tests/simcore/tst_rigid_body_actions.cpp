@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QtTest>
 
+#include <simcore/world/action_codes.h>
+
 #include "rigid_body_rig.h"
 
 namespace tst_rigid_body_actions {
@@ -225,6 +227,13 @@ class TestRigidBodyActions : public QObject {
     QVERIFY(!snapshot.robots[0].fallen);
     (void)r.simulation.placeHead({1}, 1.0 + pi);  // beyond the limit of the neck
     QVERIFY(std::abs(std::abs(r.robot().headYaw) - 135 * degree) < 1e-9);
+  }
+
+  void actionsHaveWords() {
+    QCOMPARE(actionWords(0), std::string("stop"));
+    QCOMPARE(actionWords(22), std::string("kick left, weak"));
+    QCOMPARE(actionWords(23), std::string("action 23"));
+    QCOMPARE(actionWords(-1), std::string("action -1"));
   }
 };
 

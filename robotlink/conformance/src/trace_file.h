@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include <base/ids.h>
 #include <base/result.h>
+#include <simcore/world/team_color.h>
 
 namespace pitchboard::link {
 

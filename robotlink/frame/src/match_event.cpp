@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include <base/actions.h>
 #include <base/duration_words.h>
 #include <robotlink/frame/match_frame.h>
+#include <simcore/world/action_codes.h>
 
 namespace pitchboard::link {
 namespace {

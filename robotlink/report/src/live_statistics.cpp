@@ -67,9 +67,9 @@ class Walk {
     // Both teams of the referee, also the one of which no robot is heard.
     for (std::size_t i = 0; m_last.referee && i < m_last.referee->teams.size(); ++i) {
       const RefereeTeamView& side = m_last.referee->teams[i];
-      const auto colour = std::ranges::find(teamColors, side.colour, &TeamColorInfo::name);
-      if (colour == teamColors.end()) continue;
-      TeamSummary& team = m_sums.team(colour->color);
+      const auto colour = teamColorNamed(side.colour);
+      if (!colour) continue;
+      TeamSummary& team = m_sums.team(*colour);
       team.score = side.score;
       if (!side.name.empty()) team.name = side.name;
     }

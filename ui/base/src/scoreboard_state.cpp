@@ -20,9 +20,7 @@ QString teamName(TeamColor team, const link::Teams& teams) {
 }
 
 QColor refereeColour(const std::string& words) {
-  for (const TeamColorInfo& team : teamColors) {
-    if (team.name == words) return theme().team(team.color);
-  }
+  if (const auto drawn = teamColorNamed(words)) return theme().team(*drawn);
   // What referees know besides the colours that robots are drawn in.
   static const std::pair<const char*, QColor> others[] = {{"white", QColor(245, 245, 245)},
                                                           {"green", QColor(58, 150, 80)},

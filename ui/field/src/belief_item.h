@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include <base/ids.h>
+#include <simcore/world/team_color.h>
 
 #include "field_item.h"
 

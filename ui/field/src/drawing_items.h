@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <base/ids.h>
 #include <base/robot_key.h>
+#include <simcore/world/team_color.h>
 #include <telemetry/wire/drawing_store.h>
 
 #include "field_item.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/field/field_keys.h>
 
-#include <base/actions.h>
+#include <simcore/world/action_codes.h>
 
 namespace pitchboard::ui {
 namespace {

@@ -143,8 +143,8 @@ QWidget* TeamsPage::makeForm() {
   m_colour->setObjectName(QStringLiteral("teamColour"));
   m_colour->addItem(QStringLiteral("the referee's"));
   for (const TeamColorInfo& colour : teamColors) {
-    m_colour->addItem(swatch(colour.color), QString::fromUtf8(colour.name),
-                      static_cast<int>(colour.color));
+    const QString name = QString::fromUtf8(colour.name);
+    m_colour->addItem(swatch(colour.color), name, name);
   }
   connect(m_colour, &QComboBox::currentIndexChanged, this, &TeamsPage::take);
   auto* numbers = new QHBoxLayout;
@@ -217,7 +217,8 @@ void TeamsPage::name(int place) {
   const telemetry::TeamSetup& setup = m_drafts[static_cast<std::size_t>(place)].setup;
   QListWidgetItem* item = m_list->item(place);
   item->setText(QString::fromStdString(setup.title()));
-  item->setIcon(setup.colour ? swatch(*setup.colour) : QIcon());
+  const auto colour = teamColorNamed(setup.colour);
+  item->setIcon(colour ? swatch(*colour) : QIcon());
 }
 
 void TeamsPage::show(int place) {
@@ -231,7 +232,7 @@ void TeamsPage::show(int place) {
   const telemetry::TeamSetup& setup = draft.setup;
   m_name->setText(QString::fromStdString(setup.name));
   m_number->setValue(setup.number);
-  m_colour->setCurrentIndex(setup.colour ? m_colour->findData(static_cast<int>(*setup.colour)) : 0);
+  m_colour->setCurrentIndex(std::max(0, m_colour->findData(QString::fromStdString(setup.colour))));
   m_firstPort->setValue(setup.firstPort);
   m_lastPort->setValue(setup.lastPort == setup.firstPort ? 0 : setup.lastPort);
   m_lastPort->setEnabled(setup.firstPort > 0);
@@ -299,10 +300,7 @@ void TeamsPage::take() {
   telemetry::TeamSetup& setup = draft->setup;
   setup.name = m_name->text().trimmed().toStdString();
   setup.number = m_number->value();
-  setup.colour.reset();
-  if (m_colour->currentIndex() > 0) {
-    setup.colour = static_cast<TeamColor>(m_colour->currentData().toInt());
-  }
+  setup.colour = m_colour->currentData().toString().toStdString();
   setup.firstPort = m_firstPort->value();
   setup.lastPort = m_lastPort->value();
   m_lastPort->setEnabled(setup.firstPort > 0);

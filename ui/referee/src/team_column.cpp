@@ -118,10 +118,8 @@ void TeamColumn::show(const link::MatchFrame& frame, bool refereed) {
       team.players = playersOf(frame, frame.desk->game.teams[static_cast<std::size_t>(m_team)]);
     }
   }
-  QColor colour = theme().secondaryText;
-  for (const TeamColorInfo& one : teamColors) {
-    if (team.colour == one.name) colour = theme().team(one.color);
-  }
+  const auto drawn = teamColorNamed(team.colour);
+  const QColor colour = drawn ? theme().team(*drawn) : theme().secondaryText;
   m_square->setStyleSheet(QStringLiteral("background: %1; border-radius: 2px").arg(colour.name()));
   m_name->setText(!refereed           ? refereeTeamText(team, view.ourTeam)
                   : team.name.empty() ? QString::fromStdString(team.colour).toUpper()

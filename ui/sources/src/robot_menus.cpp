@@ -7,9 +7,9 @@
 #include <QMenu>
 #include <algorithm>
 
-#include <base/actions.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/scenario/scenario.h>
+#include <simcore/world/action_codes.h>
 #include <ui/base/robot_words.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/referee_calls.h>

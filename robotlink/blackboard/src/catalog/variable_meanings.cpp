@@ -6,9 +6,9 @@
 #include <cassert>
 #include <charconv>
 
-#include <base/actions.h>
 #include <base/lined_json.h>
 #include <resources/resources.h>
+#include <simcore/world/action_codes.h>
 
 namespace pitchboard::link {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <string_view>
 
-#include <base/ids.h>
+#include <simcore/world/team_color.h>
 #include <telemetry/series/series_types.h>
 #include <telemetry/wire/meanings.h>
 
@@ -69,11 +69,7 @@ inline std::string_view attribute(const telemetry::GroupInfo& group, std::string
 
 /// The colour of a robot's rows; blue where they name none.
 inline TeamColor teamOf(const telemetry::GroupInfo& group) {
-  const std::string_view name = attribute(group, "team");
-  for (const TeamColorInfo& team : teamColors) {
-    if (team.name == name) return team.color;
-  }
-  return TeamColor::Blue;
+  return teamColorNamed(attribute(group, "team")).value_or(TeamColor::Blue);
 }
 
 /// A whole number from 0 to 9 digits, else `fallback`.

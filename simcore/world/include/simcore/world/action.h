@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What control does for each code of <base/actions.h>. Speeds are the published ones, in
-// centimetres and degrees per frame of 1/60 s (the gait's step factor times its length).
+// What control does for each code of <simcore/world/action_codes.h>. Speeds are the published ones,
+// in centimetres and degrees per frame of 1/60 s (the gait's step factor times its length).
 
 #include <span>
 
-#include <base/actions.h>
+#include <simcore/world/action_codes.h>
 
 namespace pitchboard::sim {
 

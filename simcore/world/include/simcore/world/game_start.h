@@ -13,6 +13,7 @@
 #include <base/geometry.h>
 #include <base/ids.h>
 #include <simcore/world/game_state.h>
+#include <simcore/world/team_color.h>
 
 namespace pitchboard::sim {
 

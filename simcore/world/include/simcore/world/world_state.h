@@ -19,6 +19,7 @@
 #include <simcore/world/referee_rules.h>
 #include <simcore/world/rigid_body_state.h>
 #include <simcore/world/robot_model.h>
+#include <simcore/world/team_color.h>
 
 namespace pitchboard::sim {
 

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include <base/ids.h>
 #include <telemetry/wire/sender_filter.h>
 #include <telemetry/wire/text_decoder.h>
 
@@ -24,7 +23,7 @@ struct TeamSetup {
   static constexpr std::size_t mostTeams = 16;  ///< that are heard at one time
   std::string name;                             ///< empty: title() has the number
   int number = 0;                               ///< the referee's; 0: not known
-  std::optional<TeamColor> colour;              ///< nothing: Live chooses
+  std::string colour;                           ///< as colourWords(); empty: Live chooses
   int firstPort = 0, lastPort = 0;              ///< 0: Live's own ports
   std::vector<std::string> senders;             ///< addresses and networks; empty: everybody
   std::string profileName = "published";        ///< a built-in one, or a file (beside the setup)

@@ -11,7 +11,7 @@
 #include <QPalette>
 #include <QString>
 
-#include <base/ids.h>
+#include <simcore/world/team_color.h>
 
 class QApplication;
 class QWidget;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <base/actions.h>
+#include <simcore/world/action_codes.h>
 
 namespace pitchboard {
 
