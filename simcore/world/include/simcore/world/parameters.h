@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one table of the numbers that people may set: noise, kinds of robots, ball and contacts, the
-// field, the tick rate. Scenario files, the simulation's own checks, the rows of the Noise and
-// physics dock and the tables of docs/scenarios.md are all made from it. Ranges are in the unit in
-// which people write a value; the only one that differs from the unit in memory is the degree.
-// Defaults are those of the structs. Constant data, for any thread.
+// The table of all numbers that people can set: noise, robot models, ball and contacts, the field,
+// the tick rate. Scenario files, the checks of the simulation, the Noise and physics panel and the
+// tables of docs/scenarios.md are made from it. Ranges are in the unit that people write, which
+// differs from the one in memory for angles only (degrees and radians). Defaults are those of the
+// structs. Constant data; any thread.
 
 #include <array>
 
@@ -15,32 +15,32 @@
 
 namespace pitchboard::sim {
 
-/// As people write a value.
+/// The unit of a value as people write it.
 struct Unit {
-  const char* words = "";   ///< in the plural, for sentences; empty: a plain number
-  const char* symbol = "";  ///< for tables
-  bool angle = false;       ///< degrees where people write it, radians in memory
+  const char* words = "";   ///< plural, for sentences; empty for a plain number
+  const char* symbol = "";  ///< symbol, for tables
+  bool angle = false;       ///< people write degrees, memory holds radians
 };
 
-/// A value as a slider with a box. Not shown at all when `decimals` is negative.
+/// How a value is shown as a slider with a number box. Not shown if `decimals` is negative.
 struct ShownParameter {
-  const char* unit = "";  ///< behind the number, with its leading space
-  double factor = 1.0;    ///< shown = written × factor
-  double least = 0.0;     ///< what is useful, in the unit shown; more may be allowed
+  const char* unit = "";  ///< text after the number, with a leading space
+  double factor = 1.0;    ///< shown value = written value × factor
+  double least = 0.0;     ///< useful range, in the unit shown; more may be allowed
   double most = 0.0;
   int decimals = -1;
 };
 
-/// One number of `Values`: a measure, or with Number = int a count.
+/// One number of `Values`: a measure, or a count if Number is int.
 template <class Values, class Number = double>
 struct Parameter {
-  const char* key;  ///< in files
+  const char* key;  ///< its key in files
   Number Values::*member;
   Unit unit;
-  double least;         ///< allowed, in `unit`
-  double most;          ///< allowed, in `unit`
-  const char* name;     ///< as a row or a column is called
-  const char* meaning;  ///< more about it; empty where the name says all
+  double least;         ///< allowed minimum, in `unit`
+  double most;          ///< allowed maximum, in `unit`
+  const char* name;     ///< its name in tables and panels
+  const char* meaning;  ///< what it does; empty if the name says it
   ShownParameter shown = {};
 
   double stored(double written) const { return unit.angle ? radiansFromDegrees(written) : written; }
@@ -222,7 +222,7 @@ inline constexpr Parameter<SimulationSettings> tickRateParameter{
     "Tick rate", "Ticks per simulated second"};
 // clang-format on
 
-/// Whether robots can fall: the one switch among the constants of the body.
+/// The only switch among the constants of the body: whether robots can fall.
 struct FallsSwitch {
   const char* key = "falls";
   const char* name = "Robots fall when hit hard";
@@ -235,8 +235,8 @@ inline constexpr std::array<const char*, 2> kickLawNames{"published", "foot"};
 /// From where RobotModel::fromCamera measures: no, yes.
 inline constexpr std::array<const char*, 2> distanceFromNames{"body", "camera"};
 
-// Each refuses a value that is not finite or out of its range: InvalidArgument, with the key as the
-// context ("noise.forward"). A field has more that can be wrong: validate() of field.h.
+// Each fails with InvalidArgument for a value that is not finite or out of range; the context is
+// the key ("noise.forward"). validate() of field.h checks more of a field.
 Result<void> validate(const NoiseParameters& noise);
 Result<void> validate(const RigidBodySettings& body);
 Result<void> validate(const SimulationSettings& settings);
