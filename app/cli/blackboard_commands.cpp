@@ -129,9 +129,9 @@ void addListCommand(CLI::App& parent, int& exitCode) {
       "list",
       "List the blackboards on this computer with owner and attached processes.\n"
       "Example: pitchboard-cli blackboard list");
-  command->add_option("--key-base", options->keyBase, "added to 100 x robot number")
+  command->add_option("--key-base", options->keyBase, "Number added to 100 x robot number")
       ->check(CLI::Range(0, 2'000'000'000));
-  command->add_flag("--json", options->json, "as JSON");
+  command->add_flag("--json", options->json, "Print one JSON object per blackboard");
   command->callback(
       [options, &exitCode] { exitCode = listBlackboards(options->keyBase, options->json); });
 }
@@ -157,14 +157,15 @@ void addRemoveCommand(CLI::App& parent, int& exitCode) {
       parent.add_subcommand("remove",
                             "Remove blackboards. One with attached processes needs --force.\n"
                             "Example: pitchboard-cli blackboard remove --orphans");
-  command->add_option("ROBOT", options->robots, "robot numbers")->check(CLI::Range(1, 64));
-  command->add_option("--key", options->key, "a System V key instead of a robot number")
+  command->add_option("ROBOT", options->robots, "Robot numbers")->check(CLI::Range(1, 64));
+  command->add_option("--key", options->key, "System V key instead of a robot number")
       ->check(CLI::PositiveNumber);
-  command->add_option("--key-base", options->keyBase, "added to 100 x robot number")
+  command->add_option("--key-base", options->keyBase, "Number added to 100 x robot number")
       ->check(CLI::Range(0, 2'000'000'000));
-  command->add_flag("--orphans", options->orphans,
-                    "every blackboard of ours that nobody uses and whose creator has ended");
-  command->add_flag("--force", options->force, "also when processes are attached");
+  command->add_flag(
+      "--orphans", options->orphans,
+      "Remove every blackboard that a program of Pitchboard left behind and that nobody uses");
+  command->add_flag("--force", options->force, "Remove even if processes are attached");
   whenChosen(*command, options, exitCode, removeBlackboards);
 }
 

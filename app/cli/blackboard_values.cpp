@@ -29,14 +29,14 @@ using link::VariableType;
 using Words = std::array<std::uint32_t, Blackboard::words>;
 
 void BlackboardTarget::addTo(CLI::App& command) {
-  command.add_option("ROBOT", robot, "robot number")->check(CLI::Range(1, 64));
+  command.add_option("ROBOT", robot, "Robot number")->check(CLI::Range(1, 64));
   addKeysTo(command);
 }
 
 void BlackboardTarget::addKeysTo(CLI::App& command) {
-  command.add_option("--key", key, "a System V key instead of a robot number")
+  command.add_option("--key", key, "System V key instead of a robot number")
       ->check(CLI::PositiveNumber);
-  command.add_option("--key-base", keyBase, "added to 100 x robot number")
+  command.add_option("--key-base", keyBase, "Number added to 100 x robot number")
       ->check(CLI::Range(0, 2'000'000'000));
 }
 
@@ -308,7 +308,7 @@ Result<int> set(SetOptions& options) {
 
 void addCatalogOption(CLI::App& command, std::string& file) {
   command.add_option("--catalog", file,
-                     "variable map: a team's blackboard.h, SharedMemory.py or JSON "
+                     "Variable map: a team's blackboard.h, SharedMemory.py or JSON "
                      "(default: the published map)");
 }
 
@@ -322,8 +322,8 @@ void addDumpCommand(CLI::App& parent, int& exitCode) {
                             "Example: pitchboard-cli blackboard dump 1 --json");
   options->target.addTo(*command);
   addCatalogOption(*command, options->catalog);
-  command->add_flag("--all", options->all, "also words without a name that are not zero");
-  command->add_flag("--json", options->json, "as JSON");
+  command->add_flag("--all", options->all, "Print also words that have no name and are not zero");
+  command->add_flag("--json", options->json, "Print one JSON object");
   whenChosen(*command, options, exitCode, &dumpValues);
 }
 
@@ -335,15 +335,15 @@ void addWatchCommand(CLI::App& parent, int& exitCode) {
       "Example: pitchboard-cli blackboard watch 1 DECISION_ACTION_A VISION_BALL_DIST");
   options->target.addKeysTo(*command);
   command->add_option("ROBOT NAME", options->names,
-                      "robot number, then the variables to watch (default: all)");
+                      "Robot number, then the variables to watch (default: all)");
   addCatalogOption(*command, options->catalog);
-  command->add_option("--interval", options->intervalMs, "milliseconds between two looks")
+  command->add_option("--interval", options->intervalMs, "Milliseconds between two readings")
       ->check(CLI::Range(1, 60'000))
       ->capture_default_str();
-  command->add_option("--count", options->count, "end after this many changes")
+  command->add_option("--count", options->count, "Stop after this many changes")
       ->check(CLI::PositiveNumber);
-  shared::addDuration(*command, "--duration", options->duration, "end after this time");
-  command->add_flag("--json", options->json, "one JSON object a line");
+  shared::addDuration(*command, "--duration", options->duration, "Stop after this time");
+  command->add_flag("--json", options->json, "Print one JSON object per change");
   whenChosen(*command, options, exitCode, &watch);
 }
 
@@ -354,7 +354,7 @@ void addSetCommand(CLI::App& parent, int& exitCode) {
       "Write variables of a blackboard.\n"
       "Example: pitchboard-cli blackboard set 1 DECISION_ACTION_A=8 DECISION_ACTION_B=20");
   options->target.addKeysTo(*command);
-  command->add_option("ROBOT NAME=VALUE", options->assignments, "robot number, then what to write")
+  command->add_option("ROBOT NAME=VALUE", options->assignments, "Robot number, then what to write")
       ->required();
   addCatalogOption(*command, options->catalog);
   whenChosen(*command, options, exitCode, &set);

@@ -60,9 +60,9 @@ void addCatalogCommands(CLI::App& parent, int& exitCode) {
       "import",
       "Read a team's blackboard.h, SharedMemory.py or JSON map and print it.\n"
       "Example: pitchboard-cli catalog import blackboard.h --json -o our-team.json");
-  command->add_option("FILE", options->file, "the map: .h, .hpp, .py or .json")->required();
-  command->add_flag("--json", options->json, "as JSON that --catalog reads");
-  command->add_option("-o,--output", options->output, "write to this file");
+  command->add_option("FILE", options->file, "Map: .h, .hpp, .py or .json")->required();
+  command->add_flag("--json", options->json, "Print the map as JSON, which --catalog reads");
+  command->add_option("-o,--output", options->output, "Write to this file");
   command->callback([options, &exitCode] { exitCode = importCatalog(*options); });
 }
 

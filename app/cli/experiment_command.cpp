@@ -206,7 +206,9 @@ void addMerge(CLI::App& parent, int& exitCode) {
   command->add_option("parts", options->parts, "Folders of the shards")
       ->required()
       ->type_name("DIR...");
-  command->add_option("--out", options->out, "A new folder")->required()->type_name("DIR");
+  command->add_option("--out", options->out, "New folder for the results")
+      ->required()
+      ->type_name("DIR");
   whenChosen(*command, options, exitCode, [](Merge& chosen) -> Result<int> {
     const auto experiment = TRY(link::experimentOf(chosen.parts.front()));
     const auto merged = TRY(link::mergeFolders(chosen.parts, chosen.out, experiment));
@@ -229,16 +231,18 @@ void addReplay(CLI::App& parent, int& exitCode) {
       "replay",
       "Play a run again and record it. Exits with 1 if it ends in another state.\n"
       "Example: pitchboard-cli experiment replay results --run 417 --open");
-  command->add_option("folder", options->folder, "The results")->required()->type_name("DIR");
-  command->add_option("--run", options->run, "Its number in runs.csv")->required()->type_name("N");
+  command->add_option("folder", options->folder, "Folder of results")->required()->type_name("DIR");
+  command->add_option("--run", options->run, "Number of the run in runs.csv")
+      ->required()
+      ->type_name("N");
   command
       ->add_option("-o,--output", options->output,
-                   "A new session; default: sessions/run-N.mcap in the folder")
+                   "New recording; default: sessions/run-N.mcap in the folder")
       ->type_name("FILE.mcap");
   command->add_flag("--open", options->open, "Open it in the studio");
   command
       ->add_option("--robot-program", options->robotProgram,
-                   "Program of separate processes; default: pitchboard-robot beside this one")
+                   "Program of separate processes; default: pitchboard-robot beside this program")
       ->type_name("FILE");
   whenChosen(*command, options, exitCode, [](Replay& chosen) -> Result<int> {
     const auto experiment = TRY(link::experimentOf(chosen.folder));
@@ -281,24 +285,24 @@ void addExperimentCommand(CLI::App& parent, int& exitCode) {
       "          pitchboard-cli experiment mine.json --out part2 --shard 2/8");
   command->add_option("experiment", o.experiment, "Built-in name or a JSON file")
       ->type_name("NAME|FILE");
-  command->add_option("--out", o.out, "The folder for the results")->type_name("DIR");
-  command->add_option("--jobs", o.jobs, "Runs at a time; default: one for each processor")
+  command->add_option("--out", o.out, "Folder for the results")->type_name("DIR");
+  command->add_option("--jobs", o.jobs, "Runs at the same time; default: one per processor")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--seed", o.seed, "Of the first run; default: the experiment's")
+  command->add_option("--seed", o.seed, "Seed of the first run; default: the experiment's")
       ->check(shared::refuseNegative)
       ->type_name("N");
-  command->add_option("--runs", o.runs, "Of each condition; default: the experiment's")
+  command->add_option("--runs", o.runs, "Runs of each condition; default: the experiment's")
       ->type_name("N")
       ->check(CLI::Range(1, 1'000'000));
-  command->add_option("--shard", o.shard, "Only each n-th run, from the i-th")->type_name("i/n");
-  command->add_flag("--resume", o.resume, "Go on with the results that are in the folder");
+  command->add_option("--shard", o.shard, "Run only shard i of n")->type_name("i/n");
+  command->add_flag("--resume", o.resume, "Continue with the results in the folder");
   command->add_flag("--list", o.list, "Print the built-in experiments");
   command->add_flag("--progress", o.progress,
                     "Print progress to stderr even if it is not a terminal");
   command
       ->add_option("--robot-program", o.robotProgram,
-                   "Program of separate processes; default: pitchboard-robot beside this one")
+                   "Program of separate processes; default: pitchboard-robot beside this program")
       ->type_name("FILE");
   command->require_subcommand(0, 1);
   addMerge(*command, exitCode);

@@ -168,13 +168,13 @@ void addTestCommand(CLI::App& parent, int& exitCode) {
       ->type_name("DIR|FILE|NAME");
   command->add_option("--junit", o.junit, "Write the results as JUnit XML, errors included")
       ->type_name("FILE.xml");
-  command->add_option("--jobs", o.jobs, "Runs at a time; default: one for each processor")
+  command->add_option("--jobs", o.jobs, "Runs at the same time; default: one per processor")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--list", o.list, "Print the examples");
   command
       ->add_option("--robot-program", o.robotProgram,
-                   "Program of separate processes; default: pitchboard-robot beside this one")
+                   "Program of separate processes; default: pitchboard-robot beside this program")
       ->type_name("FILE");
   command->callback([options, &exitCode] {
     if (options->list) {

@@ -64,8 +64,8 @@ class TestCooperation : public QObject {
     QFile guide(PITCHBOARD_SOURCE_DIR "/docs/robot-programs.md");
     QFile program(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/" + file);
     QVERIFY(guide.open(QIODevice::ReadOnly) && program.open(QIODevice::ReadOnly));
-    QVERIFY(
-        guide.readAll().contains("```" + language.toUtf8() + "\n" + program.readAll() + "```\n"));
+    QVERIFY(guide.readAll().contains("```" + (language + " " + file).toUtf8() + "\n" +
+                                     program.readAll() + "```\n"));
   }
 
   void theSameMatchAtEverySpeed_data() {

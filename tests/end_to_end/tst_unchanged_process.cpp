@@ -116,7 +116,8 @@ class TestUnchangedProcess : public QObject {
     QVERIFY(guide.open(QIODevice::ReadOnly) && program.open(QIODevice::ReadOnly));
     const QByteArray text = program.readAll();
     QVERIFY(text.count('\n') <= 45);
-    QVERIFY(guide.readAll().contains("```" + language.toUtf8() + "\n" + text + "```\n"));
+    QVERIFY(
+        guide.readAll().contains("```" + (language + " " + file).toUtf8() + "\n" + text + "```\n"));
   }
 
   void walksToTheBallAndKicksIt_data() {

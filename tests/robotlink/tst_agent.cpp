@@ -265,7 +265,8 @@ class TestAgent : public QObject {
     QFile program(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/" + file);
     QVERIFY(guide.open(QIODevice::ReadOnly) && program.open(QIODevice::ReadOnly));
     const QByteArray text = program.readAll();
-    QVERIFY(guide.readAll().contains("```" + language.toUtf8() + "\n" + text + "```\n"));
+    QVERIFY(
+        guide.readAll().contains("```" + (language + " " + file).toUtf8() + "\n" + text + "```\n"));
 
     const TestSocket socket;
     const QStringList arguments{"5", "127.0.0.1", QString::number(socket.port())};

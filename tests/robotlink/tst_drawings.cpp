@@ -172,7 +172,8 @@ class TestDrawings : public QObject {
     QFile program(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/" + file);
     QVERIFY(guide.open(QIODevice::ReadOnly) && program.open(QIODevice::ReadOnly));
     const QByteArray text = program.readAll();
-    QVERIFY(guide.readAll().contains("```" + language.toUtf8() + "\n" + text + "```\n"));
+    QVERIFY(
+        guide.readAll().contains("```" + (language + " " + file).toUtf8() + "\n" + text + "```\n"));
   }
 
   // A program that the match starts finds the way by its environment.

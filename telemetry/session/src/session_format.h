@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How groups, rows and messages look inside a session file (docs/sessions.md). Rows are CDR (OMG,
+// How groups, rows and messages look inside a session file (docs/file-formats.md). Rows are CDR (OMG,
 // little-endian, plain, version 1) by a ros2msg definition made from the columns.
 
 #include <array>

@@ -40,6 +40,10 @@ class TestVariablesEdit : public QObject {
     QTest::keyClick(bench.view, Qt::Key_F2);
     QVERIFY(!bench.view->isEditing());
     QVERIFY(bench.message().contains(QStringLiteral("locked")));
+    QVERIFY(bench.at(ballDistance)
+                .data(Qt::ToolTipRole)
+                .toString()
+                .contains(QStringLiteral("distance to the ball")));
     bench.press("editValues");
     QTest::keyClick(bench.view, Qt::Key_F2);
     QVERIFY(bench.view->isEditing());

@@ -59,7 +59,7 @@ void ResultsTabs::addTabs() {
     highlight();
     showChoices();
   });
-  addTab(m_trajectories, QStringLiteral("Ways"));
+  addTab(m_trajectories, QStringLiteral("Trajectories"));
   addTab(m_distribution, QStringLiteral("Distribution"));
   cover(m_trajectories, QStringLiteral("experimentTrajectoriesEmpty"));
   cover(m_distribution->area(), QStringLiteral("experimentDistributionEmpty"));

@@ -2,6 +2,8 @@
 // VariablesModel: how rows are shown, and what a person may do with them.
 #include <QColor>
 
+#include <robotlink/blackboard/variable_catalog.h>
+#include <robotlink/blackboard/variable_meanings.h>
 #include <ui/base/theme.h>
 
 #include "variable_node.h"
@@ -122,6 +124,10 @@ QString VariablesModel::toolTip(const QModelIndex& index) const {
     return lines.join(QLatin1Char('\n'));
   }
   QStringList lines{row.path};
+  if (link::VariableCatalog::extended().find(row.info.name)) {
+    const auto text = link::VariableMeanings::published().description(row.info.name);
+    lines << QString::fromUtf8(text.data(), qsizetype(text.size()));
+  }
   if (row.known) {
     const QString words = wordsOf(row.info, row.value);
     lines << exactText(row.info, row.value) + QLatin1Char(' ') +

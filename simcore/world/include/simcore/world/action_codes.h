@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The codes of DECISION_ACTION_A: of which kind each one is, and what people read for it on cards,
-// lanes, logs and in files. How control carries them out is told in <simcore/world/action.h>, the
-// published table in docs/reference/system.md section 3. Plain values; any thread.
+// The codes of DECISION_ACTION_A: the kind of each, and its text on cards, lanes, logs and in
+// files. <simcore/world/action.h> says how control executes them; docs/reference/system.md section
+// 3 has the published table. Plain values; any thread.
 
 #include <array>
 #include <cstdint>
@@ -21,7 +21,7 @@ struct ActionInfo {
   std::string_view words;
 };
 
-/// Every code that a robot knows; a code is its place.
+/// Every known code; its index is the code.
 inline constexpr std::array<ActionInfo, 23> knownActions{{
     {0, ActionKind::Stop, "stop"},
     {1, ActionKind::Walk, "walk forward, fast"},
@@ -55,10 +55,10 @@ static_assert([] {
   return true;
 }());
 
-/// The words of any code; "action 42" for one that no robot knows.
+/// Returns the text of a code; "action 42" if it is unknown.
 std::string actionWords(int code);
 
-/// The whole table: the labels of a column of actions.
+/// Returns the texts of all codes, as labels of a column.
 std::map<std::int32_t, std::string> actionLabels();
 
 }  // namespace pitchboard

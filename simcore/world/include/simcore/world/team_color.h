@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Team colours as scenario files and robots' names have them. Values; any thread.
+// The colours of teams, as in scenario files and names of robots. Plain values; any thread.
 
 #include <algorithm>
 #include <array>
@@ -12,15 +12,15 @@
 
 namespace pitchboard {
 
-/// The five colours of the published simulator. Blue (its cyan) and red (its magenta) play a match;
-/// the others are for further groups of robots. Robots of one colour are team-mates.
+/// The five colours of the published simulator. Robots of one colour are team-mates. Usually blue
+/// (its cyan) and red (its magenta) play a match.
 enum class TeamColor : std::uint8_t { Blue, Red, Black, Orange, Yellow };
 
 struct TeamColorInfo {
   TeamColor color;
-  std::string_view name;    ///< as in a scenario file
+  std::string_view name;    ///< its name in scenario files
   std::string_view letter;  ///< prefix of a robot's name: B1, R2, ...
-  bool facesLeft;           ///< how a new robot of this colour stands; its IMU then starts at 180°
+  bool facesLeft;           ///< a new robot of this colour faces left; its IMU starts at 180°
 };
 
 inline constexpr std::array<TeamColorInfo, 5> teamColors{{
@@ -31,7 +31,7 @@ inline constexpr std::array<TeamColorInfo, 5> teamColors{{
     {TeamColor::Yellow, "yellow", "Y", false},
 }};
 
-/// Of "blue"; nothing for any other text, also for colours that robots cannot be drawn in.
+/// Reads "blue" and so on; nothing for any other text.
 constexpr std::optional<TeamColor> teamColorNamed(std::string_view name) {
   const auto found = std::ranges::find(teamColors, name, &TeamColorInfo::name);
   return found == teamColors.end() ? std::nullopt : std::optional(found->color);
