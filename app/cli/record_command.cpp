@@ -77,9 +77,9 @@ class Health {
 
 Result<int> recordMatch(const RecordOptions& options) {
   const auto cognition = TRY(cognitionOf(options.play));
-  const auto speed = TRY(speedOf(options.play, cognition));
   const auto scenario =
       TRY(scenarioToPlay(shared::scenarioFrom(options.play.match), options.play, cognition));
+  const auto speed = TRY(speedOf(options.play, cognition, scenario));
   auto match = TRY(createMatch(scenario, options.play, cognition));
 
   SessionWriterOptions writing;

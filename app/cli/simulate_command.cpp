@@ -151,12 +151,12 @@ class TraceRows : public link::TickObserver {
 
 Result<void> simulate(const Arguments& arguments) {
   const auto cognition = TRY(cognitionOf(arguments.play));
-  const auto speed = TRY(speedOf(arguments.play, cognition));
   std::optional<Recorded> recorded;
   if (!arguments.session.empty()) {
     recorded = TRY(recordedMoment(arguments));
   }
   const auto scenario = TRY(scenarioFrom(arguments, cognition, recorded));
+  const auto speed = TRY(speedOf(arguments.play, cognition, scenario));
   const InterruptGuard signals;
   auto match = TRY(createMatch(scenario, arguments.play, cognition));
   if (recorded) {

@@ -103,7 +103,8 @@ Result<link::ExperimentSummary> played(const link::Experiment& experiment,
 Result<link::TestedExperiment> tested(const Found& test, const TestOptions& options) {
   if (test.error) return tl::unexpected(*test.error);
   auto experiment = TRY(link::loadExperiment(test.path));
-  if (experiment.assertions.empty()) {
+  const auto& tournament = experiment.tournament;
+  if (experiment.assertions.empty() && (!tournament || tournament->assertions.empty())) {
     return failure(ErrorCode::InvalidArgument, "has no assertions, so it tests nothing", test.path);
   }
   auto summary = played(experiment, options);

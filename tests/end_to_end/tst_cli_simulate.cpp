@@ -35,6 +35,7 @@ QString shortMatch(const QTemporaryDir& dir) {
   if (!file.open(QIODevice::WriteOnly)) qFatal("cannot write");
   file.write(R"({"version": 1, "name": "short", "noise": "none", "field": "kid-2020",
     "referee": {"rules": "humanoid-2021", "half_time": 5, "break_time": 1, "before_match": 1},
+    "teams": [{"colour": "blue", "number": 12, "name": "RoboFEI"}],
     "score": {"left": 0, "right": 4}, "ball": {"x": 0, "y": 0},
     "robots": [{"team": "blue", "number": 1, "x": -3, "y": 2, "behaviour": "none"},
                {"team": "red", "number": 1, "x": 3, "y": 2, "behaviour": "none"}]})");
@@ -93,11 +94,19 @@ class TestCliSimulate : public QObject {
     const QJsonObject out = QJsonDocument::fromJson(run.out).object();
     QCOMPARE(out["finished_by"].toString(), QString("full_time"));
     QCOMPARE(out["score"].toObject(), (QJsonObject{{"left", 4}, {"right", 0}}));
-    QCOMPARE(out["teams"].toArray(),
-             (QJsonArray{
-                 QJsonObject{{"side", "right"}, {"colour", "blue"}, {"number", 1}, {"score", 0}},
-                 QJsonObject{{"side", "left"}, {"colour", "red"}, {"number", 2}, {"score", 4}}}));
-    QVERIFY(simulate({"--scenario", file}).out.contains("Score      Blue 0 : 4 Red\n"));
+    QCOMPARE(out["teams"].toArray(), (QJsonArray{QJsonObject{{"side", "right"},
+                                                             {"colour", "blue"},
+                                                             {"number", 12},
+                                                             {"name", "RoboFEI"},
+                                                             {"score", 0},
+                                                             {"by_half", QJsonArray{0, 0}}},
+                                                 QJsonObject{{"side", "left"},
+                                                             {"colour", "red"},
+                                                             {"number", 2},
+                                                             {"score", 4},
+                                                             {"by_half", QJsonArray{4, 0}}}}));
+    QVERIFY(simulate({"--scenario", file})
+                .out.contains("Score      RoboFEI (blue) 0 : 4 Red (0 : 4, 0 : 0)\n"));
     const Run unrefereed = simulate({"--scenario", "one-robot", "--duration", "1", "--json"});
     QCOMPARE(QJsonDocument::fromJson(unrefereed.out)["teams"].toArray(),
              (QJsonArray{QJsonObject{{"side", "left"}, {"colour", "blue"}, {"score", 0}},
@@ -109,7 +118,8 @@ class TestCliSimulate : public QObject {
     const QString file = shortMatch(dir), session = dir.filePath("match.mcap");
     const Run run = runProgram("pitchboard-cli", {"record", "--scenario", file, "-o", session});
     QVERIFY2(run.exitCode == 0, run.err.constData());
-    QVERIFY2(run.out.contains("\nBlue 0 : 4 Red; the final whistle\n"), run.out.constData());
+    QVERIFY2(run.out.contains("\nRoboFEI (blue) 0 : 4 Red (0 : 4, 0 : 0); the final whistle\n"),
+             run.out.constData());
     const Run events = runProgram("pitchboard-cli", {"inspect", session, "--events"});
     QVERIFY2(events.out.contains("final whistle"), events.out.constData());
   }
@@ -129,8 +139,8 @@ class TestCliSimulate : public QObject {
     run = runProgram("pitchboard-cli", {"inspect", session, "--json"});
     QVERIFY2(run.out.contains("GAME_STATE"), run.out.constData());
     run = record({"--runtime", "B1=program=/bin/true"});
-    QCOMPARE(run.exitCode, 2);
-    QVERIFY2(run.err.contains("add --cognition external"), run.err.constData());
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    QVERIFY2(run.err.contains("B1 decision"), run.err.constData());  // and that it has ended
     run = record({"--cognition", "external", "--speed", "max", "--key-base",
                   QString::number(testKeyBase() + 60)});
     QVERIFY2(run.exitCode == 0 && run.out.contains(": 2.000 s,"), run.err + run.out);
@@ -222,14 +232,9 @@ class TestCliSimulate : public QObject {
     QTest::newRow("duration") << QStringList{"--duration", "-1"} << QByteArray("--duration must");
     QTest::newRow("seconds") << QStringList{"--duration", "1:75"}
                              << QByteArray("write seconds (78.7), m:ss (1:18.7) or h:mm:ss");
-    QTest::newRow("inline program")
-        << QStringList{"--runtime", "B1=program=/bin/true", "--duration", "1"}
-        << QByteArray(
-               "B1 is played by a team program (program=/bin/true), which only runs as a "
-               "separate process; add --cognition external");
     QTest::newRow("program of nobody")
         << QStringList{"--runtime", "B1=program=/bin/true", "--cognition", "none"}
-        << QByteArray("only runs as a separate process");
+        << QByteArray("--cognition none starts none; leave one of them out");
     QTest::newRow("physics") << QStringList{"--physics", "x"} << QByteArray("physics model");
     QTest::newRow("noise") << QStringList{"--noise", "papr"}
                            << QByteArray("did you mean \"paper\"");

@@ -13,6 +13,7 @@
 #include "planning/target.h"
 #include "soccer/kick_choice.h"
 #include "soccer/roles.h"
+#include "soccer/soccer_board.h"
 
 namespace tst_team_play {
 
@@ -75,7 +76,10 @@ struct Robot {
                     static_cast<float>((pose.yaw - direction(pose.position, *seen)) * 180 / pi));
       }
       now += 0.1;
-      world.update(board, {now});
+      SoccerInput input;
+      soccer.read(board, world, input);
+      world.update(input, now);
+      soccer.lookFor(board, world.looksForOpponents());
     }
   }
   WorldModel model() {
@@ -101,6 +105,7 @@ struct Robot {
   Blackboard board = Blackboard::onHeap();
   RobotVariables variables{VariableCatalog::extended()};
   TeamVariables team;
+  SoccerBoard soccer;
   Pose pose;
   std::optional<Point> seen;
   double now = 0.0;

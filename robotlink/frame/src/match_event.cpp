@@ -66,6 +66,8 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
      ""},
     {Kind::ProcessNotAttached, "process-not-attached", "has not attached to its blackboard",
      Shape::Warning, 5, false, true, ""},
+    {Kind::CycleLate, "cycle-late", "did not finish its cycle in time", Shape::Silent, 7, false,
+     true, ""},
     {Kind::PortLost, "port-lost", "cannot be received", Shape::None, 0, false, true, "network"},
     {Kind::PortBack, "port-back", "is received now", Shape::None, 0, false, false, "network"},
     {Kind::Undone, "undone", "decision undone", Shape::None, 0, false, false, "referee"},

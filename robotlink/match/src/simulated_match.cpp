@@ -114,7 +114,7 @@ Result<void> SimulatedMatch::Parts::beginGame() {
   if (base.options.obeyReferee) {
     TRY(referee.obey(*base.options.obeyReferee, base.simulation));
     if (base.options.answerReferee) referee.answerTo(*base.options.answerReferee);
-  } else if (base.options.sendReferee || base.options.cognition != Cognition::Inline) {
+  } else if (base.options.sendReferee || slots.haveTeamPrograms()) {
     TRY(referee.sendTo(base.options.process.refereePort));
   }
   hearReferee();
@@ -306,6 +306,12 @@ bool SimulatedMatch::isRepeatable() const {
     return !own || (slot->cooperates && !slot->hasMissedCycle);
   };
   return std::ranges::all_of(robots().all(), repeats) && (pace().inLockStep() || !robots().turns());
+}
+
+MatchResult SimulatedMatch::result() const {
+  MatchResult out = resultOf(simulation().state(), finishedBy());
+  out.repeatable = isRepeatable();
+  return out;
 }
 
 Scenario SimulatedMatch::toScenario() const {

@@ -4,7 +4,7 @@
 #include <QObject>
 #include <algorithm>
 
-#include <robotlink/frame/match_event.h>
+#include <robotlink/frame/match_result.h>
 #include <ui/base/referee_words.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
@@ -56,6 +56,15 @@ QString refereeTip(const link::RefereeView& view, bool received) {
   return tip.join(QLatin1Char('\n'));
 }
 
+/// Left team first; empty before the second half, and where only packets are known.
+QString halvesOf(const link::MatchFrame& frame) {
+  if (!frame.desk) return {};
+  const sim::GameState& game = frame.desk->game;
+  const std::size_t left = game.leftTeam();
+  return QString::fromStdString(
+      link::halvesText(link::goalsByHalf(game, left), link::goalsByHalf(game, 1 - left)));
+}
+
 ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   ScoreboardState state;
   if (!frame.referee) {
@@ -104,6 +113,9 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   }
   state.penalties = penalties.join(QStringLiteral(" · "));
   state.tip = refereeTip(view, frame.origin == link::FrameOrigin::Live);
+  if (const QString halves = halvesOf(frame); !halves.isEmpty()) {
+    state.tip += QStringLiteral("\nBy half: ") + halves;
+  }
   return state;
 }
 

@@ -145,7 +145,7 @@ class ExperimentsDock : public QWidget {
     if (sessions.size() == 1) {
       if (m_parts.compared != nullptr) m_parts.compared->stop();
       return say(
-          m_shown->experiment.teamPrograms
+          m_shown->experiment.hasTeamPrograms()
               ? QStringLiteral("The run is open in Replay. Own programs do not repeat a run: "
                                "one that was not recorded was played anew.")
               : QStringLiteral("The run is open in Replay."));

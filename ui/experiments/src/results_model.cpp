@@ -8,7 +8,7 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr int fixedRunColumns = 3;
+constexpr int fixedRunColumns = 5;
 const QString minusSign = QStringLiteral("−"), nothing = QStringLiteral("–");
 
 QString text(double value, bool rate = false) {
@@ -98,7 +98,7 @@ void ResultsModel::fill() {
       }
       break;
     case Kind::Runs:
-      m_heads = {"Run", "Condition", "Seed"};
+      m_heads = {"Run", "Condition", "Seed", "Score", "Repeatable"};
       m_metrics = telling;
       for (const std::size_t m : m_metrics) m_heads.append(title(s.metrics[m]));
       for (std::size_t number = 1; number <= m_played->experiment.allRuns(); ++number) {
@@ -142,6 +142,13 @@ QVariant ResultsModel::runCell(int row, int column, bool sorting) const {
     const qulonglong seed = link::seedOf(m_played->experiment, place);
     return sorting ? QVariant(seed) : QString::number(seed);
   }
+  const auto& [goals, against, repeatable] =
+      m_played->table.conditions[place.condition].outcomes[place.index];
+  if (column == 3) {
+    if (sorting) return goals - against;
+    return QStringLiteral("%1 : %2").arg(goals).arg(against);
+  }
+  if (column == 4) return repeatable ? QStringLiteral("yes") : QStringLiteral("no");
   const std::size_t metric = m_metrics[static_cast<std::size_t>(column - fixedRunColumns)];
   const double value = m_played->table.conditions[place.condition].columns[metric][place.index];
   if (sorting) return std::isfinite(value) ? value : -1e300;

@@ -56,13 +56,14 @@ enum class MatchEventKind : std::uint8_t {
   ProcessGivenUp,      ///< robot, process; it ends again and again and is not started any more
   ProcessRealTime,     ///< robot, process; it does not follow the match's speed; detail: why
   ProcessNotAttached,  ///< robot, process; the match does not wait for it; detail: how long it has
+  CycleLate,           ///< robot; its program did not finish a cycle in time; detail: for how long
   PortLost,            ///< value: the port; detail: why it cannot be received
   PortBack,            ///< value: the port
   Undone,              ///< what `cause` had led to before, all of it, was taken back
   Bookmark,            ///< detail: the user's note
   Other                ///< detail: what a later version, or a file of another one, calls it
 };
-inline constexpr std::size_t matchEventKindCount = 40;
+inline constexpr std::size_t matchEventKindCount = 41;
 
 /// Half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };

@@ -43,7 +43,7 @@ struct MatchOptions {
   /// Of robots of which neither the scenario nor their behaviour says who runs.
   RuntimeChoice runtime;
   /// With Inline: the referee of the match sends packets to process.refereePort of this computer,
-  /// as it always does where processes run separately.
+  /// as it always does where processes run separately, or a team's own programs.
   bool sendReferee = false;
   /// Instead of its own referee, the match obeys a GameController that is heard on this port.
   std::optional<int> obeyReferee;

@@ -14,7 +14,7 @@
 #include <robotlink/blackboard/blackboard.h>
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/cognition/process_registry.h>
-#include <robotlink/frame/match_event.h>
+#include <robotlink/frame/match_result.h>
 #include <robotlink/match/match_options.h>
 #include <robotlink/match/process_pace.h>
 #include <robotlink/match/robot_slots.h>
@@ -91,6 +91,8 @@ class SimulatedMatch {
   /// the match does not wait for, or that did not finish a cycle in time, or while processes run
   /// freely.
   bool isRepeatable() const;
+  /// How it stands now; at the end, how it ended.
+  MatchResult result() const;
 
   /// What the reference processes remember after this tick; null when none run inside.
   std::shared_ptr<const RobotsMemory> robotsMemory() const;

@@ -69,6 +69,8 @@ struct RuntimeProfile {
   /// Variable in which one of them says that it has finished its cycle, so that the match waits for
   /// it (docs/robot-programs.md); may hold ${...}; empty: nobody is waited for.
   std::string cycle;
+  /// The pitchboard-robot of its reference processes, which are separate then; empty: the match's.
+  std::string program;
   /// It has programs that are not ours, or leaves the robot to somebody else's.
   bool hasOwn() const;
   /// Its decision is ours, which knows the extension of the map.

@@ -47,9 +47,11 @@ struct RobotSummary {
 
 struct TeamSummary {
   TeamColor team = TeamColor::Blue;
-  std::string name{};        ///< "RoboFEI"; empty: it has none
-  std::optional<int> score;  ///< at the end; nothing when it is not known
-  int scored = 0;            ///< in this time
+  std::string name{};           ///< "RoboFEI"; empty: it has none
+  std::optional<int> number{};  ///< the referee's; nothing without one
+  std::optional<int> score;     ///< at the end; nothing when it is not known
+  std::vector<int> byHalf{};    ///< goals of each half; empty where the first one was not seen
+  int scored = 0;               ///< in this time
   double ballSeconds = 0.0;
   std::uint32_t kicks = 0, falls = 0;
   double distance = 0.0;          ///< m
