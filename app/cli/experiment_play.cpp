@@ -116,7 +116,7 @@ void printConditions(const link::ExperimentSummary& summary) {
 }  // namespace
 
 void addPlayInto(CLI::App& command, PlayInto& o) {
-  command.add_option("--out", o.folder, "The folder for the results")->type_name("DIR");
+  command.add_option("--out", o.folder, "Folder for the results")->type_name("DIR");
   command
       .add_option(
           "--jobs", o.jobs,
@@ -130,7 +130,7 @@ void addPlayInto(CLI::App& command, PlayInto& o) {
                    "Print progress to stderr even if it is not a terminal");
   command
       .add_option("--robot-program", o.robotProgram,
-                  "Program of separate processes; default: pitchboard-robot beside this one")
+                  "Program of separate processes; default: pitchboard-robot beside this program")
       ->type_name("FILE");
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Functions for angles: radians, counter-clockwise positive (except in the published frame). Pure;
-// any thread.
+// Angles in radians, counter-clockwise positive, except in the published frame. Pure functions.
 
 #include <cmath>
 #include <numbers>

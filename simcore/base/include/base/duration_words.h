@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Writes durations for people; everything below the screen uses it. Pure function; any thread.
+// Writes durations in seconds as text for people. Everything below the screen uses it. A pure
+// function for any thread.
 
 #include <string>
 

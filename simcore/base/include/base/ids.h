@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The number of a robot for its blackboard and telemetry. See also <base/robot_key.h>. Plain
-// values; any thread.
+// The number of a robot's blackboard and telemetry (see also <base/robot_key.h>). Plain values.
 
 #include <compare>
 

@@ -20,8 +20,7 @@ enum class NoiseStream : std::uint32_t {
   Behaviour = 7
 };
 
-/// The random numbers of one (robot, stream, tick), in order. A small value; create it where
-/// needed.
+/// The random numbers of one (robot, stream, tick), in order. A small value, cheap to create.
 class CounterRandom {
  public:
   CounterRandom(std::uint64_t seed, int robot, NoiseStream stream, std::uint64_t tick);

@@ -3,7 +3,8 @@
 
 // The random numbers of one stream for all robots in a tick, computed together: exactly the numbers
 // that CounterRandom gives for each robot, in a fraction of the time. It is refilled for every
-// stream and tick, and allocates only if there are more robots than before. One thread at a time.
+// stream and tick, and allocates only if there are more robots than before. A value for one thread
+// at a time.
 
 #include <cstddef>
 #include <cstdint>

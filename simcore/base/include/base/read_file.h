@@ -11,9 +11,8 @@
 
 namespace pitchboard {
 
-/// Returns the content of a file. `what` begins the sentence of an error: "The profile". Fails with
-/// NotFound if there is no such file, with Unsupported if it has more than `mostBytes`, with
-/// SystemError otherwise (also for a folder).
+/// Returns the content of a file; `what` begins an error: "The profile". Fails with NotFound, with
+/// Unsupported if it has more than `mostBytes`, or with SystemError (also for a folder).
 Result<std::string> readFile(const std::string& path, std::size_t mostBytes,
                              const std::string& what = "The file");
 /// The same for an open descriptor such as standard input; it stays open.

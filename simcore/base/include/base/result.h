@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The return type of functions that can fail for an outside reason (file, packet, argument, system
-// call): a value, or an Error that tells people what to do. Programmer errors are assertions
-// instead. Plain values; any thread.
+// The return type of functions that can fail for an outside reason (file, packet, system call): a
+// value, or an Error that tells people what to do. Programmer errors are assertions. Plain values.
 
 #include <string>
 #include <tl/expected.hpp>

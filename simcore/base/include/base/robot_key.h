@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Identifies a robot for everything that shows or stores robots, whatever their source. Plain
-// values and pure functions; any thread.
+// Identifies a robot for everything that shows or stores robots, whatever their source. Values.
 
 #include <algorithm>
 #include <compare>
