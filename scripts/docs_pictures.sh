@@ -62,6 +62,21 @@ referee() {
   find "Panels: Referee"
   shoot referee
 }
+drawings() {
+  sed -n '/^```python draw_robot.py$/,/^```$/{/^```/d;p}' "$root/docs/drawings.md" >draw_robot.py
+  studio --scenario match-3v3 --match 0 --play-to 1800
+  python3 draw_robot.py 1 127.0.0.1:1240 &
+  shoot drawings 4
+  kill $!
+  convert drawings.png -crop 716x510+301+87 +repage drawings.png
+}
+processes() {
+  sed -n '/^```python chase.py$/,/^```$/{/^```/d;p}' "$root/docs/tutorial-python-robot.md" >chase.py
+  chmod +x chase.py
+  studio --scenario match-3v3 --runtime "B1=program=$work/chase.py"
+  find "Panels: Processes"
+  shoot processes 8
+}
 live() {
   echo '{"name": "Our team", "number": 12, "colour": "blue"}' >ours.json
   studio --live --team ours.json --our-team 12
@@ -103,7 +118,7 @@ experiments() {
   shoot experiments
 }
 
-[ $# -gt 0 ] || set -- studio-dark studio-light scenario referee live plots replay experiments
+[ $# -gt 0 ] || set -- studio-dark studio-light scenario referee drawings processes live plots replay experiments
 for name in "$@"; do
   "$name"
   convert "$name.png" -colors 200 "png8:$name.8.png"
