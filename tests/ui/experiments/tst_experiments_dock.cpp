@@ -116,6 +116,9 @@ void TestExperimentsDock::playsAndShowsResults() {
   QCOMPARE(runs->rowCount(), 6);
   QCOMPARE(runs->index(4, 1).data().toString(), QStringLiteral("noisy"));
   QCOMPARE(runs->index(4, 2).data().toString(), QStringLiteral("2"));
+  QCOMPARE(runs->headerData(3, Qt::Horizontal).toString(), QStringLiteral("Score"));
+  QCOMPARE(runs->index(4, 3).data().toString(), QStringLiteral("0 : 0"));
+  QCOMPARE(runs->index(4, 4).data().toString(), QStringLiteral("yes"));
   QVERIFY(dock.table("experimentMeasured")->rowCount() >= 4);
   QCOMPARE(dock.table("experimentAssertions")->index(0, 0).data().toString(),
            QStringLiteral("yes"));
