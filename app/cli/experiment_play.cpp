@@ -118,10 +118,9 @@ void printConditions(const link::ExperimentSummary& summary) {
 void addPlayInto(CLI::App& command, PlayInto& o) {
   command.add_option("--out", o.folder, "Folder for the results")->type_name("DIR");
   command
-      .add_option(
-          "--jobs", o.jobs,
-          "Runs at the same time; default: one per processor, or per second processor with team "
-          "programs play")
+      .add_option("--jobs", o.jobs,
+                  "Runs at the same time; default: one per processor (per two processors with team "
+                  "programs)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   command.add_option("--shard", o.shard, "Run only shard i of n")->type_name("i/n");
