@@ -171,7 +171,8 @@ class TestSessionFiles : public QObject {
       using namespace pitchboard::telemetry;
       auto file = McapWriter::create(path.toStdString());
       QVERIFY(file.has_value());
-      // The check is a CRC-32 over keys and values, each with its final zero (docs/file-formats.md).
+      // The check is a CRC-32 over keys and values, each with its final zero
+      // (docs/file-formats.md).
       QVERIFY(file->metadata(
           "pitchboard",
           {{"format", "9"}, {"start_ns", "5000000000"}, {"new", "x"}, {"check", "3914321931"}}));

@@ -2,8 +2,8 @@
 #pragma once
 
 // What blackboard variables mean to people: unit, category, texts of codes, and a description, all
-// read from resources/variables.json. Pitchboard applies them by name, so a team's own variables get
-// a unit and a category, too. Plain values; any thread.
+// read from resources/variables.json. Pitchboard applies them by name, so a team's own variables
+// get a unit and a category, too. Plain values; any thread.
 
 #include <map>
 #include <optional>
