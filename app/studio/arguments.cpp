@@ -19,6 +19,7 @@ namespace {
 constexpr int maxPixels = 16384;
 
 void addOptions(CLI::App& app, Arguments& a) {
+  a.match.scenario = "kick-off";  // somebody moves at once
   shared::addScenarioOptions(app, a.match);
   app.add_option("--cognition", a.cognition,
                  "Who decides for the robots: separate processes on System V blackboards, the "

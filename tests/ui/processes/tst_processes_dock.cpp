@@ -3,6 +3,7 @@
 // and killed by the mouse, one that is stopped by a signal is shown, and who goes on while the
 // match stands still is told.
 #include <QContextMenuEvent>
+#include <QLabel>
 #include <QMenu>
 #include <QProcess>
 #include <QPushButton>
@@ -191,7 +192,10 @@ class TestProcessesDock : public QObject {
     QVERIFY2(m_told.isEmpty(), qPrintable(m_told.join(QLatin1Char('\n'))));
 
     // Nothing while the past is shown.
+    auto* asNow = m_dock->findChild<QLabel*>("processesAsNow");
+    QVERIFY(!asNow->isVisible());
     m_controller->edits()->setLocked(true);
+    QTRY_VERIFY(asNow->isVisible());
     const pid_t last = process("decision").pid;
     choose("decision", QStringLiteral("Stop decision of B1"));
     choose("decision", QStringLiteral("Restart decision of B1"));

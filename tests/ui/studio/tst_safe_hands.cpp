@@ -179,6 +179,25 @@ class TestSafeHands : public QObject {
     }
   }
 
+  // A key that is held for a while is one goal.
+  void aHeldKeyCallsOnce() {
+    Studio s;
+    s.controller.open(link::loadScenario("kick-off").value(), true);
+    s.controller.runTo(120);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 120);
+    s.menuAction(QStringLiteral("Referee"))->trigger();
+    s.window.activateWindow();
+    s.window.field()->setFocus();
+    constexpr Qt::KeyboardModifiers keys = Qt::ControlModifier | Qt::AltModifier;
+    QTest::simulateEvent(&s.window, true, Qt::Key_1, keys, {}, false);
+    for (int i = 0; i < 20; ++i) QTest::simulateEvent(&s.window, true, Qt::Key_1, keys, {}, true);
+    QTest::simulateEvent(&s.window, false, Qt::Key_1, keys, {}, false);
+    QTRY_COMPARE(s.controller.frame()->snapshot.score.left, 1);
+    s.controller.settle();
+    QTRY_COMPARE(s.controller.edits()->undoStack()->count(), 1);
+    QCOMPARE(s.controller.frame()->snapshot.score.left, 1);
+  }
+
   // Undo brings the match back with its game, its rows and its events, and it can be left again.
   void whatEndsAMatchIsUndone_data() {
     QTest::addColumn<QString>("how");

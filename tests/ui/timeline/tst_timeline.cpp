@@ -72,7 +72,7 @@ struct Bench {
   SourceSwitch shown{&source};
   LinkedTime plots;
   Timeline timeline{&shown};
-  TimelineActions actions{&timeline, &plots, nullptr};
+  TimelineActions actions{&timeline, &plots, nullptr, nullptr};
   QWidget window;
   QWidget* dock = nullptr;
   TimelineStrip* strip = nullptr;

@@ -9,6 +9,8 @@
 
 #include "../support/robot_keys.h"
 #include "variables_bench.h"
+#include "variables_delegate.h"
+#include "variables_header.h"
 
 namespace tst_variables_dock {
 
@@ -111,6 +113,30 @@ class TestVariablesDock : public QObject {
     std::uint32_t samples = 0;
     for (const auto& bucket : spark) samples += bucket.samples;
     QCOMPARE(samples, 601U);
+  }
+
+  // In a narrow panel the curve leaves first, then the heading that the name repeats.
+  void namesAreWholeInANarrowPanel() {
+    Bench bench;
+    bench.hand.take(twoRobots(), SourceKind::Simulate);
+    bench.view->openAll();
+    const QHeaderView* header = bench.view->header();
+    bench.view->resize(scaled(bench.view, 400), 400);
+    QTRY_VERIFY(!header->isSectionHidden(VariablesModel::Spark));
+    bench.view->resize(scaled(bench.view, 264), 400);
+    QTRY_VERIFY(header->isSectionHidden(VariablesModel::Spark));
+    const QModelIndex row = bench.model->find(ballDistance);
+    const QFont font = bench.view->font();
+    QCOMPARE(VariablesDelegate::nameFor(row, font, 1000), QStringLiteral("VISION_BALL_DIST"));
+    QCOMPARE(VariablesDelegate::nameFor(row, font, 90), QStringLiteral("BALL_DIST"));
+    QVERIFY(bench.view->columnWidth(VariablesModel::Name) >
+            QFontMetrics(font).horizontalAdvance(QStringLiteral("BALL_DIST")) + 40);
+    // Kept as it was wanted, not as it had to be.
+    auto* kept = static_cast<VariablesHeader*>(bench.view->header());
+    QHeaderView wide(Qt::Horizontal);
+    wide.setModel(bench.model);
+    QVERIFY(wide.restoreState(kept->stateToKeep()));
+    QVERIFY(!wide.isSectionHidden(VariablesModel::Spark));
   }
 
   void aPastMomentShowsItsOwnValues() {

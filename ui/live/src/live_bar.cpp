@@ -31,7 +31,6 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
   connect(m_ports, &QToolButton::clicked, this,
           [this] { showLiveSettings(m_live, m_settings, window()); });
   m_team->setObjectName(QStringLiteral("ourTeam"));
-  m_team->setMinimumWidth(scaled(this, 130));
   connect(m_team, &QComboBox::activated, this, [this](int at) {
     m_live->setOurTeam(m_team->itemData(at).toInt());
     m_settings->setValue(QStringLiteral("live/ourTeam"), m_team->itemData(at));
@@ -39,18 +38,20 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
   m_monitor->setObjectName(QStringLiteral("monitorMode"));
   m_monitor->setCheckable(true);
   m_monitor->setText(QStringLiteral("Monitor"));
+  m_monitor->setIcon(themedIcon(QStringLiteral("visibility")));
   connect(m_monitor, &QToolButton::clicked, this, &LiveBar::switchMonitor);
   m_catalog->setObjectName(QStringLiteral("importCatalog"));
   m_catalog->setText(QStringLiteral("Import catalog…"));
+  m_catalog->setIcon(themedIcon(QStringLiteral("document-import")));
   m_catalog->hide();
   connect(m_catalog, &QToolButton::clicked, this, &LiveBar::importCatalog);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(scaled(this, 8));
   row->addWidget(m_ports);
   row->addWidget(m_team);
   row->addWidget(m_monitor);
   row->addWidget(m_catalog);
+  setRoom(Room::Wide);
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, [this] {
     if (isVisible()) refresh();
@@ -60,8 +61,14 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
   refresh();
 }
 
-void LiveBar::setNarrow(bool narrow) {
-  m_ports->setToolButtonStyle(narrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
+void LiveBar::setRoom(Room room) {
+  const bool least = room == Room::Least;
+  m_ports->setToolButtonStyle(room == Room::Wide ? Qt::ToolButtonTextBesideIcon
+                                                 : Qt::ToolButtonIconOnly);
+  for (QToolButton* one : {m_monitor, m_catalog})
+    one->setToolButtonStyle(least ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextOnly);
+  m_team->setFixedWidth(scaled(this, least ? 136 : 150));
+  layout()->setSpacing(scaled(this, least ? 2 : 8));
 }
 
 void LiveBar::refresh() {

@@ -314,7 +314,7 @@ void LiveSettingsDialog::chooseProfile() {
 }
 
 void LiveSettingsDialog::editProfile() {
-  auto* editor = new ProfileEditor(m_profile, m_profileFile, this);
+  auto* editor = new ProfileEditor(m_profile, m_profileFile, this, m_live);
   connect(editor, &ProfileEditor::saved, this,
           [this](const telemetry::Profile& profile, const QString& file) {
             m_profile = profile;

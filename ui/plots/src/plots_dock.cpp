@@ -23,6 +23,7 @@
 #include <ui/base/plot_target.h>
 #include <ui/base/theme.h>
 #include <ui/plots/plot_menus.h>
+#include <ui/sources/abandoned_future.h>
 #include <ui/sources/compared_session.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/source_switch.h>
@@ -123,6 +124,8 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   if (context.compared != nullptr) {
     connect(context.compared, &ComparedSession::changed, this, &PlotsDock::compare);
     connect(context.compared, &ComparedSession::rowsCame, this, &PlotsDock::scheduleDraw);
+    if (context.future != nullptr)
+      connect(context.future, &AbandonedFuture::changed, this, &PlotsDock::compare);
     compare();
   }
   restore();
@@ -364,7 +367,13 @@ void PlotsDock::takeRows() {
 
 void PlotsDock::compare() {
   const ComparedSession& other = *m_context.compared;
-  m_feed->setCompared(other.isOn() ? other.series() : nullptr, other.offset(), other.caption());
+  const AbandonedFuture* future = m_context.future;
+  if (other.isOn())
+    m_feed->setCompared(other.series(), other.offset(), other.caption());
+  else if (future != nullptr && future->isOn())
+    m_feed->setCompared(future->series(), 0.0, future->caption(), future->begin());
+  else
+    m_feed->setCompared(nullptr, 0.0, {});
   scheduleDraw();
 }
 

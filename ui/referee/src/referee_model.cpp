@@ -118,7 +118,8 @@ QVariant RefereeModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant RefereeModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
+  // A hidden header takes room, too: that of its words.
+  if (orientation != Qt::Horizontal || role != Qt::DisplayRole || m_compact) return {};
   const QString names[] = {QStringLiteral("Player"), QStringLiteral("State"),
                            QStringLiteral("Left"), QStringLiteral("Cards"),
                            QStringLiteral("Robot")};

@@ -134,15 +134,25 @@ void MatchMemory::continueFrom(double time) {
   m_match->edits()->adopt(*moment);
   tellWhatIsLost(*moment, m_match->cognition());
   const double from = static_cast<double>(tick) / newest->settings->tickRate;
+  const auto left = std::make_shared<MatchBranch>();
+  left->from = from;
   m_match->post(
       {QStringLiteral("The match cannot be continued from this moment"),
-       [moment = std::move(*moment), rows = m_kept.rows, from](link::SimulatedMatch& match) {
+       [moment = std::move(*moment), rows = m_kept.rows, left](link::SimulatedMatch& match) {
          auto entered = match.restore(moment);
-         if (entered) rows->rewind(from);
+         if (!entered) return entered;
+         const std::size_t before = rows->store().memoryBytes();
+         left->rows = rows->store().branch();
+         rows->rewind(left->from);
+         left->bytes = before - std::min(before, rows->store().memoryBytes());
          return entered;
        },
        {},
-       [this, from] { emit m_match->rewound(from); }});
+       [this, left] {
+         emit branching(*left);
+         emit m_match->rewound(left->from);
+         emit branched(*left);
+       }});
 }
 
 }  // namespace pitchboard::ui

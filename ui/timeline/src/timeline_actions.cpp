@@ -8,6 +8,7 @@
 
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
+#include <ui/sources/abandoned_future.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/playback.h>
 #include <ui/sources/timeline.h>
@@ -24,7 +25,8 @@ QAction* make(QObject* parent, const char* id, const char* text, const char* ico
 
 }  // namespace
 
-TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, QObject* parent)
+TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, AbandonedFuture* future,
+                                 QObject* parent)
     : QObject(parent),
       m_timeline(timeline),
       m_plots(plots),
@@ -38,8 +40,23 @@ TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, QObject*
               make(this, "secondForward", "One second forward")},
       m_selectVisible(make(this, "selectVisible", "&Select the plots' range")),
       m_clearRange(make(this, "clearRange", "Select no &range")),
-      m_loop(make(this, "loopRange", "&Loop range", "media-playlist-repeat")) {
+      m_loop(make(this, "loopRange", "&Loop range", "media-playlist-repeat")),
+      m_compareFuture(make(this, "compareFuture", "Compare with the a&bandoned future")),
+      m_dropFuture(make(this, "dropFuture", "&Drop the abandoned future")) {
   m_loop->setCheckable(true);
+  m_compareFuture->setCheckable(true);
+  m_compareFuture->setToolTip(QStringLiteral("Draws its robots over the field"));
+  const auto showFuture = [this, future] {
+    for (QAction* action : {m_compareFuture, m_dropFuture})
+      action->setVisible(future != nullptr && future->isOn());
+    m_compareFuture->setChecked(future != nullptr && future->isCompared());
+  };
+  if (future != nullptr) {
+    connect(m_compareFuture, &QAction::triggered, future, &AbandonedFuture::setCompared);
+    connect(m_dropFuture, &QAction::triggered, future, &AbandonedFuture::drop);
+    connect(future, &AbandonedFuture::changed, this, showFuture);
+  }
+  showFuture();
   connect(m_now, &QAction::triggered, timeline, &Timeline::goLive);
   connect(m_oldest, &QAction::triggered, timeline, [timeline] {
     if (const auto range = timeline->available()) timeline->seek(range->begin);
@@ -152,6 +169,8 @@ void TimelineActions::fill(QMenu* menu) {
   QObject::connect(shown, &QMenu::aboutToShow, this, [this, shown] { fillFilter(shown); });
   menu->addSeparator();
   menu->addActions({m_selectVisible, m_loop, m_clearRange});
+  menu->addSeparator();
+  menu->addActions({m_compareFuture, m_dropFuture});
 }
 
 }  // namespace pitchboard::ui

@@ -82,7 +82,8 @@ class VariablesDock : public QWidget {
 
   ~VariablesDock() override {
     if (m_context.settings) {
-      m_context.settings->setValue(headerKey, m_view->header()->saveState());
+      m_context.settings->setValue(headerKey,
+                                   static_cast<VariablesHeader*>(m_view->header())->stateToKeep());
     }
   }
 

@@ -37,6 +37,8 @@ const KeyRow keyTable[] = {
     {"timelineZoomIn", "Ctrl++ Ctrl+=", keysOfTime, nullptr, nullptr, whileHeld},
     {"timelineZoomOut", "Ctrl+-", keysOfTime, nullptr, nullptr, whileHeld},
     {"timelineAll", "0", keysOfTime},
+    {"skipToEvent", "Ctrl+J", keysOfTime},
+    {"skipToKickOff", "Ctrl+Shift+J", keysOfTime},
     {"restart", "Ctrl+R", keysOfTime, "Restart, or to the start of the session"},
     {nullptr, "Click, drag", keysOfTime, "Look back"},
     {nullptr, "Shift+drag", keysOfTime, "Select a range"},

@@ -284,7 +284,7 @@ void StudioMenus::makeLive() {
 void StudioMenus::makeSimulation() {
   QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Simulation"));
   MatchController* controller = m_parts.controller;
-  for (QAction* action : m_context.transport) menu->addAction(action);
+  menu->addActions(m_context.transport);
   QMenu* speeds = menu->addMenu(QStringLiteral("S&peed"));
   onlyInTheMatch(speeds->menuAction());
   QObject::connect(

@@ -47,6 +47,10 @@ class MatchRunner {
   void setSpeed(double timesRealTime);
   /// Plays at full speed up to this tick, then pauses; for tests and repeatable pictures.
   void runTo(std::uint64_t tick);
+  /// Plays at full speed until an event that `wanted` accepts, for `mostTicks` at most, and then
+  /// goes on as before: paused, or at its speed. setPaused(), stepOnce() and runTo() end it.
+  /// `wanted` is called on the runner's thread.
+  void skip(std::function<bool(const MatchEvent&)> wanted, std::uint64_t mostTicks);
   /// Waits until the match is paused or over. Returns false if it still plays after that time.
   bool waitUntilStill(std::chrono::milliseconds timeout) const;
 

@@ -115,6 +115,9 @@ class SeriesStore : public RowSink {
   void rewind(double time);
 
   // Any thread.
+  /// A store of its own with the rows so far, for reading: they are shared, so that it costs next
+  /// to nothing, and stay when this store forgets them. Rows that are appended to it are refused.
+  std::shared_ptr<const SeriesStore> branch() const;
   /// Grows whenever groups came (lists are then to be read anew).
   std::uint64_t groupsRevision() const;
   std::size_t groups() const;

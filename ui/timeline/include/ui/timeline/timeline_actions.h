@@ -14,6 +14,7 @@ class QMenu;
 
 namespace pitchboard::ui {
 
+class AbandonedFuture;
 struct EventFilter;
 class LinkedTime;
 class Timeline;
@@ -21,8 +22,8 @@ class Timeline;
 class TimelineActions : public QObject {
   Q_OBJECT
  public:
-  /// `plots` may be null.
-  TimelineActions(Timeline* timeline, LinkedTime* plots, QObject* parent);
+  /// `plots` and `future` may be null.
+  TimelineActions(Timeline* timeline, LinkedTime* plots, AbandonedFuture* future, QObject* parent);
   void fill(QMenu* menu);
 
   QAction* next() const { return m_next; }
@@ -50,6 +51,8 @@ class TimelineActions : public QObject {
   QAction* m_selectVisible;
   QAction* m_clearRange;
   QAction* m_loop;
+  QAction* m_compareFuture;
+  QAction* m_dropFuture;
 };
 
 }  // namespace pitchboard::ui
