@@ -71,6 +71,7 @@ struct MatchFrame {
   std::optional<int> matchNumber;
   /// What the slowest of a team's own programs manages, times real time; nothing: all keep up.
   std::optional<double> slowestTeamProgram;
+  bool nobodyPlays = false;         ///< SimulatedMatch::nobodyPlays()
   bool inLockStep = true;           ///< separate reference processes are waited for in every tick
   std::string finishedBy;           ///< "goal", "ball_out", "duration"; empty unless finished
   std::uint64_t droppedEvents = 0;  ///< nobody took them in time
