@@ -40,11 +40,11 @@ Result<link::RunResult> recordRun(const std::string& folder, const link::Experim
   auto result = player.record(number, path, programName);
   if (!result) return result;
   if (result->hash != before->hash && !experiment.teamPrograms) {
-    return failure(ErrorCode::Conflict,
-                   "run " + std::to_string(number) +
-                       " ended in another state than in the results; were they played by another "
-                       "version?",
-                   path);
+    return failure(
+        ErrorCode::Conflict,
+        "run " + std::to_string(number) +
+            " ended in a different state than in the results. Were they played by another version?",
+        path);
   }
   return result;
 }
@@ -133,7 +133,7 @@ Result<int> told(const link::Experiment& experiment, const link::ExperimentFolde
 Result<int> playExperiment(ExperimentOptions& options) {
   if (options.experiment.empty() || options.out.empty()) {
     return failure(ErrorCode::InvalidArgument,
-                   "say which experiment and where to: pitchboard-cli experiment "
+                   "name an experiment and a folder for the results: pitchboard-cli experiment "
                    "paper-scenario-1 --out results");
   }
   const auto shard = TRY(shardFrom(options.shard));
@@ -180,8 +180,8 @@ Result<int> playExperiment(ExperimentOptions& options) {
   }
   if (interrupted) {
     return failure(ErrorCode::Conflict,
-                   "interrupted with " + std::to_string(folder.finishedCount()) + " of " +
-                       std::to_string(experiment.allRuns()) + " runs; --resume goes on with them",
+                   "interrupted after " + std::to_string(folder.finishedCount()) + " of " +
+                       std::to_string(experiment.allRuns()) + " runs; add --resume to continue",
                    options.out);
   }
   TRY(recordRuns(experiment, folder, shard, settings));
@@ -213,7 +213,7 @@ void addMerge(CLI::App& parent, int& exitCode) {
     if (merged.complete()) return told(experiment, merged);
     return failure(ErrorCode::NotFound,
                    std::to_string(merged.finishedCount()) + " of " +
-                       std::to_string(experiment.allRuns()) + " runs are here; a shard is missing",
+                       std::to_string(experiment.allRuns()) + " runs found; a shard is missing",
                    chosen.out);
   });
 }
@@ -255,10 +255,10 @@ void addReplay(CLI::App& parent, int& exitCode) {
       std::printf("%s: run %zu, seed %" PRIu64 ", %s, state hash 0x%016" PRIx64 ", %s\n",
                   path.c_str(), result.number, result.seed, link::endWords(result.endedBy).c_str(),
                   result.hash,
-                  experiment.teamPrograms ? "played anew: a team's own programs do not repeat a run"
+                  experiment.teamPrograms ? "played again: team programs do not repeat exactly"
                                           : "as in the results");
     } else {
-      std::printf("%s: it is there\n", path.c_str());
+      std::printf("%s: already there\n", path.c_str());
     }
     if (!chosen.open) return 0;
     const std::string studio = link::besideTeamProgram("pitchboard");
@@ -291,9 +291,9 @@ void addExperimentCommand(CLI::App& parent, int& exitCode) {
   command->add_option("--runs", o.runs, "Of each condition; default: the experiment's")
       ->type_name("N")
       ->check(CLI::Range(1, 1'000'000));
-  command->add_option("--shard", o.shard, "Only each n-th run, from the i-th")->type_name("i/n");
-  command->add_flag("--resume", o.resume, "Go on with the results that are in the folder");
-  command->add_flag("--list", o.list, "Print the built-in experiments");
+  command->add_option("--shard", o.shard, "Run shard i of n")->type_name("i/n");
+  command->add_flag("--resume", o.resume, "Continue with the results in the folder");
+  command->add_flag("--list", o.list, "List the built-in experiments");
   command->add_flag("--progress", o.progress,
                     "Print progress to stderr even if it is not a terminal");
   command

@@ -66,6 +66,17 @@ class FieldSign : public QLabel {
   QColor ThemeColors::*m_line;
 };
 
+/// As the frames of `source` want it.
+void presentFrames(FieldSign* sign, FrameSource* source) {
+  const auto present = [sign] {
+    // Most frames say the same.
+    if (sign->textNow() != sign->text() || sign->isVisible() == sign->text().isEmpty())
+      sign->present();
+  };
+  QObject::connect(source, &FrameSource::frameReceived, sign, present);
+  QObject::connect(source, &FrameSource::restarted, sign, present);
+}
+
 }  // namespace
 
 QWidget* makeOpeningSign(MatchController* controller, QWidget* canvas) {
@@ -100,13 +111,25 @@ QWidget* makePenaltyStrip(FrameSource* source, QWidget* canvas) {
     const int wide = qMin(text.width() + scaled(sign, 16), canvas->width() - 2 * edge);
     return QRect(canvas->width() - wide - edge, edge, wide, scaled(sign, 22));
   };
-  const auto present = [sign, source] {
-    // Most frames say the same.
-    if (sign->textNow() != sign->text() || sign->isVisible() == sign->text().isEmpty())
-      sign->present();
+  presentFrames(sign, source);
+  return sign;
+}
+
+QWidget* makeNobodyPlaysSign(FrameSource* source, QWidget* canvas) {
+  auto* sign = new FieldSign(canvas, QStringLiteral("nobodyPlaysSign"), &ThemeColors::warningText);
+  sign->textNow = [source] {
+    const FramePtr frame = source->frame();
+    return frame && frame->nobodyPlays
+               ? QStringLiteral("No robot was told to play: choose rules in the Referee panel")
+               : QString();
   };
-  QObject::connect(source, &FrameSource::frameReceived, sign, present);
-  QObject::connect(source, &FrameSource::restarted, sign, present);
+  sign->place = [sign, canvas](QSize text) {
+    const int high = scaled(sign, 22);
+    QRect box(0, 0, qMin(canvas->width(), text.width() + scaled(sign, 16)), high);
+    box.moveCenter({canvas->width() / 2, canvas->height() - high / 2 - scaled(sign, 8)});
+    return box;
+  };
+  presentFrames(sign, source);
   return sign;
 }
 
@@ -116,7 +139,7 @@ QWidget* makePublishedKeysSign(QAction* publishedKeys, QWidget* canvas) {
   sign->setAttribute(Qt::WA_TransparentForMouseEvents, false);
   sign->setCursor(Qt::PointingHandCursor);
   sign->setToolTip(QStringLiteral(
-      "Letters give orders to robots, as in the published simulator. Click to switch it off."));
+      "Letter keys command robots, as in the published simulator. Click to turn this off."));
   sign->clicked = [publishedKeys] { publishedKeys->setChecked(false); };
   sign->textNow = [publishedKeys] {
     return publishedKeys->isChecked() ? QStringLiteral("Published keys are on") : QString();
@@ -135,7 +158,7 @@ QWidget* makeLookingBackSign(Timeline* timeline, QWidget* canvas) {
   sign->textNow = [timeline] {
     // As the line of this moment says it in the plots.
     return timeline->isLookingBack()
-               ? QStringLiteral("Looking back: %1 (Now leads back)")
+               ? QStringLiteral("Viewing %1 · press Now to return")
                      .arg(momentText(timeline->shownTime(), 2, timeline->clock()))
                : QString();
   };

@@ -138,6 +138,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     makeOpeningSign(controller, canvas);
     makeLookingBackSign(m_timeline, canvas);
+    makeNobodyPlaysSign(m_source, canvas);
     makePublishedKeysSign(m_field->actions().publishedKeys, canvas);
     makePenaltyStrip(m_source, canvas);
   }
