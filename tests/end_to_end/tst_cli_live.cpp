@@ -193,8 +193,9 @@ class TestCliLive : public QObject {
                         R"("duplicates":1,"late":1,"loss":0.25,)"),
         last.constData());
     QVERIFY(lines.size() >= 2);
-    QVERIFY2(listener.err.contains("Robot 1: 900 received, 300 lost (25.0 %), 1 duplicates, 1 late"),
-             listener.err.constData());
+    QVERIFY2(
+        listener.err.contains("Robot 1: 900 received, 300 lost (25.0 %), 1 duplicates, 1 late"),
+        listener.err.constData());
   }
 
   void aDrawingIsNoBadMessage() {
