@@ -97,7 +97,7 @@ inline const QList<Module>& table() {
          all("simcore") + QStringList{board, processes, cognition, scenario, frame, match},
          {"nlohmann/", "zlib.h"}},
         {"robotlink/capi",
-         {base, world, simulation, board, processes, models, scenario, match},
+         {base, world, simulation, board, processes, models, cognition, rollout, scenario, match},
          {"nlohmann/"}},
         // What more than one program needs of its command line.
         {"app/shared", {base, models, scenario, match}, {"CLI/"}},
