@@ -27,7 +27,7 @@ struct ExperimentOptions {
 Result<int> playExperiment(const ExperimentOptions& options) {
   if (options.experiment.empty() || options.play.folder.empty()) {
     return failure(ErrorCode::InvalidArgument,
-                   "say which experiment and where to: pitchboard-cli experiment "
+                   "name an experiment and a folder for the results: pitchboard-cli experiment "
                    "paper-scenario-1 --out results");
   }
   const auto experiment =
@@ -48,14 +48,16 @@ void addMerge(CLI::App& parent, int& exitCode) {
   command->add_option("parts", options->parts, "Folders of the shards")
       ->required()
       ->type_name("DIR...");
-  command->add_option("--out", options->out, "A new folder")->required()->type_name("DIR");
+  command->add_option("--out", options->out, "New folder for the results")
+      ->required()
+      ->type_name("DIR");
   whenChosen(*command, options, exitCode, [](Merge& chosen) -> Result<int> {
     const auto experiment = TRY(link::experimentOf(chosen.parts.front()));
     const auto merged = TRY(link::mergeFolders(chosen.parts, chosen.out, experiment));
     if (merged.complete()) return printResults(experiment, merged);
     return failure(ErrorCode::NotFound,
                    std::to_string(merged.finishedCount()) + " of " +
-                       std::to_string(experiment.allRuns()) + " runs are here; a shard is missing",
+                       std::to_string(experiment.allRuns()) + " runs found; a shard is missing",
                    chosen.out);
   });
 }
@@ -71,16 +73,18 @@ void addReplay(CLI::App& parent, int& exitCode) {
       "replay",
       "Play a run again and record it. Exits with 1 if it ends in another state.\n"
       "Example: pitchboard-cli experiment replay results --run 417 --open");
-  command->add_option("folder", options->folder, "The results")->required()->type_name("DIR");
-  command->add_option("--run", options->run, "Its number in runs.csv")->required()->type_name("N");
+  command->add_option("folder", options->folder, "Folder of results")->required()->type_name("DIR");
+  command->add_option("--run", options->run, "Number of the run in runs.csv")
+      ->required()
+      ->type_name("N");
   command
       ->add_option("-o,--output", options->output,
-                   "A new session; default: sessions/run-N.mcap in the folder")
+                   "New recording; default: sessions/run-N.mcap in the folder")
       ->type_name("FILE.mcap");
   command->add_flag("--open", options->open, "Open it in the studio");
   command
       ->add_option("--robot-program", options->robotProgram,
-                   "Program of separate processes; default: pitchboard-robot beside this one")
+                   "Program of separate processes; default: pitchboard-robot beside this program")
       ->type_name("FILE");
   whenChosen(*command, options, exitCode, [](Replay& chosen) -> Result<int> {
     const auto experiment = TRY(link::experimentOf(chosen.folder));
@@ -102,7 +106,7 @@ void addReplay(CLI::App& parent, int& exitCode) {
                       ? "as in the results"
                       : "which is not that of the results: the run is not repeatable");
     } else {
-      std::printf("%s: it is there\n", path.c_str());
+      std::printf("%s: already there\n", path.c_str());
     }
     if (!chosen.open) return 0;
     const std::string studio = link::besideTeamProgram("pitchboard");
@@ -126,10 +130,10 @@ void addExperimentCommand(CLI::App& parent, int& exitCode) {
   command->add_option("experiment", o.experiment, "Built-in name or a JSON file")
       ->type_name("NAME|FILE");
   addPlayInto(*command, o.play);
-  command->add_option("--seed", o.seed, "Of the first run; default: the experiment's")
+  command->add_option("--seed", o.seed, "Seed of the first run; default: the experiment's")
       ->check(shared::refuseNegative)
       ->type_name("N");
-  command->add_option("--runs", o.runs, "Of each condition; default: the experiment's")
+  command->add_option("--runs", o.runs, "Runs of each condition; default: the experiment's")
       ->type_name("N")
       ->check(CLI::Range(1, 1'000'000));
   command->add_flag("--list", o.list, "Print the built-in experiments");

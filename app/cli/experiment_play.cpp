@@ -116,21 +116,20 @@ void printConditions(const link::ExperimentSummary& summary) {
 }  // namespace
 
 void addPlayInto(CLI::App& command, PlayInto& o) {
-  command.add_option("--out", o.folder, "The folder for the results")->type_name("DIR");
+  command.add_option("--out", o.folder, "Folder for the results")->type_name("DIR");
   command
-      .add_option(
-          "--jobs", o.jobs,
-          "Runs at a time; default: one for each processor, for every second one where team "
-          "programs play")
+      .add_option("--jobs", o.jobs,
+                  "Runs at the same time; default: one per processor (per two processors with team "
+                  "programs)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  command.add_option("--shard", o.shard, "Only each n-th run, from the i-th")->type_name("i/n");
-  command.add_flag("--resume", o.resume, "Go on with the results that are in the folder");
+  command.add_option("--shard", o.shard, "Run only shard i of n")->type_name("i/n");
+  command.add_flag("--resume", o.resume, "Continue with the results in the folder");
   command.add_flag("--progress", o.progress,
                    "Print progress to stderr even if it is not a terminal");
   command
       .add_option("--robot-program", o.robotProgram,
-                  "Program of separate processes; default: pitchboard-robot beside this one")
+                  "Program of separate processes; default: pitchboard-robot beside this program")
       ->type_name("FILE");
 }
 
@@ -182,8 +181,8 @@ Result<int> playInto(const link::Experiment& experiment, const PlayInto& options
   }
   if (interrupted) {
     return failure(ErrorCode::Conflict,
-                   "interrupted with " + std::to_string(folder.finishedCount()) + " of " +
-                       std::to_string(experiment.allRuns()) + " runs; --resume goes on with them",
+                   "interrupted after " + std::to_string(folder.finishedCount()) + " of " +
+                       std::to_string(experiment.allRuns()) + " runs; add --resume to continue",
                    options.folder);
   }
   TRY(recordRuns(experiment, folder, shard, settings));

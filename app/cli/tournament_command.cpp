@@ -49,15 +49,17 @@ void addTournamentCommand(CLI::App& parent, int& exitCode) {
       "Exits with 1 if an assertion fails or something goes wrong in a match.\n"
       "Examples: pitchboard-cli tournament ours-against-theirs.json --out results --matches 100\n"
       "          pitchboard-cli tournament league.json --out part2 --shard 2/8");
-  command->add_option("tournament", o.file, "A JSON file (docs/EXPERIMENTS.md)")
+  command->add_option("tournament", o.file, "A JSON file (docs/experiments.md)")
       ->required()
       ->type_name("FILE");
   addPlayInto(*command, o.play);
   command->get_option("--out")->required();
-  command->add_option("--matches", o.matches, "Of each pair of teams; default: the tournament's")
+  command
+      ->add_option("--matches", o.matches,
+                   "Matches of each pair of teams; default: the tournament's")
       ->type_name("N")
       ->check(CLI::Range(1, 1'000'000));
-  command->add_option("--seed", o.seed, "Of the first match; default: the tournament's")
+  command->add_option("--seed", o.seed, "Seed of the first match; default: the tournament's")
       ->check(shared::refuseNegative)
       ->type_name("N");
   command->add_option("--junit", o.junit, "Also write the results as JUnit XML to this file")

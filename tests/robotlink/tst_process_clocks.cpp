@@ -233,7 +233,7 @@ class TestProcessClocks : public QObject {
     QTest::newRow("x1") << 4 << Speeds{{1.0, on}} << true;
     QTest::newRow("x8") << 16 << Speeds{{8.0, on}} << true;
     QTest::newRow("a change of speed") << 8 << Speeds{{8.0, 0.3}, {1.0, 1.0}, {4.0, on}} << true;
-    // Not in the moment in which an interval ends (docs/ROBOTS.md, Time).
+    // Not in the moment in which an interval ends (docs/robot-programs.md, Time).
     QTest::newRow("a pause of 5 s") << 8 << Speeds{{4.0, 0.85}, {0.0, 5.0}, {2.0, on}} << true;
     QTest::newRow("real time, without the studio's clock") << 4 << Speeds{{1.0, on}} << false;
   }

@@ -396,8 +396,7 @@ std::string experimentReportHtml(const Experiment& e, const ResultTable& results
   for (const Table& table : tables) {
     if (leads(table)) out += tableHtml(table);
   }
-  if (!fields.empty())
-    out += "<h2>Ways on the field</h2>\n<div class=\"fields\">" + fields + "</div>\n";
+  if (!fields.empty()) out += "<h2>Trajectories</h2>\n<div class=\"fields\">" + fields + "</div>\n";
   for (const Table& table : tables) {
     if (!leads(table)) out += tableHtml(table);
   }

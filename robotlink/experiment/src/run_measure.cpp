@@ -50,7 +50,7 @@ Result<ReducedExpression> ReducedExpression::make(const ExpressionMetric& metric
       return failure(ErrorCode::NotFound,
                      "there is no variable " + variable +
                          " in this match; groups are the robots' "
-                         "names and \"match\" (docs/PLOTS.md)",
+                         "names and \"match\" (docs/plots.md)",
                      "metrics: " + metric.name);
     }
     places.push_back(*place);

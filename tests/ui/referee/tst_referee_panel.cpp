@@ -244,7 +244,6 @@ class TestRefereePanel : public QObject {
       is(qPrintable("Timeout " + at), {.kind = CallKind::Timeout, .team = team});
     }
     is("Give", {.kind = CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::DirectFreeKick});
-    is("Next step", {.kind = CallKind::NextStep});
     const RobotId robot = desk.frame().robots[1].slot();
     is("Penalise",
        {.kind = CallKind::Penalise, .robot = robot, .penalty = sim::PenaltyKind::Incapable});
@@ -258,6 +257,39 @@ class TestRefereePanel : public QObject {
         QVERIFY2(whyRefused(&desk.frame(), *step.call).isEmpty(), qPrintable(step.text));
     }
     QVERIFY(desk.errors.isEmpty());
+  }
+
+  // Docked in a small window, and as high as it stands beside the field.
+  void noWordIsCut_data() {
+    QTest::addColumn<QSize>("size");
+    QTest::newRow("docked") << QSize(320, 480);
+    QTest::newRow("floating") << QSize(416, 500);
+  }
+  void noWordIsCut() {
+    QFETCH(QSize, size);
+    Desk desk;
+    desk.dock->resize(scaled(desk.dock.get(), size.width()),
+                      scaled(desk.dock.get(), size.height()));
+    desk.reach("PLAYING");
+    for (const auto* button : desk.dock->findChildren<QPushButton*>()) {
+      if (!button->isVisible()) continue;
+      const int words = button->fontMetrics().horizontalAdvance(button->text());
+      QVERIFY2(button->width() >= words + 6, qPrintable(button->text()));
+    }
+    for (const auto* box : desk.dock->findChildren<QComboBox*>()) {
+      if (!box->isVisible()) continue;
+      const int words = box->fontMetrics().horizontalAdvance(box->currentText());
+      QVERIFY2(box->width() >= words + scaled(box, 22), qPrintable(box->currentText()));
+    }
+    for (const bool right : {false, true}) {
+      const QTableView* players = desk.players(right);
+      const QFontMetrics metrics(players->font());
+      QVERIFY(players->columnWidth(RefereeModel::State) >=
+              metrics.horizontalAdvance(QStringLiteral("plays")) + 6);
+    }
+    // The log is there without scrolling.
+    const auto* log = desk.dock->findChild<QTableView*>("refereeLog");
+    QVERIFY(log && log->visibleRegion().boundingRect().height() >= scaled(log, 72));
   }
 
   void aGoalAndTheScoreboard() {

@@ -10,7 +10,7 @@
 
 namespace pitchboard::link {
 
-/// The words that COM_REFEREE knows (SYSTEM.md section 6).
+/// The words that COM_REFEREE knows (system.md section 6).
 inline constexpr int refereeStop = 1, refereePlay = 2, refereeReady = 11, refereeSet = 12;
 
 /// Hears the packets of one robot's referee, of any version. Remembers whose ball a restart is:

@@ -2,7 +2,7 @@
 #pragma once
 
 // An experiment: a scenario, what is varied in it, how often it is played, what is measured and
-// what must hold. A JSON file (docs/EXPERIMENTS.md); a situation test is a small one with
+// what must hold. A JSON file (docs/experiments.md); a situation test is a small one with
 // assertions, a tournament is one whose conditions are matches between teams. Here it is expanded:
 // conditions and grids are a list of scenarios, runs have numbers. Plain values; any thread.
 // Metres, seconds, degrees in settings as in the file.

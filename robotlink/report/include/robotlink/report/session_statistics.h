@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include <base/ids.h>
 #include <base/robot_key.h>
 #include <robotlink/session/row_walk.h>
+#include <simcore/world/team_color.h>
 #include <simcore/world/world_state.h>
 #include <telemetry/wire/team_monitor.h>
 

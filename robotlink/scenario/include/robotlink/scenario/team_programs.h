@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Whether robots of a scenario are played by programs that their team wrote. Reads runtime
-// profiles; any thread.
+// Tells whether team programs play robots of a scenario. Reads runtime profiles, which are files;
+// any thread.
 
 #include <base/result.h>
 #include <robotlink/scenario/scenario.h>
