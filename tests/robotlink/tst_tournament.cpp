@@ -84,6 +84,7 @@ class TestTournament : public QObject {
   void aFolderDoesNotShowHowItWasFilled();
   void wrongMatchesFail();
   void madeByAProgram();
+  void againstVersion08();
   void wrongFilesAreExplained_data();
   void wrongFilesAreExplained();
 };
@@ -244,6 +245,19 @@ void TestTournament::madeByAProgram() {
   tournament.teams[0].robots[0].shirt = 5;
   e = tournamentExperiment(tournament, scenario, 2, how);
   QVERIFY(!e && e.error().text().find("team old") != std::string::npos);
+}
+
+/// What scripts/team_0_8.sh puts beside its program.
+void TestTournament::againstVersion08() {
+  const std::string folder = PITCHBOARD_SOURCE_DIR "/tests/data/teams/";
+  const auto e = loadExperiment(folder + "against-0.8.json");
+  QVERIFY2(e.has_value(), e ? "" : e.error().text().c_str());
+  QCOMPARE(e->allRuns(), std::size_t{100});
+  QVERIFY(!e->hasTeamPrograms());  // they take turns
+  QCOMPARE(e->conditions[0].scenario.runtimes.at(TeamColor::Red).profile, folder + "team-0.8.json");
+  const auto programs = loadRuntime({folder + "team-0.8-programs.json", {}, {}});
+  QVERIFY2(programs.has_value(), programs ? "" : programs.error().text().c_str());
+  QVERIFY(programs->hasOwn());
 }
 
 void TestTournament::wrongFilesAreExplained_data() {
