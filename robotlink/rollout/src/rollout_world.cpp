@@ -221,7 +221,11 @@ void RolloutWorld::remindOf(const Belief& belief) {
     m_input.imuYaw = wrapToPi(pose.yaw - (sideOf(i) == Side::Right ? pi : 0.0));
     for (const std::size_t other : m_here) {
       if (sideOf(other) == sideOf(i)) continue;
-      m_input.robots[other] = seen(belief.robots[other].pose.position);
+      // While it looked at the ball.
+      const auto at = seen(belief.robots[other].pose.position);
+      const bool inView =
+          at && std::abs(wrapToPi(at->bearing - body.head)) < model.fieldOfView / 2.0;
+      if (inView) m_input.robots[other] = at;
     }
     for (int k = 1; k <= reminders; ++k) {
       const double ago = cycleTime * (reminders - k);
