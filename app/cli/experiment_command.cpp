@@ -27,7 +27,7 @@ struct ExperimentOptions {
 Result<int> playExperiment(const ExperimentOptions& options) {
   if (options.experiment.empty() || options.play.folder.empty()) {
     return failure(ErrorCode::InvalidArgument,
-                   "say which experiment and where to: pitchboard-cli experiment "
+                   "name an experiment and a folder for the results: pitchboard-cli experiment "
                    "paper-scenario-1 --out results");
   }
   const auto experiment =
@@ -57,7 +57,7 @@ void addMerge(CLI::App& parent, int& exitCode) {
     if (merged.complete()) return printResults(experiment, merged);
     return failure(ErrorCode::NotFound,
                    std::to_string(merged.finishedCount()) + " of " +
-                       std::to_string(experiment.allRuns()) + " runs are here; a shard is missing",
+                       std::to_string(experiment.allRuns()) + " runs found; a shard is missing",
                    chosen.out);
   });
 }
@@ -106,7 +106,7 @@ void addReplay(CLI::App& parent, int& exitCode) {
                       ? "as in the results"
                       : "which is not that of the results: the run is not repeatable");
     } else {
-      std::printf("%s: it is there\n", path.c_str());
+      std::printf("%s: already there\n", path.c_str());
     }
     if (!chosen.open) return 0;
     const std::string studio = link::besideTeamProgram("pitchboard");

@@ -181,8 +181,8 @@ Result<int> playInto(const link::Experiment& experiment, const PlayInto& options
   }
   if (interrupted) {
     return failure(ErrorCode::Conflict,
-                   "interrupted with " + std::to_string(folder.finishedCount()) + " of " +
-                       std::to_string(experiment.allRuns()) + " runs; --resume goes on with them",
+                   "interrupted after " + std::to_string(folder.finishedCount()) + " of " +
+                       std::to_string(experiment.allRuns()) + " runs; add --resume to continue",
                    options.folder);
   }
   TRY(recordRuns(experiment, folder, shard, settings));

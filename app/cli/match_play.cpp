@@ -74,6 +74,12 @@ class Playing {
       if (next > now) std::this_thread::sleep_until(std::min(next, now + pollInterval));
     }
     m_player.lookAfterProcesses(Clock::now());  // their last lines
+    if (m_match.nobodyPlays()) {
+      std::fputs(
+          "warning: nobody played, because no robot was told to. Add --referee "
+          "humanoid-soccer-2026, or write COM_REFEREE = 2 in the scenario.\n",
+          stderr);
+    }
     Outcome outcome;
     outcome.ticks = m_player.currentTick() - first;
     outcome.simulatedSeconds =

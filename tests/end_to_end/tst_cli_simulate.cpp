@@ -86,6 +86,16 @@ class TestCliSimulate : public QObject {
   }
 
   /// Who won is the same before and after a change of sides.
+  void aMatchInWhichNobodyWasToldToPlaySaysSo() {
+    const Run idle = simulate({"--scenario", "match", "--referee", "published", "--duration", "6"});
+    QCOMPARE(idle.exitCode, 0);
+    QVERIFY2(idle.err.contains("no robot was told to"), idle.err.constData());
+    for (const char* scenario : {"match", "match-3v3", "empty"}) {
+      const Run played = simulate({"--scenario", scenario, "--duration", "6"});
+      QVERIFY2(played.exitCode == 0 && !played.err.contains("told to"), played.err.constData());
+    }
+  }
+
   void theOutcomeNamesTheTeams() {
     QTemporaryDir dir;
     const QString file = shortMatch(dir);
@@ -202,7 +212,7 @@ class TestCliSimulate : public QObject {
     QVERIFY(!(moment->robots[0].pose == link::loadScenario("one-robot")->robots[0].pose));
     const Run again = simulate(save);
     QCOMPARE(again.exitCode, 2);
-    QVERIFY(again.err.contains("This file exists"));
+    QVERIFY(again.err.contains("This file already exists"));
     QCOMPARE(simulate(save + QStringList("--force")).exitCode, 0);
     const Run nowhere = simulate({"--duration", "1", "--save-moment", "/nowhere/moment.json"});
     QCOMPARE(nowhere.exitCode, 2);

@@ -212,7 +212,7 @@ class TestReport : public QObject {
          {"0:05.0", "B1 localization died: signal 11 (Segmentation fault)",
           "its last words: &lt;oh&gt;", "0:05.5", "B1 localization started again", "0:20.0",
           "B1 localization stopped responding: no cycle done for 5 s", "0:40.0",
-          "B1 localization is not started any more"}) {
+          "B1 localization is no longer restarted"}) {
       const auto at = rest.indexOf(told);
       QVERIFY2(at >= 0, qPrintable(QString(told) + " not after the one before in " + rest));
       rest = rest.mid(at);

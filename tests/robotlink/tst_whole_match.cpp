@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The default scenario from kick-off to the final whistle, with short halves, by each rule set.
 #include <robotlink/cognition/referee_orders.h>
+#include <robotlink/match/simulated_match.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 
 #include <QFile>

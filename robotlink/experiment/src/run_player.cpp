@@ -201,7 +201,7 @@ Result<RunResult> recordAgain(const std::string& folder, const Experiment& exper
   TRY(markUnrepeatable(folder, experiment, number));
   return failure(ErrorCode::Conflict,
                  "run " + std::to_string(number) +
-                     " ended in another state than in the results, which say now that it is not "
+                     " ended in a different state than in the results, which say now that it is not "
                      "repeatable; were they played by another version?",
                  path);
 }

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include <robotlink/session/live_moments.h>
+#include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_events.h>
 #include <simcore/world/action.h>
 
@@ -194,15 +194,14 @@ SessionStatistics TeamSums::finish() {
 SessionStatistics liveStatistics(const telemetry::SessionReader& session,
                                  telemetry::TimeRange range) {
   Walk walk(range);
-  LiveMoments moments;
-  const SessionHistory history(session);
+  RecordedFrames frames(backdropOf(session));  // with the robots that sent variables only
   const double length = range.end - range.begin;
   const double step = std::max(shortestStep, length / mostMoments);
   const auto count = static_cast<std::uint64_t>(std::max(length, 0.0) / step);
   for (std::uint64_t i = 0; i <= count; ++i) {
     // The last one is the end itself: the score that counts may come with the last packet.
     const double time = i == count ? range.end : range.begin + step * static_cast<double>(i);
-    if (const auto frame = moments.frameAt(history, time)) walk.add(*frame, step);
+    walk.add(frames.frameAt(session, time), step);
   }
   SessionStatistics out = walk.finish(eventsOf(session));
   for (const telemetry::SessionGroup& group : session.groups()) out.rows += group.rows;

@@ -223,7 +223,9 @@ std::string events(const ReportContent& c) {
   std::vector<const MatchEvent*> main, kicks;
   for (const auto& event : c.events) {
     if (event.time < c.statistics.range.begin || event.time > c.statistics.range.end) continue;
-    // Kicks are many; without them the list shows how the match went.
+    // Kicks are many, and who sees the ball is for the timeline: without them the list shows how
+    // the match went.
+    if (event.kind == MatchEventKind::BallSeen || event.kind == MatchEventKind::BallLost) continue;
     auto& list = event.kind == MatchEventKind::Kick ? kicks : main;
     if (list.size() < mostEvents) list.push_back(&event);
   }

@@ -163,11 +163,11 @@ void TestExperimentsDock::playsAndShowsResults() {
   Dock dock;
   QVERIFY(dock.find<QComboBox>("experimentChoice")->count() >= 7);
   auto* noRuns = dock.find<QLabel>("experimentTableEmpty");
-  QCOMPARE(noRuns->text(), QStringLiteral("No results yet. Start plays the experiment."));
+  QCOMPARE(noRuns->text(), QStringLiteral("No results yet. Press Start to play the experiment."));
   dock.write("2", 3);
   dock.press();
   QCOMPARE(dock.start(), QStringLiteral("Cancel"));
-  QVERIFY(noRuns->text().startsWith(QStringLiteral("The runs are being played.")));
+  QVERIFY(noRuns->text().startsWith(QStringLiteral("Playing the runs.")));
   QTRY_COMPARE_WITH_TIMEOUT(dock.start(), QStringLiteral("Start"), 60000);
   QVERIFY(noRuns->isHidden());
   QVERIFY(dock.find<QLabel>("experimentDistributionEmpty")->isHidden());

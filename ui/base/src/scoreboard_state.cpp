@@ -45,13 +45,13 @@ QString refereeTip(const link::RefereeView& view, bool received) {
   tip << refereeStateText(view);
   if (const QString setPlay = refereeSetPlayText(view); !setPlay.isEmpty()) tip << setPlay;
   tip << (view.kickOffTeam ? QStringLiteral("Kick-off: team %1").arg(*view.kickOffTeam)
-                           : QStringLiteral("Kick-off: nobody (drop ball)"));
+                           : QStringLiteral("Kick-off: none (drop ball)"));
   if (!received) return tip.join(QLatin1Char('\n'));
-  tip << QStringLiteral("Referee at %1, version %2, heard %3 ago")
+  tip << QStringLiteral("Referee at %1, version %2, last packet %3 ago")
              .arg(QString::fromStdString(view.sender))
              .arg(view.version)
              .arg(durationText(view.age, 1));
-  if (view.conflict) tip << QStringLiteral("A second referee program is heard.");
+  if (view.conflict) tip << QStringLiteral("A second referee program is sending.");
   if (const QString truth = refereeTruthText(view); !truth.isEmpty()) tip << truth;
   return tip.join(QLatin1Char('\n'));
 }
@@ -70,7 +70,7 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   if (!frame.referee) {
     state.clock = QStringLiteral("--:--");
     state.state = QStringLiteral("NO REFEREE");
-    state.tip = QStringLiteral("No referee's packet has been heard yet.");
+    state.tip = QStringLiteral("No referee packet received yet.");
     return state;
   }
   const link::RefereeView& view = *frame.referee;
@@ -85,7 +85,7 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   state.state = QString::fromStdString(view.state);
   const std::string& more = !view.setPlay.empty() ? view.setPlay : view.phase;
   if (view.timedOut) {
-    state.state = QStringLiteral("REFEREE SILENT");
+    state.state = QStringLiteral("REFEREE OFFLINE");
   } else if (view.stopped) {
     state.state += QStringLiteral(" · ") + QStringLiteral("stopped");
   } else if (!more.empty()) {

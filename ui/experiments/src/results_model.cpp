@@ -64,8 +64,8 @@ void ResultsModel::fill() {
   const std::vector<std::size_t> telling = link::tellingMetrics(s);
   switch (m_kind) {
     case Kind::Measured:
-      m_heads = {"Metric",           "Condition", "n",      "Mean",
-                 "95 % of the mean", "SD",        "Median", "95th percentile"};
+      m_heads = {"Metric",          "Condition", "n",      "Mean",
+                 "95 % CI of mean", "SD",        "Median", "95th percentile"};
       for (const std::size_t m : telling) {
         for (const link::ConditionSummary& condition : s.conditions) {
           const link::Summary& one = condition.metrics[m];
@@ -166,7 +166,7 @@ QVariant ResultsModel::data(const QModelIndex& index, int role) const {
     return theme().errorText;
   }
   if (role == Qt::ToolTipRole && m_kind == Kind::Runs) {
-    return QStringLiteral("Double click: see this run in Replay");
+    return QStringLiteral("Double-click to view this run in Replay");
   }
   return {};
 }

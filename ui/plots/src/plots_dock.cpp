@@ -78,7 +78,7 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   pageRow->addStretch(1);
   pageRow->addWidget(makeTools());
   m_tabs->setObjectName(QStringLiteral("docks"));  // they look like the tabs of docks
-  m_tabs->setAccessibleName(QStringLiteral("Tabs of the plots"));
+  m_tabs->setAccessibleName(QStringLiteral("Plot tabs"));
   m_tabs->setDrawBase(false);
   // The dock has a tab already: with one page, a row of tabs would only take room from the curves.
   m_tabs->setAutoHide(true);
@@ -414,7 +414,7 @@ QToolButton* toolButton(QAction* action, QWidget* parent) {
 
 // In the row of tabs, because height is what plots lack.
 QToolBar* PlotsDock::makeTools() {
-  auto* tools = new QToolBar(QStringLiteral("Tools of the plots"), this);
+  auto* tools = new QToolBar(QStringLiteral("Plot tools"), this);
   tools->setObjectName(QStringLiteral("plotTools"));
   tools->layout()->setSpacing(1);  // the sheet's, which was asked before it had its name
   tools->setIconSize(QSize(scaled(this, 16), scaled(this, 16)));
@@ -429,7 +429,7 @@ QToolBar* PlotsDock::makeTools() {
   connect(time, &LinkedTime::followingChanged, m_follow, &QAction::setChecked);
 
   m_window->setObjectName(QStringLiteral("plotWindow"));
-  m_window->setToolTip(QStringLiteral("How much is shown while following"));
+  m_window->setToolTip(QStringLiteral("Time span shown while following"));
   m_window->setFont(themeFont(TypeRole::Secondary));
   m_window->setPopupMode(QToolButton::InstantPopup);
   auto* windows = new QMenu(m_window);
@@ -468,7 +468,7 @@ QToolBar* PlotsDock::makeTools() {
 
   auto* fit = new QAction(themedIcon(QStringLiteral("zoom-fit-best")),
                           QStringLiteral("Show everything"), this);
-  fit->setToolTip(QStringLiteral("Show all there is (also a double click on a plot)"));
+  fit->setToolTip(QStringLiteral("Show all data (or double-click a plot)"));
   connect(fit, &QAction::triggered, time, &LinkedTime::fitAll);
 
   auto* add =

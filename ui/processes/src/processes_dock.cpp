@@ -25,16 +25,16 @@ QString emptyText(const MatchController& controller) {
     case link::Cognition::Inline:
       if (controller.options().cognition != link::Cognition::Inline) {
         return QStringLiteral(
-            "The robots decide inside the studio, because separate processes could "
-            "not be started: the Log says why.");
+            "Processes run inside the studio because separate processes could not be started. See "
+            "the Log for the reason.");
       }
       return QStringLiteral(
-          "The robots decide inside the studio, so there are no separate processes to "
-          "show. Simulation > Robots decide > In separate processes starts them.");
+          "Processes run inside the studio, so there are no separate processes to show. To start "
+          "them, choose Simulation > Run robot processes > In separate processes.");
     case link::Cognition::None:
       return QStringLiteral(
-          "Nothing was started. Attach your own processes to the robots' "
-          "blackboards: key 100 × robot number (plus the key base).");
+          "No processes were started. Attach your team's programs to the robots' blackboards: key "
+          "100 × robot number (plus the key base).");
     case link::Cognition::Separate:
       return QStringLiteral("There are no robots, so no processes run.");
   }

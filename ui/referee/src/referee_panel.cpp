@@ -255,7 +255,7 @@ class RefereePanel : public QScrollArea {
       return RefereeCall{.kind = CallKind::Penalise,
                          .penalty = static_cast<PenaltyKind>(m_kind->currentData().toInt())};
     });
-    addForChosen("Pardon", "Ctrl+Alt+E", "They may play again",
+    addForChosen("Pardon", "Ctrl+Alt+E", "The chosen robots may play again",
                  [] { return RefereeCall{.kind = CallKind::Pardon}; });
     m_card = new QToolButton(m_penalties);
     m_card->setObjectName(QStringLiteral("refereeCard"));
@@ -383,14 +383,15 @@ class RefereePanel : public QScrollArea {
       m_state->setText({});
       m_clock->setText({});
       const SourceKind kind = m_context.source->kind();
-      m_detail->setText(kind == SourceKind::Live ? QStringLiteral("Waiting for the referee… Its "
-                                                                  "port and version are in the "
-                                                                  "settings of Live.")
-                        : frame == nullptr       ? m_context.source->emptyText()
-                        : kind == SourceKind::Replay
-                            ? QStringLiteral("This session has no referee at this moment.")
-                            : QStringLiteral("This match has no referee. Choose rules below to get "
-                                             "one."));
+      m_detail->setText(
+          kind == SourceKind::Live
+              ? QStringLiteral(
+                    "Waiting for the referee… Choose its port and version in Live settings.")
+          : frame == nullptr ? m_context.source->emptyText()
+          : kind == SourceKind::Replay
+              ? QStringLiteral("This session has no referee at this moment.")
+              : QStringLiteral("This match has no referee. Choose rules below to get "
+                               "one."));
       m_detail->show();
       m_truth->hide();
       return;
@@ -403,7 +404,7 @@ class RefereePanel : public QScrollArea {
     if (!view.phase.empty()) parts << QString::fromStdString(view.phase);
     if (view.stopped) parts << QStringLiteral("stopped");
     if (view.timedOut) {
-      parts << QStringLiteral("not heard for %1").arg(durationText(view.age));
+      parts << QStringLiteral("last packet %1 ago").arg(durationText(view.age));
     }
     const QString play = frame->desk ? playText(*frame->desk) : QString();
     if (!play.isEmpty()) parts << play;

@@ -42,7 +42,7 @@ TeamColumn::TeamColumn(bool right, Call called, QWidget* parent)
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setSpacing(gap);
   add("Goal", "A goal for this team", {.kind = CallKind::Goal, .value = 1});
-  add("−1", "Takes a goal of this team back", {.kind = CallKind::Goal, .value = -1});
+  add("−1", "Takes back a goal of this team", {.kind = CallKind::Goal, .value = -1});
   add("Kick-off", "This team has the next kick-off", {.kind = CallKind::KickOff});
   add("Timeout", "In INITIAL, READY and SET", {.kind = CallKind::Timeout});
   auto* column = new QVBoxLayout(this);

@@ -85,16 +85,16 @@ void MatchController::Opening::start(
     made = link::MatchRunner::start(scenario, inside, paused, *catalog, observers);
     if (made) {
       error = QStringLiteral(
-                  "Separate robot processes cannot run: %1. The robots decide inside the studio "
-                  "instead, and other programs cannot see their blackboards. Close the other "
-                  "program, then restart the match.")
+                  "Cannot run separate robot processes: %1. They run inside the studio instead, "
+                  "and other programs cannot open their blackboards. Close the other program, then "
+                  "restart the match.")
                   .arg(words(reason));
     }
   }
   if (made)
     runner = holding(std::move(catalog), std::move(*made));
   else
-    error = words(made.error());
+    error = QStringLiteral("Cannot play the match: %1").arg(words(made.error()));
 }
 
 void MatchController::Opening::resume(
@@ -104,7 +104,7 @@ void MatchController::Opening::resume(
   if (!runner) return;
   runner->execute([&](link::SimulatedMatch& match) {
     if (const auto restored = match.restore(moment); !restored) {
-      error = QStringLiteral("The match cannot go on where it was: %1")
+      error = QStringLiteral("Cannot continue the match where it was: %1")
                   .arg(QString::fromStdString(restored.error().text()));
     }
     return link::Changed::Yes;
@@ -336,11 +336,10 @@ void MatchController::tellWhoWillNotFollow() {
   }
   if (names.empty()) return;
   m_toldWhoWillNotFollow = true;
-  emit errorOccurred(
-      QStringLiteral("The processes of %1 were not started here: they go on at ×1 while the match "
-                     "stands still or runs at another speed. Choose their programs on the card, "
-                     "Runtime, and they follow.")
-          .arg(names.join(QStringLiteral(", "))));
+  emit errorOccurred(QStringLiteral("The processes of %1 were not started by this match, so they "
+                                    "keep running at ×1 when it pauses or changes speed. To make "
+                                    "them follow, choose their programs under Runtime on the card.")
+                         .arg(names.join(QStringLiteral(", "))));
 }
 
 void MatchController::tellWhoKeepsRealTime(std::span<const link::MatchEvent> events) {

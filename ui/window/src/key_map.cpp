@@ -31,6 +31,7 @@ const KeyRow keyTable[] = {
     {"escape", "Esc", keysOfTime},
     {"timelineNow", "Ctrl+End", keysOfTime},
     {"oldestMoment", "Ctrl+Home", keysOfTime},
+    {"goToTime", "Ctrl+G", keysOfTime},
     {"slower", "-", keysOfTime, nullptr, nullptr, whileHeld},
     {"faster", "+ =", keysOfTime, nullptr, nullptr, whileHeld},
     {"loopRange", "Ctrl+L", keysOfTime},

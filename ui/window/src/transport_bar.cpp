@@ -38,7 +38,7 @@ struct Mode {
 constexpr Mode modes[] = {
     {SourceKind::Simulate, "Simulate", "Robots simulated on this computer"},
     {SourceKind::Live, "Live",
-     "Robots and referee as the network tells. Nothing is sent to robots"},
+     "Robots and referee received from the network. Nothing is sent to robots"},
     {SourceKind::Replay, "Replay", "A recorded session"},
 };
 

@@ -28,6 +28,8 @@ enum class MatchEventKind : std::uint8_t {
   Fall,                ///< robot
   GotUp,               ///< robot
   UnknownAction,       ///< robot; value: the code
+  BallSeen,            ///< robot; after it was lost
+  BallLost,            ///< robot; not seen for BallSight::lostAfter
   GameState,           ///< detail: "PLAYING"; value: seconds left, where there is a clock
   MatchOver,           ///< detail: the scenario's stop condition that is met
   Half,                ///< value: 1 or 2
@@ -63,7 +65,7 @@ enum class MatchEventKind : std::uint8_t {
   Bookmark,            ///< detail: the user's note
   Other                ///< detail: what a later version, or a file of another one, calls it
 };
-inline constexpr std::size_t matchEventKindCount = 41;
+inline constexpr std::size_t matchEventKindCount = 43;
 
 /// Half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };
@@ -91,6 +93,7 @@ enum class EventShape : std::uint8_t {
   Kick,
   Fall,
   BallOut,
+  BallLost,
   GameState,
   Died,
   Started,
@@ -99,7 +102,7 @@ enum class EventShape : std::uint8_t {
   Warning,
   Bookmark
 };
-inline constexpr std::size_t eventShapeCount = 12;
+inline constexpr std::size_t eventShapeCount = 13;
 
 struct MatchEventInfo {
   MatchEventKind kind;

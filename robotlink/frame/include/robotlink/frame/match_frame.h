@@ -71,6 +71,7 @@ struct MatchFrame {
   std::optional<int> matchNumber;
   /// Speed of the slowest team program, times real time; nothing if all keep up.
   std::optional<double> slowestTeamProgram;
+  bool nobodyPlays = false;         ///< SimulatedMatch::nobodyPlays()
   bool inLockStep = true;           ///< the match waits for separate processes in every tick
   std::string finishedBy;           ///< "goal", "ball_out", "duration"; empty unless finished
   std::uint64_t droppedEvents = 0;  ///< events that nobody took in time

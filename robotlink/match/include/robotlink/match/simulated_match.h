@@ -48,6 +48,9 @@ class SimulatedMatch {
   bool finished() const { return !finishedBy().empty(); }
   /// "goal", "ball_out", "duration" or "full_time"; empty while none is met.
   std::string_view finishedBy() const;
+  /// The match has no game, is five seconds old, and no robot has walked or been told to play
+  /// (COM_REFEREE): somebody forgot to.
+  bool nobodyPlays() const;
 
   /// Appends what has happened since the last call, at most the newest 1000: in the simulation,
   /// to the clock, to processes (as the supervisor knows them), and the end of the match.

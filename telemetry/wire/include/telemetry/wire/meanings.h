@@ -29,11 +29,11 @@ inline constexpr std::array<MeaningInfo, fieldMeaningCount> meaningTable = [] {
   return std::array<MeaningInfo, fieldMeaningCount>{{
       {M::None, "none", "", "", "", "", K::None},
       {M::Robot, "robot", "", "n", "", "Robot", K::None},
-      {M::X, "x", "LOCALIZATION_X", "X", "cm", "Localization", K::Length},
-      {M::Y, "y", "LOCALIZATION_Y", "Y", "cm", "Localization", K::Length},
-      {M::Theta, "theta", "LOCALIZATION_THETA", "THETA", "°", "Localization", K::Angle},
+      {M::X, "x", "LOCALIZATION_X", "X", "cm", "Belief", K::Length},
+      {M::Y, "y", "LOCALIZATION_Y", "Y", "cm", "Belief", K::Length},
+      {M::Theta, "theta", "LOCALIZATION_THETA", "THETA", "°", "Belief", K::Angle},
       // The published localization publishes its belief under this name (system.md section 5).
-      {M::Belief, "belief", "LOCALIZATION_RBT01_X", "BELIEF", "cm", "Localization", K::Length},
+      {M::Belief, "belief", "LOCALIZATION_RBT01_X", "BELIEF", "cm", "Belief", K::Length},
       {M::BallDistance, "ball-distance", "VISION_BALL_DIST", "BALL_DIST", "cm", "Vision",
        K::Length},
       {M::BallAngle, "ball-angle", "VISION_PAN_DEG", "BALL_ANGLE", "°", "Vision", K::Angle},
