@@ -194,7 +194,8 @@ PB_API pb_status pb_rollouts_create(const pb_rollout_options* options, pb_rollou
 PB_API pb_status pb_rollouts_destroy(pb_rollouts* rollouts);
 /** Robots, in the order of the scenario. */
 PB_API pb_status pb_rollouts_robots(pb_rollouts* rollouts, int32_t* robots);
-/** The beginning of the scenario as a belief, to be changed: PB_BELIEF_ROBOTS and PB_BELIEF_GAME. */
+/** The beginning of the scenario as a belief, to be changed: PB_BELIEF_ROBOTS and PB_BELIEF_GAME.
+ */
 PB_API pb_status pb_rollouts_beginning(pb_rollouts* rollouts, double* robots, size_t robot_count,
                                        double* game, size_t game_count);
 /** One rollout for each seed; the same seed is the same noise. NaN in a belief is what the scenario
