@@ -47,7 +47,7 @@ std::string wordsOf(const link::ProcessNews& news) {
     case Kind::Silent:
       return "showed " + news.detail + " and was ended" + again;
     case Kind::GivenUp:
-      return "is not started any more: " + news.detail;
+      return "is no longer restarted: " + news.detail;
     case Kind::RealTime:
       return "keeps real time: " + news.detail;
   }

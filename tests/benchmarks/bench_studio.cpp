@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole window as a person has it (docs/PERFORMANCE.md):
-//   bench_studio live [SECONDS]   22 robots at 60 messages a second each and a referee over UDP,
-//     every panel open: CPU time of the studio as a share of a core
-//   bench_studio start [TIMES]    from the start of a process to its first frame of a match
-//   bench_studio splitter         dragging the edge of a panel beside three plots of a match
-// The senders are a process of their own. Under Xvfb:
+// The whole window as a person has it (docs/performance.md):
+//   bench_studio paused [SECONDS]  3 against 3 that stands still
+//   bench_studio match [SECONDS]   the same while it is played
+//   bench_studio live [SECONDS]    22 robots at 60 messages a second each over UDP, all panels
+//   bench_studio start [TIMES]     from the start of a process to its first frame of a match
+//   bench_studio splitter          dragging the edge of a panel beside three plots of a match
+// The first three give the CPU time of the studio as a share of a core; robots and senders are
+// processes of their own. Under Xvfb:
 //   xvfb-run -a -s "-screen 0 1920x1080x24" env QT_QPA_PLATFORM=xcb bench_studio live
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -56,6 +58,13 @@ double cpuMilliseconds() {
     return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3;
   };
   return ms(use.ru_utime) + ms(use.ru_stime);
+}
+
+/// How often a thread of this process has gone to sleep.
+long sleeps() {
+  rusage use{};
+  ::getrusage(RUSAGE_SELF, &use);
+  return use.ru_nvcsw;
 }
 
 double millisecondsSince(Clock::time_point begin) {
@@ -111,13 +120,51 @@ struct Paints : QObject {
 
 /// The studio with settings of its own, as at the first start.
 struct Studio {
-  explicit Studio(QSize size) : window(&controller, &settings) { window.resize(size); }
+  explicit Studio(QSize size, const link::MatchOptions& options = {})
+      : controller(options), window(&controller, &settings) {
+    window.resize(size);
+  }
   QWidget* canvas() const { return window.field()->findChild<QGraphicsView*>()->viewport(); }
   QTemporaryDir folder;
   QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-  ui::MatchController controller{link::MatchOptions()};
+  ui::MatchController controller;
   ui::MainWindow window;
 };
+
+/// What the window costs while time passes.
+void measure(const char* what, const Studio& studio, int seconds, double most) {
+  Paints paints;
+  studio.canvas()->installEventFilter(&paints);
+  const double before = cpuMilliseconds();
+  const long sleptBefore = sleeps();
+  const auto begin = Clock::now();
+  spin(std::chrono::seconds(seconds));
+  const double cpu = cpuMilliseconds() - before, took = millisecondsSince(begin);
+  std::printf(
+      "%s: %.2f %% of a core (wanted: %.0f %%), field painted %.1f times a second, %.0f sleeps a "
+      "second\n",
+      what, 100.0 * cpu / took, most, 1e3 * paints.count / took,
+      1e3 * static_cast<double>(sleeps() - sleptBefore) / took);
+}
+
+/// With robots in processes of their own, as the studio starts them.
+int match(int seconds, bool paused) {
+  link::MatchOptions options;
+  options.cognition = link::Cognition::Separate;
+  options.cognitionDebug = true;
+  options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+  Studio studio({1440, 900}, options);
+  const auto scenario = link::loadScenario("match-3v3");
+  if (!scenario) return 1;
+  studio.controller.open(*scenario, false);
+  studio.window.show();
+  spin(std::chrono::seconds(5));
+  studio.controller.setPaused(paused);
+  spin(std::chrono::seconds(2));
+  measure(paused ? "3 against 3, paused" : "3 against 3, 1440x900", studio, seconds,
+          paused ? 1.0 : 15.0);
+  return 0;
+}
 
 void openEveryDock(const ui::MainWindow& window) {
   QWidget* plots = nullptr;
@@ -144,18 +191,9 @@ int live(int seconds, int portBase, pid_t sender) {
   studio.window.showSource(ui::SourceKind::Live);
   openEveryDock(studio.window);
   spin(std::chrono::seconds(4));  // sizes, curves and memory are what they stay
-  Paints paints;
-  studio.canvas()->installEventFilter(&paints);
-  const double before = cpuMilliseconds();
-  const auto begin = Clock::now();
-  spin(std::chrono::seconds(seconds));
-  const double cpu = cpuMilliseconds() - before, took = millisecondsSince(begin);
+  measure("22 robots at 60 messages/s, every panel open", studio, seconds, 25.0);
   kill(sender, SIGKILL);
   waitpid(sender, nullptr, 0);
-  std::printf(
-      "%d robots at %d messages/s, every panel open: %.1f %% of a core, field painted %.0f "
-      "times a second (wanted: below 25 %%)\n",
-      robots, perSecond, 100.0 * cpu / took, 1e3 * paints.count / took);
   return 0;
 }
 
@@ -275,10 +313,12 @@ int main(int argc, char** argv) {
   QApplication application(argc, argv);
   ui::setTheme(application, ui::ThemeChoice::Dark);
   if (what == "live") return live(number > 0 ? number : 20, portBase, sender);
+  if (what == "paused" || what == "match") return match(number > 0 ? number : 20, what == "paused");
   if (what == "splitter") return splitter();
   if (what == "first-frame" && argc > 2) {
     return firstFrame(Clock::time_point(Clock::duration(std::atoll(argv[2]))));
   }
-  std::fprintf(stderr, "error: bench_studio live [SECONDS] | start [TIMES] | splitter\n");
+  std::fprintf(stderr,
+               "error: bench_studio paused|match|live [SECONDS] | start [TIMES] | splitter\n");
   return 2;
 }

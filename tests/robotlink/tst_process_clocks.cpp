@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The clocks and waits of real programs follow the match, and who cannot follow is named.
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <QTemporaryDir>
 #include <QtTest>
 #include <ctime>
@@ -230,7 +233,7 @@ class TestProcessClocks : public QObject {
     QTest::newRow("x1") << 4 << Speeds{{1.0, on}} << true;
     QTest::newRow("x8") << 16 << Speeds{{8.0, on}} << true;
     QTest::newRow("a change of speed") << 8 << Speeds{{8.0, 0.3}, {1.0, 1.0}, {4.0, on}} << true;
-    // Not in the moment in which an interval ends (docs/ROBOTS.md, Time).
+    // Not in the moment in which an interval ends (docs/robot-programs.md, Time).
     QTest::newRow("a pause of 5 s") << 8 << Speeds{{4.0, 0.85}, {0.0, 5.0}, {2.0, on}} << true;
     QTest::newRow("real time, without the studio's clock") << 4 << Speeds{{1.0, on}} << false;
   }
@@ -372,6 +375,25 @@ for seconds in (5.5, 0.1, 2.5):
     QCOMPARE(m_realTime.front().detail, std::string(whyRealTime(ProcessClock::RealNotLoaded)));
     QCOMPARE(status(id).clock, ProcessClock::RealNotLoaded);
     QCOMPARE(status(id).achieved, 1.0);
+  }
+
+  // The dynamic linker loads nothing of ours into a program that runs with other rights.
+  void aSetuidProgramIsNamedWithTheReason() {
+    if (::geteuid() != 0) QSKIP("only root can make a program of another user");
+    const QTemporaryDir dir;
+    const QByteArray program = dir.filePath("sleep").toUtf8();
+    QVERIFY(QFile::copy("/bin/sleep", QString::fromUtf8(program)));
+    constexpr uid_t nobody = 65534;
+    QVERIFY(::chmod(qPrintable(dir.path()), 0755) == 0);
+    QVERIFY(::chown(program.constData(), nobody, nobody) == 0);
+    QVERIFY(::chmod(program.constData(), 04755) == 0);
+    ManagedProcess process = python({});
+    process.spec.command = {program.toStdString(), "600"};
+    m_manager->setTime(0.0, 8.0, SteadyClock::now());
+    const int id = add(process);
+    QTRY_VERIFY((look(), !m_realTime.empty()));
+    QCOMPARE(m_realTime.front().detail, std::string(whyRealTime(ProcessClock::RealNotLoaded)));
+    QCOMPARE(status(id).clock, ProcessClock::RealNotLoaded);
   }
 };
 

@@ -226,7 +226,7 @@ class TestReferee : public QObject {
   }
 
   void theTableOfTransitions() {
-    // REFEREE.md section 1: everything else is refused and changes nothing.
+    // Everything else is refused and changes nothing.
     const auto reach = [](Game& g, PlayState state) {
       if (state == PlayState::Initial) return;
       QVERIFY(g.state(PlayState::Ready));

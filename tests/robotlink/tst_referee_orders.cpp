@@ -96,7 +96,7 @@ class TestRefereeOrders : public QObject {
 
   void anotherTeamsMatchSaysNothing() { QVERIFY(!wordOf(recorded("v11hl592_PLAYING"), 97, 1)); }
 
-  // REFEREE.md section 8: team 1 has had the kick-off, team 2 takes a throw-in.
+  // Team 1 has had the kick-off, team 2 takes a throw-in.
   void aSetPlayIsItsTakersUntilTheBallIsFree() {
     constexpr int throwIn = 9, overtime = 2;
     for (const int phase : {0, overtime}) {

@@ -177,7 +177,7 @@ class TestRobotModels : public QObject {
                    .arg(rollOf(kick), 0, 'f', 2)
                    .arg(kick["source"].toString());
     }
-    QFile file(PITCHBOARD_SOURCE_DIR "/docs/SCENARIOS.md");
+    QFile file(PITCHBOARD_SOURCE_DIR "/docs/scenarios.md");
     QVERIFY(file.open(QIODevice::ReadOnly));
     QString text = QString::fromUtf8(file.readAll());
     file.close();

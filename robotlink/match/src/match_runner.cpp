@@ -30,6 +30,13 @@ struct MatchRunner::Shared {
   bool settled = false;  // stands still, and the latest frame shows it
   double speed = 1.0;
   std::optional<std::uint64_t> runTo;
+  struct Skip {
+    std::function<bool(const MatchEvent&)> wanted;
+    std::uint64_t mostTicks = 0;
+    std::uint64_t serial = 0;
+  };
+  std::optional<Skip> skip;
+  std::uint64_t skips = 0;
   std::shared_ptr<const MatchFrame> latest;
   std::deque<MatchEvent> events;
   std::deque<LogLine> log;
@@ -121,6 +128,7 @@ class MatchLoop {
   bool carryOutCommands();
   /// Plays what is due; says when to look again.
   Clock::time_point play(Clock::time_point now);
+  MatchPlayer::Played playUntil(const MatchRunner::Shared::Skip& skip, Clock::time_point now);
   void collectEvents();
   bool refreshesWhileStill() const;
 
@@ -133,6 +141,7 @@ class MatchLoop {
   Clock::time_point m_lastPublish;
   Clock::time_point m_lastPoll;
   std::uint64_t m_serial = 0;
+  std::uint64_t m_skip = 0, m_skipUntil = 0;  // the one that goes on, and its last tick
   bool m_still = false;
   bool m_publishWanted = false;
 };
@@ -197,8 +206,10 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
     m_shared.paused = true;
   }
   const std::optional<std::uint64_t> runTo = m_shared.runTo;
-  const double speed = runTo ? MatchRunner::unlimitedSpeed : m_shared.speed;
-  const bool still = finished || (m_shared.paused && !runTo);
+  if (finished) m_shared.skip.reset();
+  const std::optional<MatchRunner::Shared::Skip> skip = m_shared.skip;
+  const double speed = runTo || skip ? MatchRunner::unlimitedSpeed : m_shared.speed;
+  const bool still = finished || (m_shared.paused && !runTo && !skip);
   if (std::exchange(m_shared.paceChanged, false) || still != m_still) {
     m_player.setSpeed(speed, now);
     m_match.pace().setPlaying(speed, still, now);
@@ -223,10 +234,41 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
   if (still) {
     return refreshesWhileStill() ? now + pollInterval : Clock::time_point::max();
   }
-  const MatchPlayer::Played played = m_player.play(now, runTo.value_or(MatchPlayer::noLastTick));
+  const MatchPlayer::Played played =
+      skip ? playUntil(*skip, now) : m_player.play(now, runTo.value_or(MatchPlayer::noLastTick));
   m_builder.addBusy(played.busy, played.ticks);
   collectEvents();
   return played.next;
+}
+
+// Tick by tick, so that the match stands at what was looked for.
+MatchPlayer::Played MatchLoop::playUntil(const MatchRunner::Shared::Skip& skip,
+                                         Clock::time_point now) {
+  if (std::exchange(m_skip, skip.serial) != skip.serial) {
+    collectEvents();  // what has happened before is not what is looked for
+    m_skipUntil = m_player.currentTick() + skip.mostTicks;
+  }
+  MatchPlayer::Played all{0, {}, now};
+  while (Clock::now() - now < frameInterval) {
+    const MatchPlayer::Played played = m_player.play(now, m_player.currentTick() + 1);
+    all.ticks += played.ticks;
+    all.busy += played.busy;
+    all.next = played.next;
+    m_player.tellEvents();
+    const bool found = std::ranges::any_of(m_newEvents->list, skip.wanted);
+    const bool over = found || m_player.currentTick() >= m_skipUntil || m_match.finished();
+    collectEvents();
+    if (over) {
+      const std::lock_guard lock(m_shared.mutex);
+      if (!m_shared.skip || m_shared.skip->serial != skip.serial) break;
+      m_shared.skip.reset();
+      m_shared.paceChanged = true;
+      m_publishWanted = true;
+      break;
+    }
+    if (played.ticks == 0) break;
+  }
+  return all;
 }
 
 void MatchLoop::collectEvents() {
@@ -262,7 +304,7 @@ void MatchLoop::publish() {
   std::shared_ptr<const MatchFrame> replaced = frame;
   {
     const std::lock_guard lock(m_shared.mutex);
-    frame->paused = m_shared.paused && !m_shared.runTo;
+    frame->paused = m_shared.paused && !m_shared.runTo && !m_shared.skip;
     frame->droppedEvents = m_shared.droppedEvents;
     frame->droppedLogLines = m_shared.droppedLogLines;
     replaced.swap(m_shared.latest);
@@ -315,6 +357,7 @@ void MatchRunner::setPaused(bool paused) {
   const std::lock_guard lock(m_shared->mutex);
   m_shared->paused = paused;
   m_shared->runTo.reset();
+  m_shared->skip.reset();
   m_shared->paceChanged = true;
   m_shared->settled = false;
   m_shared->changed.notify_all();
@@ -324,6 +367,7 @@ void MatchRunner::stepOnce() {
   const std::lock_guard lock(m_shared->mutex);
   m_shared->paused = true;
   m_shared->runTo.reset();
+  m_shared->skip.reset();
   ++m_shared->singleSteps;
   m_shared->settled = false;
   m_shared->changed.notify_all();
@@ -340,6 +384,16 @@ void MatchRunner::setSpeed(double timesRealTime) {
 void MatchRunner::runTo(std::uint64_t tick) {
   const std::lock_guard lock(m_shared->mutex);
   m_shared->runTo = tick;
+  m_shared->skip.reset();
+  m_shared->paceChanged = true;
+  m_shared->settled = false;
+  m_shared->changed.notify_all();
+}
+
+void MatchRunner::skip(std::function<bool(const MatchEvent&)> wanted, std::uint64_t mostTicks) {
+  const std::lock_guard lock(m_shared->mutex);
+  m_shared->skip = Shared::Skip{std::move(wanted), mostTicks, ++m_shared->skips};
+  m_shared->runTo.reset();
   m_shared->paceChanged = true;
   m_shared->settled = false;
   m_shared->changed.notify_all();

@@ -14,7 +14,7 @@ struct PenaltyRow {
   std::array<int, 5> codes;  // by PenaltyDialect
 };
 
-// The nearest that a version has. Sources: REFEREE.md, gamecontroller.md "Values".
+// The nearest that a version has. Source: docs/reference/gamecontroller.md, "Values".
 constexpr std::array<PenaltyRow, 17> penalties{{
     {Kind::BallManipulation, {1, 30, 1, 8, 9}},
     {Kind::Pushing, {2, 31, 2, 9, 10}},

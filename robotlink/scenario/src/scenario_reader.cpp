@@ -30,8 +30,8 @@ constexpr std::size_t mostFileBytes = 1024 * 1024;
 /// The default first, as in choosers.
 const std::vector<std::string_view>& builtInNames() {
   static const auto all =
-      resourceNames("scenarios", {"match", "match-3v3", "published-match-3v3", "scenario-1",
-                                  "scenario-2", "one-robot", "match-11v11", "empty"});
+      resourceNames("scenarios", {"match", "kick-off", "match-3v3", "published-match-3v3",
+                                  "scenario-1", "scenario-2", "one-robot", "match-11v11", "empty"});
   return all;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double touchMargin = 0.012;   // m between two bodies that touch
 constexpr double contactMargin = 0.02;  // m, robots
-constexpr double pushersReach = 2.0;    // m to the ball (REFEREE.md section 7)
+constexpr double pushersReach = 2.0;    // m to the ball
 constexpr double pushersLead = 0.1;     // m that the pushed one is nearer to the ball
 constexpr double pushingSpeed = 0.05;   // m/s towards the other, that its gait asks for
 constexpr double immunity = 2.0;        // s after a pushing was given

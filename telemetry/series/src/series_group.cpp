@@ -10,10 +10,19 @@ Group::Group(std::shared_ptr<const Layout> layout) {
   empty();
 }
 
+Group::Group(std::shared_ptr<const State> state) : m_next(*state), m_state(std::move(state)) {
+  countBytes();
+}
+
+std::unique_ptr<Group> Group::branch() const {
+  const std::lock_guard lock(m_mutex);
+  return std::unique_ptr<Group>(new Group(m_state));
+}
+
 Group::Put Group::put(const RowView& row) {
   const std::lock_guard lock(m_write);
   const Layout& layout = *m_next.layout;
-  if (!std::isfinite(row.time) || row.words.size() != layout.words ||
+  if (!m_staging || !std::isfinite(row.time) || row.words.size() != layout.words ||
       row.values.size() != layout.values) {
     return Put::Refused;
   }
@@ -44,7 +53,7 @@ void Group::addBlock() {
 }
 
 void Group::countBytes() {
-  m_bytes = m_staging->bytes;
+  m_bytes = m_next.staging->bytes;
   for (const Unit& unit : *m_next.full) m_bytes += unit.chunk->bytes();
   for (const Unit& unit : m_next.blocks) m_bytes += unit.chunk->bytes();
 }

@@ -6,6 +6,7 @@
 // and a new state is published under a lock that is held for a pointer's exchange. Private to the
 // library.
 
+#include <memory>
 #include <mutex>
 
 #include "series_view.h"
@@ -15,6 +16,9 @@ namespace pitchboard::telemetry::series {
 class Group {
  public:
   explicit Group(std::shared_ptr<const Layout> layout);
+
+  /// A copy for reading: it shares the rows so far, and put() refuses. Any thread.
+  std::unique_ptr<Group> branch() const;
 
   // The group's writer thread.
   enum class Put { Done, BlockFull, GoesBack, Refused };
@@ -39,14 +43,15 @@ class Group {
   std::shared_ptr<const View> view() const;
 
  private:
+  explicit Group(std::shared_ptr<const State> state);
   void addBlock();
   void empty();
   void publish();
   void countBytes();
   void newStaging();
 
-  std::mutex m_write;  // of m_staging, m_lastTime, m_any; after the structure lock
-  std::shared_ptr<Staging> m_staging;
+  std::mutex m_write;                  // of m_staging, m_lastTime, m_any; after the structure lock
+  std::shared_ptr<Staging> m_staging;  // null: for reading
   State m_next;  // what is published next; layout and staging under m_write too
   std::size_t m_bytes = 0;
   double m_lastTime = 0.0;

@@ -163,6 +163,19 @@ void SeriesStore::rewind(double time) {
   m_impl->account();
 }
 
+std::shared_ptr<const SeriesStore> SeriesStore::branch() const {
+  auto copy = std::make_shared<SeriesStore>(SeriesOptions{m_impl->budget.load()});
+  const std::lock_guard structure(m_impl->structure);
+  const std::shared_lock list(m_impl->listMutex);
+  for (const auto& group : m_impl->groups) copy->m_impl->groups.push_back(group->branch());
+  copy->m_impl->replaced = m_impl->replaced;
+  copy->m_impl->wasCalled = m_impl->wasCalled;
+  copy->m_impl->pages = m_impl->pages;
+  copy->m_impl->revision = m_impl->revision.load();
+  copy->m_impl->account();
+  return copy;
+}
+
 std::uint64_t SeriesStore::groupsRevision() const {
   return m_impl->revision.load();
 }

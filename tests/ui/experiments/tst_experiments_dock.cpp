@@ -73,7 +73,68 @@ class TestExperimentsDock : public QObject {
   void errorIsSaidWhereTheFileIs();
   void cancelKeepsWhatIsThere();
   void opensOnAForm();
+  void theFormEditsTheFile();
 };
+
+// Seed, runs and conditions; everything else stays as it was.
+void TestExperimentsDock::theFormEditsTheFile() {
+  Dock dock;
+  dock.write("2", 7);
+  auto* edit = dock.find<QPlainTextEdit>("experimentText");
+  const auto file = [edit] {
+    return QJsonDocument::fromJson(edit->toPlainText().toUtf8()).object();
+  };
+  const QJsonObject before = file();
+  QCOMPARE(before[QStringLiteral("runs")].toInt(), 7);
+  auto* seed = dock.find<QLineEdit>("experimentSeed");
+  seed->setFocus();
+  seed->selectAll();
+  QTest::keyClicks(seed, "4711");
+  QTest::keyClick(seed, Qt::Key_Return);
+  QCOMPARE(file()[QStringLiteral("seed")].toInt(), 4711);
+  auto* conditions = dock.find<QTableWidget>("experimentConditions");
+  const auto listed = [&] { return file()[QStringLiteral("conditions")].toArray(); };
+  const auto conditionIn = [&](int row) { return listed()[row].toObject(); };
+  const auto setOf = [&](int row, const char* key) {
+    const QJsonObject set = conditionIn(row)[QStringLiteral("set")].toObject();
+    return set[QLatin1String(key)].toString();
+  };
+  const auto type = [&](int row, int column, const char* words) {
+    conditions->setCurrentCell(row, column);
+    conditions->editItem(conditions->item(row, column));
+    auto* editor = conditions->findChild<QLineEdit*>();
+    QVERIFY(editor);
+    editor->setText(QString::fromUtf8(words));
+    QTest::keyClick(editor, Qt::Key_Return);
+    QTRY_VERIFY(!conditions->findChild<QLineEdit*>());
+  };
+  type(1, 0, "loud");
+  QTRY_COMPARE(conditionIn(1)[QStringLiteral("name")].toString(), QStringLiteral("loud"));
+  type(1, 1, "noise = none, physics=published");
+  QTRY_COMPARE(setOf(1, "physics"), QStringLiteral("published"));
+  QTRY_COMPARE(conditions->item(1, 1)->text(), QStringLiteral("noise = none, physics = published"));
+  // What cannot be played is said, and neither the form nor the file loses anything.
+  type(1, 1, "noise = thunder");
+  QTRY_VERIFY2(dock.words().contains(QStringLiteral("thunder")), qPrintable(dock.words()));
+  QCOMPARE(conditions->item(1, 1)->text(), QStringLiteral("noise = thunder"));
+  QCOMPARE(setOf(1, "noise"), QStringLiteral("none"));
+  type(1, 1, "noise");
+  QTRY_VERIFY2(dock.words().contains(QStringLiteral("key = value")), qPrintable(dock.words()));
+  type(1, 1, "");
+  QTRY_VERIFY(!conditionIn(1).contains(QStringLiteral("set")));
+  QVERIFY(dock.words().isEmpty());
+  QTest::mouseClick(dock.find<QPushButton>("addCondition"), Qt::LeftButton);
+  QTRY_COMPARE(listed().size(), 3);
+  QCOMPARE(dock.find<QLabel>("experimentAllRuns")->text(),
+           QStringLiteral("per condition, 21 in all"));
+  conditions->setCurrentCell(2, 0);
+  QTest::mouseClick(dock.find<QPushButton>("removeCondition"), Qt::LeftButton);
+  QTRY_COMPARE(listed().size(), 2);
+  QJsonObject after = file();
+  for (const char* key : {"seed", "conditions"})
+    after[QLatin1String(key)] = before[QLatin1String(key)];
+  QCOMPARE(after, before);
+}
 
 void TestExperimentsDock::opensOnAForm() {
   Dock dock;
@@ -102,11 +163,11 @@ void TestExperimentsDock::playsAndShowsResults() {
   Dock dock;
   QVERIFY(dock.find<QComboBox>("experimentChoice")->count() >= 7);
   auto* noRuns = dock.find<QLabel>("experimentTableEmpty");
-  QCOMPARE(noRuns->text(), QStringLiteral("No results yet. Start plays the experiment."));
+  QCOMPARE(noRuns->text(), QStringLiteral("No results yet. Press Start to play the experiment."));
   dock.write("2", 3);
   dock.press();
   QCOMPARE(dock.start(), QStringLiteral("Cancel"));
-  QVERIFY(noRuns->text().startsWith(QStringLiteral("The runs are being played.")));
+  QVERIFY(noRuns->text().startsWith(QStringLiteral("Playing the runs.")));
   QTRY_COMPARE_WITH_TIMEOUT(dock.start(), QStringLiteral("Start"), 60000);
   QVERIFY(noRuns->isHidden());
   QVERIFY(dock.find<QLabel>("experimentDistributionEmpty")->isHidden());
@@ -116,6 +177,9 @@ void TestExperimentsDock::playsAndShowsResults() {
   QCOMPARE(runs->rowCount(), 6);
   QCOMPARE(runs->index(4, 1).data().toString(), QStringLiteral("noisy"));
   QCOMPARE(runs->index(4, 2).data().toString(), QStringLiteral("2"));
+  QCOMPARE(runs->headerData(3, Qt::Horizontal).toString(), QStringLiteral("Score"));
+  QCOMPARE(runs->index(4, 3).data().toString(), QStringLiteral("0 : 0"));
+  QCOMPARE(runs->index(4, 4).data().toString(), QStringLiteral("yes"));
   QVERIFY(dock.table("experimentMeasured")->rowCount() >= 4);
   QCOMPARE(dock.table("experimentAssertions")->index(0, 0).data().toString(),
            QStringLiteral("yes"));

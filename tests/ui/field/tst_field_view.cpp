@@ -137,7 +137,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     m_view->select({blue(1)});
     const Pose before = pose(1);  // faces right: the handle lies to the right of the robot
     const double scale = m_canvas->transform().m11();
-    const int reach = static_cast<int>(std::lround(std::max(0.13 * scale, 5.0) * 1.7 + 18));
+    const int reach = static_cast<int>(std::lround(std::max(0.13 * scale, 9.0) * 1.7 + 18));
     const QPoint centre = at(before.position);
     drag(centre + QPoint(reach, 0), centre + QPoint(0, reach));
     QTRY_VERIFY(std::abs(wrapToPi(pose(1).yaw + radiansFromDegrees(90))) < 0.06);

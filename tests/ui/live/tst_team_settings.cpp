@@ -152,7 +152,7 @@ class TestTeamSettings : public QObject {
              cell(1, 3) == QStringLiteral("R5 (Ours)");
     };
     QTRY_VERIFY(arrives());
-    QVERIFY(cell(0, 4).contains(QStringLiteral("no team sends from there to this port")));
+    QVERIFY(cell(0, 4).contains(QStringLiteral("no team has this sender and port")));
     QVERIFY(d.live.options().team.teams.empty());
   }
 
@@ -177,6 +177,26 @@ class TestTeamSettings : public QObject {
     QVERIFY(loaded);
     QCOMPARE(loaded->fields.back().name, std::string("TEMPERATURE"));
     QCOMPARE(*loaded, editor.profile());
+    // Numbers, words of codes, and the frame of poses.
+    enum { Scale = 3, Offset = 4, Labels = 7 };
+    table->item(15, Scale)->setText(QStringLiteral("0.1"));
+    table->item(15, Offset)->setText(QStringLiteral("-40"));
+    table->item(15, Labels)->setText(QStringLiteral("0 = cold, 1=hot"));
+    editor.findChild<QComboBox*>(QStringLiteral("frameOrigin"))->setCurrentIndex(1);
+    const telemetry::Profile edited = editor.profile();
+    QCOMPARE(edited.fields.back().scale, 0.1);
+    QCOMPARE(edited.fields.back().offset, -40.0);
+    QCOMPARE(edited.fields.back().labels,
+             (std::map<std::int32_t, std::string>{{0, "cold"}, {1, "hot"}}));
+    QVERIFY(edited.frame.centre);
+    table->item(15, Labels)->setText(QStringLiteral("cold"));
+    QVERIFY2(problem->text().contains(QStringLiteral("0 = stop")), qPrintable(problem->text()));
+    QVERIFY(!editor.saveTo(folder.filePath(QStringLiteral("q.json"))));
+    table->item(15, Labels)->setText({});
+    table->item(15, Scale)->setText(QStringLiteral("1"));
+    table->item(15, Offset)->setText(QStringLiteral("0"));
+    editor.findChild<QComboBox*>(QStringLiteral("frameOrigin"))->setCurrentIndex(0);
+    QCOMPARE(editor.profile(), *loaded);
     click("fieldUp");
     QCOMPARE(editor.profile().fields[14].name, std::string("TEMPERATURE"));
     click("fieldDown");
@@ -191,7 +211,7 @@ class TestTeamSettings : public QObject {
     click("removeField");
     QCOMPARE(editor.profile(), telemetry::publishedProfile());
     QVERIFY(!editor.saveTo(QStringLiteral("/nonexistent/folder/p.json")));
-    QVERIFY(problem->text().contains(QStringLiteral("cannot be written")));
+    QVERIFY(problem->text().contains(QStringLiteral("Could not write")));
   }
 
   void theEditorKeepsWhatItDoesNotShow() {

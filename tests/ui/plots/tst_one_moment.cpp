@@ -51,7 +51,7 @@ struct Bench {
   SourceSwitch shown{&source};
   LinkedTime time;
   Timeline timeline{&shown};
-  TimelineActions actions{&timeline, &time, nullptr};
+  TimelineActions actions{&timeline, &time, nullptr, nullptr};
   telemetry::GroupId group = source.fill("B1", 30.0);
   std::unique_ptr<PlotsDock> dock;
   ChartPane* chart = nullptr;

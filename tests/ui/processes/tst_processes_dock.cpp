@@ -3,6 +3,7 @@
 // and killed by the mouse, one that is stopped by a signal is shown, and who goes on while the
 // match stands still is told.
 #include <QContextMenuEvent>
+#include <QLabel>
 #include <QMenu>
 #include <QProcess>
 #include <QPushButton>
@@ -21,6 +22,7 @@
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
 
+#include "../support/real_time_robot.h"
 #include "../support/segment_keys.h"
 #include "processes_model.h"
 
@@ -191,7 +193,10 @@ class TestProcessesDock : public QObject {
     QVERIFY2(m_told.isEmpty(), qPrintable(m_told.join(QLatin1Char('\n'))));
 
     // Nothing while the past is shown.
+    auto* asNow = m_dock->findChild<QLabel*>("processesAsNow");
+    QVERIFY(!asNow->isVisible());
     m_controller->edits()->setLocked(true);
+    QTRY_VERIFY(asNow->isVisible());
     const pid_t last = process("decision").pid;
     choose("decision", QStringLiteral("Stop decision of B1"));
     choose("decision", QStringLiteral("Restart decision of B1"));
@@ -305,7 +310,8 @@ class TestProcessesDock : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame()->robots[0].ofOthers, 30'000);
     m_controller->setPaused(true);
     QCOMPARE(m_told.size(), 1);
-    QVERIFY2(m_told.front().startsWith(QStringLiteral("The processes of B1 were not started here")),
+    QVERIFY2(m_told.front().startsWith(
+                 QStringLiteral("The processes of B1 were not started by this match")),
              qPrintable(m_told.front()));
     m_controller->setPaused(false);
     m_controller->setSpeed(5.0);
@@ -316,12 +322,7 @@ class TestProcessesDock : public QObject {
   // At another speed than ×1 its clock is not the match's.
   void whoKeepsRealTimeIsToldWhenTheSpeedChanges() {
     const QTemporaryDir folder;
-    QFile profile(folder.filePath(QStringLiteral("own.json")));
-    QVERIFY(profile.open(QIODevice::WriteOnly));
-    profile.write(R"({"version": 1, "name": "own", "processes": [{"name": "decision",
-      "command": ["/bin/sleep", "600"], "clock": "real"}]})");
-    profile.close();
-    open(oneRobot(profile.fileName()));
+    open(oneRobot(realTimeProfile(folder)));
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
     QVERIFY(m_told.isEmpty());
     m_controller->answerSpeed(8.0, MatchController::RealTimePrograms::LeaveBehind);

@@ -244,7 +244,6 @@ class TestRefereePanel : public QObject {
       is(qPrintable("Timeout " + at), {.kind = CallKind::Timeout, .team = team});
     }
     is("Give", {.kind = CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::DirectFreeKick});
-    is("Next step", {.kind = CallKind::NextStep});
     const RobotId robot = desk.frame().robots[1].slot();
     is("Penalise",
        {.kind = CallKind::Penalise, .robot = robot, .penalty = sim::PenaltyKind::Incapable});
@@ -258,6 +257,39 @@ class TestRefereePanel : public QObject {
         QVERIFY2(whyRefused(&desk.frame(), *step.call).isEmpty(), qPrintable(step.text));
     }
     QVERIFY(desk.errors.isEmpty());
+  }
+
+  // Docked in a small window, and as high as it stands beside the field.
+  void noWordIsCut_data() {
+    QTest::addColumn<QSize>("size");
+    QTest::newRow("docked") << QSize(320, 480);
+    QTest::newRow("floating") << QSize(416, 500);
+  }
+  void noWordIsCut() {
+    QFETCH(QSize, size);
+    Desk desk;
+    desk.dock->resize(scaled(desk.dock.get(), size.width()),
+                      scaled(desk.dock.get(), size.height()));
+    desk.reach("PLAYING");
+    for (const auto* button : desk.dock->findChildren<QPushButton*>()) {
+      if (!button->isVisible()) continue;
+      const int words = button->fontMetrics().horizontalAdvance(button->text());
+      QVERIFY2(button->width() >= words + 6, qPrintable(button->text()));
+    }
+    for (const auto* box : desk.dock->findChildren<QComboBox*>()) {
+      if (!box->isVisible()) continue;
+      const int words = box->fontMetrics().horizontalAdvance(box->currentText());
+      QVERIFY2(box->width() >= words + scaled(box, 22), qPrintable(box->currentText()));
+    }
+    for (const bool right : {false, true}) {
+      const QTableView* players = desk.players(right);
+      const QFontMetrics metrics(players->font());
+      QVERIFY(players->columnWidth(RefereeModel::State) >=
+              metrics.horizontalAdvance(QStringLiteral("plays")) + 6);
+    }
+    // The log is there without scrolling.
+    const auto* log = desk.dock->findChild<QTableView*>("refereeLog");
+    QVERIFY(log && log->visibleRegion().boundingRect().height() >= scaled(log, 72));
   }
 
   void aGoalAndTheScoreboard() {
@@ -274,6 +306,19 @@ class TestRefereePanel : public QObject {
     QTRY_COMPARE(scoreboardOf(desk.frame()).left, 0);
     QTRY_COMPARE(desk.frame().snapshot.ball, (Point{2.0, 1.0}));
     QCOMPARE(desk.state(), QString("PLAYING"));
+  }
+
+  void theScoreboardTellsGoalsByHalf() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    link::MatchFrame frame = desk.frame();
+    QVERIFY(!scoreboardOf(frame).tip.contains("By half"));
+    const auto later = std::make_shared<link::RefereeDesk>(*frame.desk);
+    later->game.half = 2;
+    later->game.teams[0].byHalf = {1, 2, 0, 0};
+    later->game.teams[1].byHalf = {0, 1, 0, 0};
+    frame.desk = later;
+    QVERIFY(scoreboardOf(frame).tip.endsWith("By half: 1 : 0, 2 : 1"));
   }
 
   void aPenaltyOfAChosenRobot() {

@@ -3,6 +3,7 @@
 
 #include <QAbstractScrollArea>
 #include <QDockWidget>
+#include <QGraphicsView>
 #include <QTabBar>
 #include <QToolBar>
 #include <QToolButton>
@@ -13,6 +14,7 @@
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/session_recording.h>
 
+#include "field_scene.h"
 #include "geometry.h"
 #include "plot_page.h"
 #include "plot_pane.h"
@@ -50,6 +52,22 @@ class TestGeometry : public QObject {
     QCOMPARE(s.window.size(), size);
     // Wider than the panels beside it together.
     QVERIFY2(canvas->width() >= 0.45 * size.width(), qPrintable(QString::number(canvas->width())));
+  }
+
+  void robotsAreAtLeast18Pixels_data() {
+    QTest::addColumn<QString>("scenario");
+    for (const char* name : {"kick-off", "match-11v11"}) QTest::newRow(name) << QString(name);
+  }
+  void robotsAreAtLeast18Pixels() {
+    QFETCH(QString, scenario);
+    Studio s({1280, 800});
+    s.controller.open(link::loadScenario(scenario.toStdString()).value(), true);
+    QTRY_VERIFY(s.controller.frame());
+    const auto* canvas = s.window.field()->findChild<QGraphicsView*>();
+    const auto* scene = static_cast<FieldScene*>(canvas->scene());
+    const double radius = scene->radius(s.controller.frame()->robots[0].key);
+    const double wide = 2 * scene->style().drawRadius(radius) * canvas->transform().m11();
+    QVERIFY2(wide >= scaled(canvas, 18) - 0.5, qPrintable(QString::number(wide)));
   }
 
   void theRoomFollowsTheWindow() {
@@ -155,6 +173,64 @@ class TestGeometry : public QObject {
     QCoreApplication::processEvents();
     QCOMPARE(places(), before);
     for (const QRect& place : before) QVERIFY(bar->rect().contains(place));
+  }
+
+  // Nothing of the tool bar is behind », in no mode, in the smallest window that is promised.
+  void theWholeBarIsSeen_data() {
+    QTest::addColumn<SourceKind>("kind");
+    QTest::newRow("Simulate") << SourceKind::Simulate;
+    QTest::newRow("Live") << SourceKind::Live;
+    QTest::newRow("Replay") << SourceKind::Replay;
+  }
+  void theWholeBarIsSeen() {
+    QFETCH(SourceKind, kind);
+    Studio s({960, 600});
+    s.play();
+    s.window.showSource(kind);
+    auto* bar = s.find<QToolBar>("transportBar");
+    auto* score = s.find<Scoreboard>("scoreboard");
+    QCoreApplication::processEvents();
+    const auto* more = bar->findChild<QToolButton*>("qt_toolbar_ext_button");
+    QTRY_VERIFY(more->isHidden());
+    QStringList needed{"restart", "play", "step"};
+    for (QWidget* one : bar->findChildren<QWidget*>()) {
+      if (one->isHidden() || !one->isVisible() || score == one) continue;
+      const QRect place(one->mapTo(bar, QPoint()), one->size());
+      QVERIFY2(place.right() <= score->geometry().left(), qPrintable(one->objectName()));
+      if (auto* button = qobject_cast<QToolButton*>(one); button && button->defaultAction())
+        needed.removeAll(button->defaultAction()->objectName());
+    }
+    QVERIFY2(needed.isEmpty(), qPrintable(needed.join(QLatin1Char(' '))));
+    const auto seen = [&s](const char* name) { return s.find<QWidget>(name)->isVisible(); };
+    if (kind == SourceKind::Simulate) QVERIFY(seen("skip") && seen("record"));
+    if (kind == SourceKind::Live)
+      QVERIFY(seen("livePorts") && seen("ourTeam") && seen("monitorMode") && seen("record"));
+  }
+
+  void experimentsHaveRoomWhileTheyAreOpen() {
+    Studio s({1280, 800});
+    s.play();
+    auto* dock = s.find<QDockWidget>("experiments");
+    dock->toggleViewAction()->trigger();
+    const auto* form = s.find<QAbstractScrollArea>("experimentForm");
+    QTRY_VERIFY2(form->isVisible() && form->viewport()->height() >= scaled(form, 140),
+                 qPrintable(QString::number(form->viewport()->height())));
+    dock->close();
+    QTRY_COMPARE(s.find<QDockWidget>("plots")->height(), extentsFor({1280, 800}).bottom);
+  }
+
+  void equalWindowsHaveEqualPanels() {
+    for (const bool live : {false, true}) {
+      Studio s({1280, 800});
+      if (live) s.window.showSource(SourceKind::Live);
+      s.play();
+      if (live) s.window.showSource(SourceKind::Simulate);
+      for (const char* id : {"log", "processes", "plots"}) s.find<QDockWidget>(id)->raise();
+      const auto settled = [&] {
+        return s.find<QDockWidget>("plots")->height() == extentsFor({1280, 800}).bottom;
+      };
+      QTRY_VERIFY2(settled(), qPrintable(QString::number(s.find<QDockWidget>("plots")->height())));
+    }
   }
 
   void theBarOfReplayOffersItsActions() {

@@ -179,6 +179,25 @@ class TestSafeHands : public QObject {
     }
   }
 
+  // A key that is held for a while is one goal.
+  void aHeldKeyCallsOnce() {
+    Studio s;
+    s.controller.open(link::loadScenario("kick-off").value(), true);
+    s.controller.runTo(120);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 120);
+    s.menuAction(QStringLiteral("Referee"))->trigger();
+    s.window.activateWindow();
+    s.window.field()->setFocus();
+    constexpr Qt::KeyboardModifiers keys = Qt::ControlModifier | Qt::AltModifier;
+    QTest::simulateEvent(&s.window, true, Qt::Key_1, keys, {}, false);
+    for (int i = 0; i < 20; ++i) QTest::simulateEvent(&s.window, true, Qt::Key_1, keys, {}, true);
+    QTest::simulateEvent(&s.window, false, Qt::Key_1, keys, {}, false);
+    QTRY_COMPARE(s.controller.frame()->snapshot.score.left, 1);
+    s.controller.settle();
+    QTRY_COMPARE(s.controller.edits()->undoStack()->count(), 1);
+    QCOMPARE(s.controller.frame()->snapshot.score.left, 1);
+  }
+
   // Undo brings the match back with its game, its rows and its events, and it can be left again.
   void whatEndsAMatchIsUndone_data() {
     QTest::addColumn<QString>("how");
@@ -289,7 +308,7 @@ class TestSafeHands : public QObject {
     // What the match refuses is no step.
     heavy.ballMass = -1.0;
     s.controller.edits()->setRigidBody(heavy);
-    QTRY_VERIFY2(s.window.notices()->text().contains("The physics stays as it was"),
+    QTRY_VERIFY2(s.window.notices()->text().contains("Could not change the physics"),
                  qPrintable(s.window.notices()->text()));
     QCOMPARE(stack->index(), 0);
 
@@ -365,7 +384,7 @@ class TestSafeHands : public QObject {
     }
     lookBack();
     s.window.field()->select({blue(1)});
-    for (const char* text : {"Seed", "Robots decide", "Match number", "Reset score", "Speed",
+    for (const char* text : {"Seed", "Run robot processes", "Match number", "Reset score", "Speed",
                              "Game clock runs", "Undo"}) {
       QAction* action = s.menuAction(QString::fromUtf8(text));
       if (action != nullptr) QVERIFY2(!action->isEnabled(), text);
@@ -429,8 +448,7 @@ class TestSafeHands : public QObject {
     QCOMPARE(dock->cards().size(), qsizetype(5));
 
     whenMenuOpens([](QMenu* menu) {
-      QAction* entry =
-          menu_entry::called(menu->actions(), QStringLiteral("In a window of its own"));
+      QAction* entry = menu_entry::called(menu->actions(), QStringLiteral("Open in a window"));
       QVERIFY(entry);
       entry->trigger();
     });

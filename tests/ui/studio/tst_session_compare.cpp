@@ -4,11 +4,13 @@
 #include <QGraphicsView>
 #include <QMenu>
 #include <QToolButton>
+#include <utility>
 
 #include <telemetry/session/session_writer.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/compared_session.h>
+#include <ui/sources/playback.h>
 
 #include "chart_pane.h"
 #include "compared_item.h"
@@ -81,6 +83,18 @@ PlotLayout everyKind() {
   xy.curves[0].inputs << "B1/Y";
   return {{PageSpec{"one", {chart, lane, xy}}}, 0};
 }
+
+/// The long session in a studio whose memory is too small for it.
+struct LargeSession : Studio {
+  QTemporaryDir files;
+  LargeSession() : Studio(0) {
+    window.setMemoryBudget(1);
+    plots()->setLayoutSpec(everyKind());
+    window.openSession(longSession(files));
+  }
+  PlotsDock* plots() { return window.findChild<PlotsDock*>(); }
+  bool isRead() const { return window.replay()->isOpen() && window.replay()->loaded() == 1.0; }
+};
 
 }  // namespace
 
@@ -332,14 +346,97 @@ class TestSessionCompare : public QObject {
     QTRY_COMPARE(legend->entries().value(0).value, valueText(distanceIn(456 * 50)));
   }
 
-  void anEnvelopeIsMarkedAndCompletesByItself() {
-    QTemporaryDir folder;
-    Studio s(0);
-    s.window.setMemoryBudget(1);
+  // Field, cards, variables and plots of a moment, whichever way somebody came to it.
+  void everyWayToAMomentLooksTheSame_data() {
+    QTest::addColumn<QString>("way");
+    for (const char* way : {"click", "drag", "keys", "seconds", "events", "play"}) {
+      QTest::newRow(way) << QString(way);
+    }
+  }
+  void everyWayToAMomentLooksTheSame() {
+    QFETCH(QString, way);
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(300);
+    QVERIFY(!path.isEmpty());
+    s.window.openSession(path);
+    QTRY_VERIFY(s.window.timeline()->isRecording() && s.window.replay()->loaded() == 1.0);
+    session_rig::closeNotice(s.window);
+    Timeline* timeline = s.window.timeline();
     auto* plots = s.window.findChild<PlotsDock*>();
-    plots->setLayoutSpec(everyKind());
-    s.window.openSession(longSession(folder));
-    QTRY_VERIFY(s.window.replay()->isOpen() && s.window.replay()->loaded() == 1.0);
+    auto* strip = s.window.findChild<TimelineStrip*>();
+    const auto press = [&s](int key, Qt::KeyboardModifiers keys = {}) {
+      QTest::keyClick(&s.window, static_cast<Qt::Key>(key), keys);
+    };
+    const auto pictures = [&] {
+      // The same stretch of time, however far somebody has scrolled on the way.
+      plots->time()->setRange(*timeline->available());
+      std::vector<QImage> all;
+      for (QWidget* one :
+           {static_cast<QWidget*>(s.window.field()), static_cast<QWidget*>(plots->currentPage()),
+            s.window.findChild<QWidget*>("robots"), s.window.findChild<QWidget*>("variables")}) {
+        all.push_back(one->grab().toImage());
+      }
+      return all;
+    };
+    const auto at = [strip](double time) {
+      return QPoint(qRound(strip->axis().pixel(time)), strip->height() - 4);
+    };
+    timeline->seek(11.0);
+    s.window.activateWindow();
+    s.window.field()->setFocus();
+    if (way == "click") {
+      QTest::mouseClick(strip, Qt::LeftButton, {}, at(13.0));
+    } else if (way == "drag") {
+      QTest::mousePress(strip, Qt::LeftButton, {}, at(10.5));
+      for (const double time : {11.0, 12.0, 14.0, 13.0}) {
+        const QPointF to = at(time);
+        QMouseEvent move(QEvent::MouseMove, to, strip->mapToGlobal(to), Qt::NoButton,
+                         Qt::LeftButton, {});
+        QApplication::sendEvent(strip, &move);
+      }
+      QTest::mouseRelease(strip, Qt::LeftButton, {}, at(13.0));
+    } else if (way == "keys") {
+      for (int i = 0; i < 5; ++i) press(Qt::Key_Right);
+      press(Qt::Key_Left);
+    } else if (way == "seconds") {
+      press(Qt::Key_Right, Qt::ShiftModifier);
+      press(Qt::Key_Right, Qt::ShiftModifier);
+      press(Qt::Key_Left, Qt::ShiftModifier);
+    } else if (way == "events") {
+      press(Qt::Key_N, Qt::ShiftModifier);
+      press(Qt::Key_N);
+      press(Qt::Key_N);
+    } else {
+      press(Qt::Key_Space);
+      QTRY_VERIFY(timeline->shownTime() > 11.4);
+      press(Qt::Key_Space);
+      QVERIFY(timeline->playback()->isPaused());
+    }
+    const double time = timeline->shownTime();
+    QVERIFY2(time != 11.0, qPrintable(QString::number(time)));
+    s.window.field()->setFocus();
+    // Once what is read on other threads has come.
+    const auto arrived = [&] {
+      const FramePtr frame = timeline->frame();
+      return frame && std::abs(frame->snapshot.time - time) < 0.02;
+    };
+    QTRY_VERIFY(arrived());
+    std::vector<QImage> first = pictures();
+    QTRY_VERIFY(std::exchange(first, pictures()) == first);
+    timeline->seek(14.5);
+    QTRY_VERIFY(pictures() != first);
+    timeline->seek(time);
+    QTRY_VERIFY(arrived());
+    std::vector<QImage> again;
+    const auto same = [&] { return (again = pictures()) == first; };
+    QTRY_VERIFY2(same(), qPrintable(way));
+  }
+
+  void anEnvelopeIsMarkedAndCompletesByItself() {
+    LargeSession s;
+    QTRY_VERIFY(s.isRead());
+    auto* plots = s.plots();
     const auto* pane = s.window.findChild<ChartPane*>();
     plots->time()->setRange({0.0, longSeconds});  // every summary is read
     QTRY_VERIFY(pane->traces()[0].coarse && pane->traces()[0].columns.size() > 100);
@@ -355,13 +452,9 @@ class TestSessionCompare : public QObject {
   }
 
   void theWholeSessionIsMeasured() {
-    QTemporaryDir folder;
-    Studio s(0);
-    s.window.setMemoryBudget(1);
-    auto* plots = s.window.findChild<PlotsDock*>();
-    plots->setLayoutSpec(everyKind());
-    s.window.openSession(longSession(folder));
-    QTRY_VERIFY(s.window.replay()->isOpen() && s.window.replay()->loaded() == 1.0);
+    LargeSession s;
+    QTRY_VERIFY(s.isRead());
+    auto* plots = s.plots();
     plots->time()->setRange({100.0, 110.0});
     plots->time()->showMarks(true);
     auto* panel = plots->currentPage()->marksPanel();

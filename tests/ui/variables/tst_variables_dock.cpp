@@ -9,6 +9,8 @@
 
 #include "../support/robot_keys.h"
 #include "variables_bench.h"
+#include "variables_delegate.h"
+#include "variables_header.h"
 
 namespace tst_variables_dock {
 
@@ -113,6 +115,30 @@ class TestVariablesDock : public QObject {
     QCOMPARE(samples, 601U);
   }
 
+  // In a narrow panel the curve leaves first, then the heading that the name repeats.
+  void namesAreWholeInANarrowPanel() {
+    Bench bench;
+    bench.hand.take(twoRobots(), SourceKind::Simulate);
+    bench.view->openAll();
+    const QHeaderView* header = bench.view->header();
+    bench.view->resize(scaled(bench.view, 400), 400);
+    QTRY_VERIFY(!header->isSectionHidden(VariablesModel::Spark));
+    bench.view->resize(scaled(bench.view, 264), 400);
+    QTRY_VERIFY(header->isSectionHidden(VariablesModel::Spark));
+    const QModelIndex row = bench.model->find(ballDistance);
+    const QFont font = bench.view->font();
+    QCOMPARE(VariablesDelegate::nameFor(row, font, 1000), QStringLiteral("VISION_BALL_DIST"));
+    QCOMPARE(VariablesDelegate::nameFor(row, font, 90), QStringLiteral("BALL_DIST"));
+    QVERIFY(bench.view->columnWidth(VariablesModel::Name) >
+            QFontMetrics(font).horizontalAdvance(QStringLiteral("BALL_DIST")) + 40);
+    // Kept as it was wanted, not as it had to be.
+    auto* kept = static_cast<VariablesHeader*>(bench.view->header());
+    QHeaderView wide(Qt::Horizontal);
+    wide.setModel(bench.model);
+    QVERIFY(wide.restoreState(kept->stateToKeep()));
+    QVERIFY(!wide.isSectionHidden(VariablesModel::Spark));
+  }
+
   void aPastMomentShowsItsOwnValues() {
     VariablesModel model;
     model.setStore(twoRobots(), SourceKind::Replay);
@@ -177,7 +203,7 @@ class TestVariablesDock : public QObject {
     auto* empty = bench.dock->findChild<QLabel*>(QStringLiteral("emptyVariables"));
     QCOMPARE(empty->isVisible(), expected == 0);
     if (expected == 0)
-      QVERIFY(empty->text().contains(QStringLiteral("words")));
+      QVERIFY(empty->text().contains(QStringLiteral("No matching")));
     else
       QVERIFY(bench.view->isExpanded(filter->index(0, 0)));
     box->clear();

@@ -13,6 +13,7 @@ constexpr Drawing drawings[] = {
     {"media-playback-start", "M4 3v16l15-8z"},
     {"media-playback-pause", "M4 3h5v16H4zM13 3h5v16h-5z"},
     {"media-skip-backward", "M3 3h2v16H3zM12 3v16L5 11zM19 3v16l-7-8z"},
+    {"media-seek-forward", "M4 3v16l8-8zM12 3v16l8-8z"},
     {"media-skip-forward", "M17 3h2v16h-2zM10 3v16l7-8zM3 3v16l7-8z"},
     {"document-open", "M2 4h7l2 2h9v12H2zM4 8v8h14V8z"},
     {"document-save", "M3 3h13l3 3v13H3zM7 4v5h7V4zM6 12v6h10v-6z"},

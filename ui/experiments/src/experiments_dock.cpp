@@ -129,6 +129,7 @@ class ExperimentsDock : public QWidget {
     connect(m_tabs, &QTabWidget::currentChanged, this, [this] {
       if (m_tabs->currentWidget() == m_form && m_text->document()->isModified()) showForm();
     });
+    connect(m_form, &ExperimentForm::edited, this, [this] { takeForm(); });
     connect(m_tabs, &ResultsTabs::asked, this, &ExperimentsDock::see);
   }
 
@@ -144,11 +145,10 @@ class ExperimentsDock : public QWidget {
     m_parts.replay->open(sessions.front());
     if (sessions.size() == 1) {
       if (m_parts.compared != nullptr) m_parts.compared->stop();
-      return say(
-          m_shown->experiment.teamPrograms
-              ? QStringLiteral("The run is open in Replay. Own programs do not repeat a run: "
-                               "one that was not recorded was played anew.")
-              : QStringLiteral("The run is open in Replay."));
+      return say(m_shown->experiment.hasTeamPrograms()
+                     ? QStringLiteral("The run is open in Replay. Team programs do not repeat "
+                                      "exactly: a run that was not recorded was played again.")
+                     : QStringLiteral("The run is open in Replay."));
     }
     m_parts.compared->open(sessions.back());
     say(
@@ -161,6 +161,7 @@ class ExperimentsDock : public QWidget {
     if (isError) colours.setColor(QPalette::WindowText, theme().errorText);
     m_words->setPalette(colours);
     m_words->setText(words);
+    m_words->setVisible(!words.isEmpty());
     m_words->setToolTip(words);
   }
 
@@ -168,19 +169,33 @@ class ExperimentsDock : public QWidget {
     const auto loaded = link::loadExperiment(m_choice->currentData().toString().toStdString());
     if (!loaded) return say(QString::fromStdString(loaded.error().text()), true);
     m_text->setPlainText(QString::fromStdString(loaded->text));
-    m_form->show(*loaded);
+    m_form->show(*loaded, link::editsOf(loaded->text).value_or(link::ExperimentEdits()));
     m_text->document()->setModified(false);
-    say(QString::fromStdString(loaded->description));
+    say({});
   }
 
   void showForm() {
-    const auto edited =
-        link::experimentFromJson(m_text->toPlainText().toStdString(), "File", {}, {});
+    const std::string text = m_text->toPlainText().toStdString();
+    const auto edited = link::experimentFromJson(text, "File", {}, {});
     if (edited)
-      m_form->show(*edited);
+      m_form->show(*edited, link::editsOf(text).value_or(link::ExperimentEdits()));
     else
       m_form->showError(QString::fromStdString(edited.error().text()));
     m_text->document()->setModified(false);
+  }
+
+  /// The file says what the form says; what it cannot say stays in the form until it is right.
+  void takeForm() {
+    const auto text = link::withEdits(m_text->toPlainText().toStdString(), m_form->edits());
+    if (!text) return say(QString::fromStdString(text.error().text()), true);
+    const auto experiment = link::experimentFromJson(*text, "File", {}, {});
+    if (!experiment) return say(QString::fromStdString(experiment.error().text()), true);
+    QTextCursor all(m_text->document());
+    all.select(QTextCursor::Document);
+    all.insertText(QString::fromStdString(*text));  // Ctrl+Z in the file takes it back
+    m_text->document()->setModified(false);
+    m_form->show(*experiment, link::editsOf(*text).value_or(link::ExperimentEdits()));
+    say({});
   }
 
   void askAndOpen() {
@@ -194,8 +209,7 @@ class ExperimentsDock : public QWidget {
   /// A file, read again when it was open before.
   void open(const QString& path, bool play) {
     if (m_play->isPlaying()) {
-      return say(QStringLiteral("%1 is not opened while an experiment is being played.").arg(path),
-                 true);
+      return say(QStringLiteral("Cannot open %1 while an experiment is running.").arg(path), true);
     }
     const int known = m_choice->findData(path);
     if (known < 0) m_choice->addItem(QFileInfo(path).completeBaseName(), path);
@@ -225,8 +239,7 @@ class ExperimentsDock : public QWidget {
       m_play->cancel();
       return;
     }
-    auto experiment = link::experimentFromJson(m_text->toPlainText().toStdString(), "File", {},
-                                               {{}, static_cast<std::size_t>(m_form->runs())});
+    auto experiment = link::experimentFromJson(m_text->toPlainText().toStdString(), "File", {}, {});
     if (!experiment) {
       m_tabs->setCurrentWidget(m_text);
       return say(QString::fromStdString(experiment.error().text()), true);

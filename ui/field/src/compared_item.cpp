@@ -41,7 +41,7 @@ QRectF ComparedItem::boundingRect() const {
 
 void ComparedItem::paintRobot(QPainter* painter, const Robot& robot) const {
   const ScreenPainting screen(painter, toScene(robot.pose.position));
-  const double radius = std::max(m_style->field.robotRadius * screen.pixelsPerMetre(), 5.0);
+  const double radius = m_style->robotDrawRadius() * screen.pixelsPerMetre();
   const QColor team = theme().team(robot.team);
   const QColor line = isDarkTheme() ? team.lighter(125) : team.darker(125);
   painter->setPen(QPen(line, 1.6));

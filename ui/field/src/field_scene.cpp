@@ -116,16 +116,19 @@ void FieldScene::showFrame(const FramePtr& frame) {
     showSelected();
     return;
   }
-  if (!(m_style.field == frame->settings->field)) {
-    m_style.field = frame->settings->field;
-    update();
-  }
+  setField(frame->settings->field);
   matchRobots();
   m_ball->setBall(frame->snapshot.ball);
   for (const link::RobotFrame& robot : frame->robots) showRobot(robot);
   showNames();
   showDebugOverlay();
   showSelected();
+}
+
+void FieldScene::setField(const sim::FieldSpec& field) {
+  if (m_style.field == field) return;
+  m_style.field = field;
+  update();
 }
 
 void FieldScene::showNames() {

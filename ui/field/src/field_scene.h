@@ -53,6 +53,8 @@ class FieldScene : public QGraphicsScene {
   }
 
   void showFrame(const FramePtr& frame);
+  /// Before the first frame says so.
+  void setField(const sim::FieldSpec& field);
   const FramePtr& frame() const { return m_frame; }
   /// Another source's view of the same robots, drawn beside this one's; null: none.
   void showOther(const FramePtr& frame);

@@ -25,7 +25,7 @@ QRectF FieldStyle::playingArea() const {
 }
 
 double FieldStyle::robotDrawRadius() const {
-  return atLeast(field.robotRadius, 5.0);
+  return atLeast(field.robotRadius, leastRobot_px());
 }
 
 double FieldStyle::ballDrawRadius() const {

@@ -69,7 +69,11 @@ struct FieldStyle {
   QRectF playingArea() const;      ///< with its border, metres
   double robotDrawRadius() const;  ///< metres; never smaller than a dot that can be hit
   /// The same for a robot of its own size; 0 = the field's.
-  double drawRadius(double own) const { return own > 0.0 ? atLeast(own, 5.0) : robotDrawRadius(); }
+  double drawRadius(double own) const {
+    return own > 0.0 ? atLeast(own, leastRobot_px()) : robotDrawRadius();
+  }
+  /// A number can be read in it and a hand meets it; in a picture for a file it may be smaller.
+  double leastRobot_px() const { return ornaments ? 9.0 : 5.0; }
   double ballDrawRadius() const;  ///< metres
 };
 

@@ -141,7 +141,7 @@ void FieldView::Private::openBallEditor() {
   if (!editor() || !scene->frame()) return;
   const Point ball = scene->ball();
   const Velocity& v = scene->frame()->snapshot.ballVelocity;
-  openEditor({QStringLiteral("Place and speed of the ball"),
+  openEditor({QStringLiteral("Ball position and speed"),
               {ball, std::atan2(v.y, v.x)},
               true,
               std::hypot(v.x, v.y),
@@ -213,6 +213,14 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
     showFrame(source->frame());
   };
   connect(source, &FrameSource::restarted, this, begin);
+  if (controller != nullptr) {
+    // Before its first frame: nobody sees a field of another league.
+    connect(controller, &MatchController::scenarioChanged, this, [this, source, controller] {
+      if (source->kind() != SourceKind::Simulate || source->frame()) return;
+      d->scene->setField(controller->scenario().settings.field);
+      d->canvas->fit();
+    });
+  }
   d->setReadOnly(source->kind() != SourceKind::Simulate);
   d->canvas->setEmptyText([source] {
     const bool open = source->kind() == SourceKind::Simulate && source->frame();

@@ -101,7 +101,7 @@ QRectF OtherPoseItem::boundingRect() const {
 
 void OtherPoseItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
   const ScreenPainting screen(painter, QPointF(0, 0));
-  const double radius = std::max(m_style->field.robotRadius * screen.pixelsPerMetre(), 5.0);
+  const double radius = m_style->robotDrawRadius() * screen.pixelsPerMetre();
   const QColor line = theme().accentLine;
   QPen pen(line, 1.8, Qt::SolidLine, Qt::FlatCap);
   const QPointF robot = screen.pixels(toScene(m_other.here) - toScene(m_other.pose.position));

@@ -49,12 +49,10 @@ class BadMessagesDock : public QStackedWidget {
  private:
   void refresh() {
     m_model->update(m_live->details());
-    m_empty->setText(
-        m_live->isListening()
-            ? QStringLiteral(
-                  "Every message could be used. Messages that cannot be read appear here, "
-                  "with the reason and their text.")
-            : QStringLiteral("Live is not listening. Choose Live in the tool bar."));
+    m_empty->setText(m_live->isListening()
+                         ? QStringLiteral("No bad messages. Messages that cannot be decoded appear "
+                                          "here with the reason and their text.")
+                         : QStringLiteral("Live is not listening. Choose Live in the tool bar."));
     setCurrentWidget(m_model->rowCount() > 0 ? static_cast<QWidget*>(m_table) : m_empty);
   }
 

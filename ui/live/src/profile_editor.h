@@ -2,15 +2,18 @@
 #pragma once
 
 // A profile of messages as a table: one row for each field, in the order of the message. Saved as
-// JSON, with everything of the profile that the table does not show (format, frame, scales, ...).
+// JSON, with everything of the profile that the table does not show (format, bytes, ...).
 // What is wrong is said under the table. UI thread only.
 
 #include <QDialog>
 #include <QString>
+#include <memory>
 #include <vector>
 
 #include <telemetry/wire/profile.h>
 
+class QComboBox;
+class QFormLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -18,11 +21,17 @@ class QTableWidget;
 
 namespace pitchboard::ui {
 
+class Arrivals;
+class LiveController;
+
 class ProfileEditor : public QDialog {
   Q_OBJECT
  public:
-  /// `file`: where it was read from; empty when there is none yet.
-  ProfileEditor(const telemetry::Profile& profile, const QString& file, QWidget* parent);
+  /// `file`: where it was read from; empty when there is none yet. With `live`, what the profile
+  /// makes of the last message that arrived is shown.
+  ProfileEditor(const telemetry::Profile& profile, const QString& file, QWidget* parent,
+                LiveController* live = nullptr);
+  ~ProfileEditor() override;
 
   /// What the table says at the moment, valid or not.
   telemetry::Profile profile() const;
@@ -33,6 +42,8 @@ class ProfileEditor : public QDialog {
   void saved(const pitchboard::telemetry::Profile& profile, const QString& file);
 
  private:
+  void addFrame(QFormLayout* form);
+  void showLast();
   void addRow(int row, const telemetry::ProfileField& field);
   telemetry::ProfileField fieldAt(int row) const;
   void moveRow(int by);
@@ -46,8 +57,11 @@ class ProfileEditor : public QDialog {
   /// Every field that has been put into a row; the row names its place here.
   std::vector<telemetry::ProfileField> m_fields;
   QLineEdit *m_name, *m_end;
+  QComboBox *m_origin, *m_xAxis, *m_yAxis, *m_angles;
   QTableWidget* m_table;
-  QLabel* m_problem;
+  QLabel *m_last, *m_problem;
+  LiveController* m_live;
+  std::unique_ptr<Arrivals> m_arrivals;
   QPushButton* m_save;
 };
 

@@ -185,14 +185,14 @@ class NoiseDock : public QScrollArea {
     connect(m_model, &QComboBox::activated, this,
             [this] { m_controller->edits()->setPhysics(m_model->currentData().toString()); });
     column->addWidget(m_model);
-    column->addWidget(makeExplanation(
-        QStringLiteral("The match goes on with another model; its robots stop for a moment."),
-        form));
+    column->addWidget(
+        makeExplanation(QStringLiteral("Changing the physics model stops all motion."), form));
     m_exact = makeExplanation(
-        QStringLiteral("“published” follows the published simulator to the last bit: it has no "
-                       "constants and one kind of robot, no IMU noise but drift, misses nothing, "
-                       "sees without delay, and its speeds are per frame: at another tick rate "
-                       "than 60 all is faster or slower. Choose “rigid-body” to change that."),
+        QStringLiteral(
+            "“published” matches the published simulator bit for bit. It has no adjustable "
+            "constants and a single robot model; the IMU drifts but has no noise; vision misses "
+            "nothing and has no delay. Speeds are per frame, so a tick rate other than 60 makes "
+            "everything faster or slower. Choose “rigid-body” to change any of this."),
         form);
     column->addWidget(m_exact);
     m_body = new QWidget(form);

@@ -157,7 +157,7 @@ void LanePane::draw() {
     m_comparedStretches.push_back(laneStretches(
         curve.compared(*m_feed), {axis.shown.begin - offset, axis.shown.end - offset}, columns));
     for (LaneStretch& stretch : m_comparedStretches.back()) {
-      stretch.begin += offset;
+      stretch.begin = std::max(stretch.begin + offset, m_feed->comparedFrom());
       stretch.end += offset;
     }
   }

@@ -263,8 +263,9 @@ ColumnView PlotFeed::find(const QString& name) {
 }
 
 void PlotFeed::setCompared(std::shared_ptr<const telemetry::SeriesStore> rows, double offset,
-                           const QString& caption) {
+                           const QString& caption, double from) {
   if (rows != m_compared) ++m_comparedGeneration;
+  m_comparedFrom = from;
   m_compared = std::move(rows);
   m_comparedOffset = offset;
   m_comparedCaption = caption;

@@ -6,6 +6,7 @@
 
 #include <QDateTime>
 #include <QObject>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -68,9 +69,10 @@ class PlotFeed : public QObject {
   /// said before is void.
   quint64 looks() const { return m_looks; }
 
-  /// Rows of a second session, whose second 0 is at `offset` (s); null: none.
+  /// Rows of a second session, whose second 0 is at `offset` (s); null: none. Until `from` (s) they
+  /// are those of what is shown.
   void setCompared(std::shared_ptr<const telemetry::SeriesStore> rows, double offset,
-                   const QString& caption);
+                   const QString& caption, double from = -std::numeric_limits<double>::infinity());
   /// The same variable there, at the times of there; nothing when it has none.
   ColumnView compared(const QString& name) const;
   bool hasCompared() const { return m_compared != nullptr; }
@@ -80,6 +82,7 @@ class PlotFeed : public QObject {
   /// Grows when another session is compared; 0: none ever was.
   quint64 comparedGeneration() const { return m_comparedGeneration; }
   double comparedOffset() const { return m_comparedOffset; }
+  double comparedFrom() const { return m_comparedFrom; }
   const QString& comparedCaption() const { return m_comparedCaption; }
 
   /// Refreshes by itself while on; plots that cannot be seen cost nothing.
@@ -115,7 +118,7 @@ class PlotFeed : public QObject {
   std::optional<QDateTime> m_clock;
   std::shared_ptr<const telemetry::SeriesStore> m_compared;
   quint64 m_comparedGeneration = 0;
-  double m_comparedOffset = 0.0;
+  double m_comparedOffset = 0.0, m_comparedFrom = 0.0;
   QString m_comparedCaption;
   std::map<telemetry::GroupId, std::shared_ptr<const telemetry::GroupView>> m_views;
   std::map<QString, telemetry::SeriesId> m_found;

@@ -23,6 +23,7 @@
 #include <ui/base/plot_target.h>
 #include <ui/base/theme.h>
 #include <ui/plots/plot_menus.h>
+#include <ui/sources/abandoned_future.h>
 #include <ui/sources/compared_session.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/source_switch.h>
@@ -77,7 +78,7 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   pageRow->addStretch(1);
   pageRow->addWidget(makeTools());
   m_tabs->setObjectName(QStringLiteral("docks"));  // they look like the tabs of docks
-  m_tabs->setAccessibleName(QStringLiteral("Tabs of the plots"));
+  m_tabs->setAccessibleName(QStringLiteral("Plot tabs"));
   m_tabs->setDrawBase(false);
   // The dock has a tab already: with one page, a row of tabs would only take room from the curves.
   m_tabs->setAutoHide(true);
@@ -123,6 +124,8 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   if (context.compared != nullptr) {
     connect(context.compared, &ComparedSession::changed, this, &PlotsDock::compare);
     connect(context.compared, &ComparedSession::rowsCame, this, &PlotsDock::scheduleDraw);
+    if (context.future != nullptr)
+      connect(context.future, &AbandonedFuture::changed, this, &PlotsDock::compare);
     compare();
   }
   restore();
@@ -364,7 +367,13 @@ void PlotsDock::takeRows() {
 
 void PlotsDock::compare() {
   const ComparedSession& other = *m_context.compared;
-  m_feed->setCompared(other.isOn() ? other.series() : nullptr, other.offset(), other.caption());
+  const AbandonedFuture* future = m_context.future;
+  if (other.isOn())
+    m_feed->setCompared(other.series(), other.offset(), other.caption());
+  else if (future != nullptr && future->isOn())
+    m_feed->setCompared(future->series(), 0.0, future->caption(), future->begin());
+  else
+    m_feed->setCompared(nullptr, 0.0, {});
   scheduleDraw();
 }
 
@@ -405,7 +414,7 @@ QToolButton* toolButton(QAction* action, QWidget* parent) {
 
 // In the row of tabs, because height is what plots lack.
 QToolBar* PlotsDock::makeTools() {
-  auto* tools = new QToolBar(QStringLiteral("Tools of the plots"), this);
+  auto* tools = new QToolBar(QStringLiteral("Plot tools"), this);
   tools->setObjectName(QStringLiteral("plotTools"));
   tools->layout()->setSpacing(1);  // the sheet's, which was asked before it had its name
   tools->setIconSize(QSize(scaled(this, 16), scaled(this, 16)));
@@ -420,7 +429,7 @@ QToolBar* PlotsDock::makeTools() {
   connect(time, &LinkedTime::followingChanged, m_follow, &QAction::setChecked);
 
   m_window->setObjectName(QStringLiteral("plotWindow"));
-  m_window->setToolTip(QStringLiteral("How much is shown while following"));
+  m_window->setToolTip(QStringLiteral("Time span shown while following"));
   m_window->setFont(themeFont(TypeRole::Secondary));
   m_window->setPopupMode(QToolButton::InstantPopup);
   auto* windows = new QMenu(m_window);
@@ -459,7 +468,7 @@ QToolBar* PlotsDock::makeTools() {
 
   auto* fit = new QAction(themedIcon(QStringLiteral("zoom-fit-best")),
                           QStringLiteral("Show everything"), this);
-  fit->setToolTip(QStringLiteral("Show all there is (also a double click on a plot)"));
+  fit->setToolTip(QStringLiteral("Show all data (or double-click a plot)"));
   connect(fit, &QAction::triggered, time, &LinkedTime::fitAll);
 
   auto* add =

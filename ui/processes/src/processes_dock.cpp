@@ -5,6 +5,7 @@
 #include <QMenu>
 #include <QStackedWidget>
 #include <QTimer>
+#include <QVBoxLayout>
 #include <algorithm>
 #include <chrono>
 
@@ -24,16 +25,16 @@ QString emptyText(const MatchController& controller) {
     case link::Cognition::Inline:
       if (controller.options().cognition != link::Cognition::Inline) {
         return QStringLiteral(
-            "The robots decide inside the studio, because separate processes could "
-            "not be started: the Log says why.");
+            "Processes run inside the studio because separate processes could not be started. See "
+            "the Log for the reason.");
       }
       return QStringLiteral(
-          "The robots decide inside the studio, so there are no separate processes to "
-          "show. Simulation > Robots decide > In separate processes starts them.");
+          "Processes run inside the studio, so there are no separate processes to show. To start "
+          "them, choose Simulation > Run robot processes > In separate processes.");
     case link::Cognition::None:
       return QStringLiteral(
-          "Nothing was started. Attach your own processes to the robots' "
-          "blackboards: key 100 × robot number (plus the key base).");
+          "No processes were started. Attach your team's programs to the robots' blackboards: key "
+          "100 × robot number (plus the key base).");
     case link::Cognition::Separate:
       return QStringLiteral("There are no robots, so no processes run.");
   }
@@ -47,7 +48,9 @@ class ProcessesDock : public QStackedWidget {
         m_controller(controller),
         m_source(source),
         m_model(new ProcessesModel(this)),
-        m_table(new QTableView(this)),
+        m_page(new QWidget(this)),
+        m_asNow(new QLabel(QStringLiteral("Processes are shown as they are now."), m_page)),
+        m_table(new QTableView(m_page)),
         m_empty(makeEmptyLabel(this, QStringLiteral("noProcesses"))) {
     constexpr int refreshMilliseconds = 250;
     m_table->setObjectName(QStringLiteral("processesTable"));
@@ -58,7 +61,16 @@ class ProcessesDock : public QStackedWidget {
     for (int column = 0; column < ProcessesModel::columns; ++column) {
       m_table->setColumnWidth(column, scaled(m_table, widths[column]));
     }
-    addWidget(m_table);
+    m_asNow->setObjectName(QStringLiteral("processesAsNow"));
+    m_asNow->setFont(themeFont(TypeRole::Secondary));
+    m_asNow->setForegroundRole(QPalette::PlaceholderText);
+    m_asNow->setMargin(scaled(this, 4));
+    auto* column = new QVBoxLayout(m_page);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    column->addWidget(m_asNow);
+    column->addWidget(m_table, 1);
+    addWidget(m_page);
     addWidget(m_empty);
     auto* timer = new QTimer(this);
     connect(timer, &QTimer::timeout, this, [this] {
@@ -66,6 +78,7 @@ class ProcessesDock : public QStackedWidget {
     });
     timer->start(refreshMilliseconds);
     connect(m_source, &SourceSwitch::changed, this, [this] { refresh(); });
+    connect(m_controller->edits(), &MatchEdits::lockedChanged, this, [this] { refresh(); });
     for (const auto changed : {&MatchController::scenarioChanged, &MatchController::opened}) {
       connect(m_controller, changed, this, [this] { refresh(); });
     }
@@ -78,18 +91,18 @@ class ProcessesDock : public QStackedWidget {
  private:
   void refresh() {
     const bool simulated = m_source->kind() == SourceKind::Simulate;
-    if (const FramePtr frame = m_source->frame())
+    // They have no past: what runs now is shown, and can be seen to be.
+    if (const FramePtr frame = simulated ? m_controller->frame() : m_source->frame())
       m_model->update(*frame, std::chrono::steady_clock::now());
     else
       m_model->clear();
     m_empty->setText(
-        m_controller->edits()->isLocked()
-            ? QStringLiteral("Processes are shown as they are now. ") + MatchEdits::lockedText()
-        : simulated
+        simulated
             ? emptyText(*m_controller)
             : QStringLiteral("These robots' processes run on the robots. The letters on the cards "
                              "tell which of them work."));
-    setCurrentWidget(m_model->rowCount() > 0 ? static_cast<QWidget*>(m_table) : m_empty);
+    m_asNow->setVisible(m_controller->edits()->isLocked());
+    setCurrentWidget(m_model->rowCount() > 0 ? m_page : m_empty);
   }
 
   /// What the clicked row and the selected ones stand for.
@@ -151,6 +164,8 @@ class ProcessesDock : public QStackedWidget {
   MatchController* m_controller;
   SourceSwitch* m_source;
   ProcessesModel* m_model;
+  QWidget* m_page;
+  QLabel* m_asNow;
   QTableView* m_table;
   QLabel* m_empty;
 };

@@ -19,6 +19,11 @@ NextStep calling(CallKind kind, const char* text, const char* tip) {
   return {sim::RefereeCall{.kind = kind}, QString::fromUtf8(text), QString::fromUtf8(tip)};
 }
 
+NextStep skipToKickOff() {
+  return {std::nullopt, QStringLiteral("Skip to kick-off"),
+          QStringLiteral("Plays at full speed until the ball may be kicked off"), true};
+}
+
 NextStep nextOfSetPlay(sim::Restart::Step step) {
   using Step = sim::Restart::Step;
   const bool placing = step == Step::Placing, preparing = step == Step::Preparing;
@@ -66,9 +71,11 @@ std::vector<NextStep> nextSteps(const link::RefereeDesk& desk) {
         steps.push_back(toState(PlayState::Set, "Next shot", "The next robot places itself"));
       else
         steps.push_back(toState(PlayState::Ready, "READY", "Robots walk to their places"));
+      if (!shootOut && desk.rules.automatic) steps.push_back(skipToKickOff());
       break;
     case PlayState::Ready:
       steps.push_back(toState(PlayState::Set, "SET", "Robots stand"));
+      if (desk.rules.automatic) steps.push_back(skipToKickOff());
       break;
     case PlayState::Set:
       steps.push_back(toState(PlayState::Playing, "PLAYING", "The whistle"));

@@ -13,8 +13,9 @@
 namespace pitchboard::ui {
 
 struct NextStep {
-  std::optional<sim::RefereeCall> call;  ///< nothing: the match is played again
+  std::optional<sim::RefereeCall> call;  ///< nothing: the match is played again, or skips
   QString text, tip;
+  bool skips = false;  ///< to kick-off
 };
 
 /// At most three, the usual one first; each is allowed by sim::checkCall().

@@ -47,7 +47,7 @@ RefereeModel::Row RefereeModel::rowOf(const link::RefereePlayerView& player,
                      : reply->age > goodUntil ? QStringLiteral("late")
                      : reply->fallen          ? QStringLiteral("fallen")
                                               : QStringLiteral("good");
-  QStringList tip{QStringLiteral("%1 told the referee %2 ago:")
+  QStringList tip{QStringLiteral("%1 reported to the referee %2 ago:")
                       .arg(QString::fromStdString(reply->address), durationText(reply->age, 1)),
                   reply->fallen ? QStringLiteral("it has fallen") : QStringLiteral("it stands")};
   if (reply->pose) {
@@ -118,7 +118,8 @@ QVariant RefereeModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant RefereeModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
+  // A hidden header takes room, too: that of its words.
+  if (orientation != Qt::Horizontal || role != Qt::DisplayRole || m_compact) return {};
   const QString names[] = {QStringLiteral("Player"), QStringLiteral("State"),
                            QStringLiteral("Left"), QStringLiteral("Cards"),
                            QStringLiteral("Robot")};

@@ -20,7 +20,11 @@ class RefereeModel : public QAbstractTableModel {
 
   /// In order of numbers and with the cards beside the state: rows keep their places while somebody
   /// works with them.
-  void setCompact(bool on) { m_compact = on; }
+  void setCompact(bool on) {
+    if (on == m_compact) return;
+    m_compact = on;
+    emit headerDataChanged(Qt::Horizontal, 0, columns - 1);
+  }
 
   void update(const link::RefereeTeamView& team, const std::vector<link::RobotReplyView>& replies);
 

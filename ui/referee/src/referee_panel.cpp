@@ -114,6 +114,12 @@ class RefereePanel : public QScrollArea {
     refresh();
     QScrollArea::showEvent(event);
   }
+  void resizeEvent(QResizeEvent* event) override {
+    QScrollArea::resizeEvent(event);
+    // Five controls in a row would cut each other's words.
+    const bool wide = event->size().width() >= scaled(this, 480);
+    m_penaltyRows->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+  }
   QSize sizeHint() const override { return {scaled(this, 416), scaled(this, 416)}; }
 
  private:
@@ -189,6 +195,8 @@ class RefereePanel : public QScrollArea {
         const NextStep step = m_offered[index];
         if (step.call) {
           callReferee(edits(), *step.call, step.text);
+        } else if (step.skips) {
+          m_context.controller->skipToKickOff();
         } else {
           m_context.controller->restart();
           m_context.controller->setPaused(false);
@@ -221,7 +229,16 @@ class RefereePanel : public QScrollArea {
     m_who = label("refereeChosen", TypeRole::Secondary);
     m_who->setForegroundRole(QPalette::PlaceholderText);
     m_column->addWidget(m_who);
-    addRow(m_penalties);
+    m_penalties = new QWidget(m_inside);
+    m_penaltyRows = new QBoxLayout(QBoxLayout::LeftToRight, m_penalties);
+    m_penaltyRows->setContentsMargins(0, 0, 0, 0);
+    m_penaltyRows->setSpacing(scaled(this, 4));
+    for (int i = 0; i < 2; ++i) {
+      auto* row = new QHBoxLayout;
+      row->setSpacing(scaled(this, 4));
+      m_penaltyRows->addLayout(row, i == 0 ? 1 : 0);
+    }
+    m_column->addWidget(m_penalties);
     m_kind = new QComboBox(m_penalties);
     m_kind->setObjectName(QStringLiteral("refereePenalty"));
     m_kind->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -233,13 +250,12 @@ class RefereePanel : public QScrollArea {
       m_kind->addItem(asLabel(wordsOf(kind)), i);
     }
     m_kind->setCurrentIndex(m_kind->findData(static_cast<int>(PenaltyKind::Incapable)));
-    m_penalties->layout()->addWidget(m_kind);
-    static_cast<QHBoxLayout*>(m_penalties->layout())->setStretch(0, 1);
+    penaltyRow(0)->addWidget(m_kind, 1);
     addForChosen("Penalise", "Ctrl+Alt+A", "The chosen robots leave the field for a while", [this] {
       return RefereeCall{.kind = CallKind::Penalise,
                          .penalty = static_cast<PenaltyKind>(m_kind->currentData().toInt())};
     });
-    addForChosen("Pardon", "Ctrl+Alt+E", "They may play again",
+    addForChosen("Pardon", "Ctrl+Alt+E", "The chosen robots may play again",
                  [] { return RefereeCall{.kind = CallKind::Pardon}; });
     m_card = new QToolButton(m_penalties);
     m_card->setObjectName(QStringLiteral("refereeCard"));
@@ -257,11 +273,16 @@ class RefereePanel : public QScrollArea {
       menu->addAction(actions().constLast());
     }
     m_card->setMenu(menu);
-    m_penalties->layout()->addWidget(m_card);
+    penaltyRow(1)->addWidget(m_card);
     addForChosen(
         "Take off", "Ctrl+Alt+U",
         "Off the field as a substitute; Pardon lets it, or another, come on",
         [] { return RefereeCall{.kind = CallKind::Penalise, .penalty = PenaltyKind::Substitute}; });
+  }
+
+  /// The kind; Penalise, Pardon, Card, Take off.
+  QHBoxLayout* penaltyRow(int number) const {
+    return static_cast<QHBoxLayout*>(m_penaltyRows->itemAt(number)->layout());
   }
 
   void addForChosen(const char* text, const char* key, const char* tip,
@@ -271,7 +292,7 @@ class RefereePanel : public QScrollArea {
       callReferee(edits(), call(), chosen().robots, words.toLower());
     };
     QPushButton* made = button(m_penalties, words, pressed);
-    m_penalties->layout()->addWidget(made);
+    penaltyRow(1)->addWidget(made);
     addKey(words, key, pressed);
     m_forChosen.push_back(
         {made, call,
@@ -293,14 +314,10 @@ class RefereePanel : public QScrollArea {
     const auto give = [this] { callReferee(edits(), setPlay(), m_play->currentText()); };
     m_give = button(m_setPlays, QStringLiteral("Give"), give);
     addKey(QStringLiteral("Give"), "Ctrl+Alt+K", give);
-    m_nextStep = button(m_setPlays, QStringLiteral("Next step"), [this] {
-      callReferee(edits(), {.kind = CallKind::NextStep}, QStringLiteral("next step"));
-    });
     auto* row = static_cast<QHBoxLayout*>(m_setPlays->layout());
     row->addWidget(m_for);
     row->addWidget(m_play, 1);
     row->addWidget(m_give);
-    row->addWidget(m_nextStep);
   }
 
   RefereeCall setPlay() const {
@@ -366,14 +383,15 @@ class RefereePanel : public QScrollArea {
       m_state->setText({});
       m_clock->setText({});
       const SourceKind kind = m_context.source->kind();
-      m_detail->setText(kind == SourceKind::Live ? QStringLiteral("Waiting for the referee… Its "
-                                                                  "port and version are in the "
-                                                                  "settings of Live.")
-                        : frame == nullptr       ? m_context.source->emptyText()
-                        : kind == SourceKind::Replay
-                            ? QStringLiteral("This session has no referee at this moment.")
-                            : QStringLiteral("This match has no referee. Choose rules below to get "
-                                             "one."));
+      m_detail->setText(
+          kind == SourceKind::Live
+              ? QStringLiteral(
+                    "Waiting for the referee… Choose its port and version in Live settings.")
+          : frame == nullptr ? m_context.source->emptyText()
+          : kind == SourceKind::Replay
+              ? QStringLiteral("This session has no referee at this moment.")
+              : QStringLiteral("This match has no referee. Choose rules below to get "
+                               "one."));
       m_detail->show();
       m_truth->hide();
       return;
@@ -386,7 +404,7 @@ class RefereePanel : public QScrollArea {
     if (!view.phase.empty()) parts << QString::fromStdString(view.phase);
     if (view.stopped) parts << QStringLiteral("stopped");
     if (view.timedOut) {
-      parts << QStringLiteral("not heard for %1").arg(durationText(view.age));
+      parts << QStringLiteral("last packet %1 ago").arg(durationText(view.age));
     }
     const QString play = frame->desk ? playText(*frame->desk) : QString();
     if (!play.isEmpty()) parts << play;
@@ -465,14 +483,10 @@ class RefereePanel : public QScrollArea {
           team, QStringLiteral("For ") + teamWords(frame->desk->game.teams[std::size_t(team)]));
     }
     for (QComboBox* box : {m_for, m_play}) box->setEnabled(why.isEmpty());
-    const auto set = [&](QPushButton* one, const RefereeCall& call, const char* tip) {
-      const QString refusal = why.isEmpty() ? whyRefused(frame.get(), call) : why;
-      one->setEnabled(refusal.isEmpty());
-      one->setToolTip(refusal.isEmpty() ? QString::fromUtf8(tip) : refusal);
-    };
-    set(m_give, setPlay(), "From where the ball lies (Ctrl+Alt+K)");
-    set(m_nextStep, {.kind = CallKind::NextStep},
-        "Ball placed, prepared, ready, in play (Ctrl+Alt+N)");
+    const QString refusal = why.isEmpty() ? whyRefused(frame.get(), setPlay()) : why;
+    m_give->setEnabled(refusal.isEmpty());
+    m_give->setToolTip(refusal.isEmpty() ? QStringLiteral("From where the ball lies (Ctrl+Alt+K)")
+                                         : refusal);
   }
 
   struct ForChosen {
@@ -487,14 +501,14 @@ class RefereePanel : public QScrollArea {
   QLabel *m_state = nullptr, *m_clock = nullptr, *m_detail = nullptr, *m_truth = nullptr,
          *m_who = nullptr;
   QWidget *m_next = nullptr, *m_teams = nullptr, *m_penalties = nullptr, *m_setPlays = nullptr;
-  QBoxLayout* m_teamRow = nullptr;
+  QBoxLayout *m_teamRow = nullptr, *m_penaltyRows = nullptr;
   std::array<QPushButton*, 3> m_steps{};
   std::vector<NextStep> m_offered;
   std::array<TeamColumn*, 2> m_columns{};
   std::vector<ForChosen> m_forChosen;
   QComboBox *m_kind = nullptr, *m_for = nullptr, *m_play = nullptr;
   QToolButton* m_card = nullptr;
-  QPushButton *m_give = nullptr, *m_nextStep = nullptr;
+  QPushButton* m_give = nullptr;
   RefereeLog* m_log = nullptr;
   RulesFold* m_rules = nullptr;
   QTimer* m_later = nullptr;

@@ -65,19 +65,19 @@ QString linkText(const telemetry::LinkHealth& link) {
 QString linkTip(const link::RobotFrame& robot) {
   const telemetry::LinkHealth& link = *robot.link;
   QStringList tip{
-      QStringLiteral("Heard from %1").arg(QString::fromStdString(link.sender.text())),
+      QStringLiteral("Sender: %1").arg(QString::fromStdString(link.sender.text())),
       QStringLiteral("Last message %1 ago, %2 per second, jitter %3 ms")
           .arg(durationText(telemetry::secondsOf(link.age), 1), numberText(link.rate, 1),
                numberText(link.jitter * 1000, 0)),
       // A recording counts the bad ones only.
       link.messages > 0
-          ? QStringLiteral("%1 messages, %2 bytes, %3 bad ones")
+          ? QStringLiteral("%1 messages, %2 bytes, %3 bad")
                 .arg(countText(link.messages), countText(link.bytes), countText(link.errorCount))
           : QStringLiteral("%1 bad messages").arg(countText(link.errorCount)),
       link.loss ? QStringLiteral("%1 % lost").arg(numberText(*link.loss * 100, 1))
-                : QStringLiteral("Loss is not known: the messages have no sequence number")};
-  if (link.recoveries > 0) tip << QStringLiteral("Came back %1 times").arg(link.recoveries);
-  if (!robot.poseKnown()) tip << QStringLiteral("Its messages have no position");
+                : QStringLiteral("Packet loss unknown: the messages have no sequence number")};
+  if (link.recoveries > 0) tip << QStringLiteral("Reconnected %1 times").arg(link.recoveries);
+  if (!robot.poseKnown()) tip << QStringLiteral("No position in its messages");
   return tip.join(QLatin1Char('\n'));
 }
 
@@ -92,7 +92,7 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
     put(TagKind::Error,
         QStringLiteral("TIMEOUT %1").arg(durationText(telemetry::secondsOf(robot.link->age))));
   } else if (robot.link && robot.link->conflict) {
-    put(TagKind::Error, QStringLiteral("number sent twice"));
+    put(TagKind::Error, QStringLiteral("two senders"));
   } else if (robot.penalty) {
     // "pickup or incapable": the seconds must not be cut off.
     const QString words =
@@ -169,7 +169,7 @@ QString subtitleOf(const link::RobotFrame& robot) {
   QStringList parts;
   if (!robot.ownName.empty()) parts << QString::fromStdString(robot.ownName);
   if (!robot.behaviour.empty()) {
-    parts << (robot.behaviour == link::noBehaviour ? QStringLiteral("own process")
+    parts << (robot.behaviour == link::noBehaviour ? QStringLiteral("team program")
                                                    : capitalised(robot.behaviour));
   }
   return parts.join(QStringLiteral(" · "));

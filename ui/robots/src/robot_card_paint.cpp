@@ -57,8 +57,10 @@ QRect RobotCard::chevronRect() const {
 }
 
 QRect RobotCard::batteryRect() const {
-  return {chevronRect().left() - scaled(this, 40), rowRect(0).center().y() - scaled(this, 4),
-          scaled(this, 36), scaled(this, 10)};
+  // In a narrow panel it makes room for the volts.
+  const int wide = scaled(this, m_collapsed && width() < scaled(this, 232) ? 18 : 36);
+  return {chevronRect().left() - scaled(this, 4) - wide, rowRect(0).center().y() - scaled(this, 4),
+          wide, scaled(this, 10)};
 }
 
 QRect RobotCard::voltsRect() const {
@@ -152,8 +154,11 @@ void RobotCard::paintHead(QPainter& painter) const {
     const QRect room(name.left() + taken, name.top(), end - name.left() - taken, name.height());
     painter.setFont(themeFont(TypeRole::Secondary));
     painter.setPen(theme().secondaryText);
-    drawWords(painter, room.adjusted(0, 0, -scaled(this, 4), 0), Qt::AlignLeft | Qt::AlignVCenter,
-              m_state.subtitle, Qt::ElideRight);
+    const QString shown = painter.fontMetrics().elidedText(m_state.subtitle, Qt::ElideRight,
+                                                           room.width() - scaled(this, 4));
+    constexpr qsizetype legible = 8;  // fewer letters of a longer name say nothing
+    if (shown == m_state.subtitle || shown.size() > legible)
+      drawWords(painter, room, Qt::AlignLeft | Qt::AlignVCenter, shown);
   }
 
   painter.setOpacity(1.0);
@@ -173,13 +178,19 @@ void RobotCard::paintHead(QPainter& painter) const {
   QRectF inside = QRectF(bar).adjusted(2, 2, -2, -2);
   inside.setWidth(inside.width() * m_state.battery->fraction);
   painter.fillRect(inside, color);
-  if (m_collapsed && showsTag() && tagRect().right() > voltsRect().left()) {
-    painter.setOpacity(1.0);
-    return;
+  painter.setOpacity(1.0);
+  const QFont font = themeFont(TypeRole::Body, low);
+  const QString volts = voltsText(*m_state.battery);
+  if (m_collapsed) {
+    // The bar says it as well; a number that lies under something else says nothing.
+    const int taken = showsTag() ? tagRect().right()
+                                 : lampRect(CardState::lampCount - 1).right() + scaled(this, 4);
+    if (taken > voltsRect().right() - QFontMetrics(font).horizontalAdvance(volts)) return;
   }
-  painter.setFont(themeFont(TypeRole::Body, low));
+  painter.setOpacity(greyed);
+  painter.setFont(font);
   painter.setPen(low ? theme().errorText : theme().text);
-  drawWords(painter, voltsRect(), Qt::AlignRight | Qt::AlignVCenter, voltsText(*m_state.battery));
+  drawWords(painter, voltsRect(), Qt::AlignRight | Qt::AlignVCenter, volts);
   painter.setOpacity(1.0);
 }
 

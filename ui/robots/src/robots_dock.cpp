@@ -82,7 +82,7 @@ std::vector<CardState> RobotsDock::states() {
       if (!difference) continue;
       const QString words = differenceText(*difference);
       card.detail = words + QStringLiteral(" · ") + card.detail;
-      card.detailTip += QStringLiteral("\nTruth and what is heard are %1 apart").arg(words);
+      card.detailTip += QStringLiteral("\nSimulated and live pose differ by %1").arg(words);
       card.values.push_back({QStringLiteral("BELIEF_ERROR"),
                              numberText(difference->metres * 100, 1), QStringLiteral("cm")});
       card.values.push_back({QStringLiteral("BELIEF_ERROR_THETA"),

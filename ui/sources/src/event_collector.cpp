@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "event_collector.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_memory.h>
 #include <ui/sources/retired_match.h>
 
 namespace pitchboard::ui {
@@ -26,6 +30,10 @@ EventCollector::EventCollector(FrameSource* source) : QObject(source), m_list(ne
   if (auto* match = qobject_cast<MatchController*>(source)) {
     connect(match, &MatchController::retiring, this, [this](RetiredMatch& retired) {
       retired.events.assign(m_list->events().begin(), m_list->events().end());
+    });
+    connect(match->memory(), &MatchMemory::branching, this, [this](MatchBranch& left) {
+      std::ranges::copy_if(m_list->events(), std::back_inserter(left.events),
+                           [&left](const auto& event) { return event.time > left.from; });
     });
   }
   connect(source, &FrameSource::restarted, m_list, &EventList::clear);

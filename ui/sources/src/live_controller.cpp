@@ -43,7 +43,7 @@ void LiveController::stop() {
 
 void LiveController::setOptions(const link::LiveOptions& options) {
   if (const auto good = link::validate(options); !good) {
-    emit errorOccurred(QStringLiteral("Live keeps its settings: %1")
+    emit errorOccurred(QStringLiteral("Live settings not changed: %1")
                            .arg(QString::fromStdString(good.error().text())));
     return;
   }
@@ -137,12 +137,12 @@ QString LiveController::portsText() const {
 
 QString LiveController::emptyText() const {
   const QString address = m_options.bind.value == 0
-                              ? QStringLiteral("every address of this computer")
+                              ? QStringLiteral("all addresses of this computer")
                               : QString::fromStdString(m_options.bind.text());
   return QStringLiteral(
-             "Nothing heard yet.\nListening at %1 on %2 for robots and UDP %3 for the referee.\n"
-             "%4Check that this computer is in the robots' network and that no firewall keeps UDP "
-             "out. Nothing is sent to robots.")
+             "Waiting for robots…\nListening on %1: %2 for robots and UDP %3 for the "
+             "referee.\n%4Check that this computer is in the robots' network and that no firewall "
+             "blocks UDP. Live sends nothing to robots.")
       .arg(address, portsText())
       .arg(m_options.refereePort)
       .arg(m_options.team.teams.empty()
@@ -197,11 +197,10 @@ void LiveController::deliverNow() {
   }
   if (ports.empty()) return;
   const QString first = QString::fromStdString(sentenceOf(*ports.front()));
-  emit errorOccurred(ports.size() == 1
-                         ? first
-                         : QStringLiteral("%1 ports cannot be received; the first: %2")
-                               .arg(ports.size())
-                               .arg(first));
+  emit errorOccurred(ports.size() == 1 ? first
+                                       : QStringLiteral("Cannot receive on %1 ports. The first: %2")
+                                             .arg(ports.size())
+                                             .arg(first));
 }
 
 }  // namespace pitchboard::ui

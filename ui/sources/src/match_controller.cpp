@@ -85,16 +85,16 @@ void MatchController::Opening::start(
     made = link::MatchRunner::start(scenario, inside, paused, *catalog, observers);
     if (made) {
       error = QStringLiteral(
-                  "Separate robot processes cannot run: %1. The robots decide inside the studio "
-                  "instead, and other programs cannot see their blackboards. Close the other "
-                  "program, then restart the match.")
+                  "Cannot run separate robot processes: %1. They run inside the studio instead, "
+                  "and other programs cannot open their blackboards. Close the other program, then "
+                  "restart the match.")
                   .arg(words(reason));
     }
   }
   if (made)
     runner = holding(std::move(catalog), std::move(*made));
   else
-    error = QStringLiteral("The match cannot be played: %1").arg(words(made.error()));
+    error = QStringLiteral("Cannot play the match: %1").arg(words(made.error()));
 }
 
 void MatchController::Opening::resume(
@@ -104,7 +104,7 @@ void MatchController::Opening::resume(
   if (!runner) return;
   runner->execute([&](link::SimulatedMatch& match) {
     if (const auto restored = match.restore(moment); !restored) {
-      error = QStringLiteral("The match cannot go on where it was: %1")
+      error = QStringLiteral("Cannot continue the match where it was: %1")
                   .arg(QString::fromStdString(restored.error().text()));
     }
     return link::Changed::Yes;
@@ -131,9 +131,11 @@ void MatchController::stopObserving(const std::shared_ptr<link::TickObserver>& o
 }
 
 QString MatchController::emptyText() const {
-  return isOpening() ? QStringLiteral("Opening…")
-         : isOpen()  ? QStringLiteral("No robots on the field.\nPress A over the field to add one.")
-                     : QStringLiteral("No match is open.\nChoose a scenario in the tool bar.");
+  if (isOpening()) return QStringLiteral("Opening…");
+  if (isOpen()) return QStringLiteral("No robots on the field.\nRight-click the field to add one.");
+  return m_whyNotOpened.isEmpty()
+             ? QStringLiteral("No match is open.\nChoose a scenario in the tool bar.")
+             : QStringLiteral("The match could not be opened.\nTry again, or choose a scenario.");
 }
 
 std::shared_ptr<link::MatchRunner> MatchController::retire() {
@@ -231,6 +233,7 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
   m_beginning = from ? from->beginning : scenario;
   m_paused = paused;
   m_opening = true;
+  m_whyNotOpened.clear();
   m_catalog = m_nextCatalog;
   m_memory->begin(from ? from->memory : MatchMemory::Kept{});
   m_options.speed = m_speed;
@@ -263,6 +266,7 @@ void MatchController::take(Opening& opening) {
   m_toldWhoWillNotFollow = false;
   m_cognition = opening.cognition;
   m_runner = std::move(opening.runner);
+  if (!m_runner) m_whyNotOpened = std::exchange(opening.error, {});
   if (m_runner) {
     m_runner->setSpeed(m_speed);
     m_runner->setPaused(m_paused);
@@ -332,11 +336,10 @@ void MatchController::tellWhoWillNotFollow() {
   }
   if (names.empty()) return;
   m_toldWhoWillNotFollow = true;
-  emit errorOccurred(
-      QStringLiteral("The processes of %1 were not started here: they go on at ×1 while the match "
-                     "stands still or runs at another speed. Choose their programs on the card, "
-                     "Runtime, and they follow.")
-          .arg(names.join(QStringLiteral(", "))));
+  emit errorOccurred(QStringLiteral("The processes of %1 were not started by this match, so they "
+                                    "keep running at ×1 when it pauses or changes speed. To make "
+                                    "them follow, choose their programs under Runtime on the card.")
+                         .arg(names.join(QStringLiteral(", "))));
 }
 
 void MatchController::tellWhoKeepsRealTime(std::span<const link::MatchEvent> events) {
@@ -380,6 +383,32 @@ void MatchController::runTo(std::uint64_t tick) {
   else
     m_runTo = tick;
   emit transportChanged();
+}
+
+void MatchController::skip(std::function<bool(const link::MatchEvent&)> wanted) {
+  if (!m_runner || !m_frame || !m_edits->allowsChange()) return;
+  if (const QStringList programs = realTimePrograms(); !programs.isEmpty()) {
+    refuse(QStringLiteral("%1 keeps real time (\"clock\": \"real\"), so the match cannot skip.")
+               .arg(programs.join(QStringLiteral(", "))));
+    return;
+  }
+  constexpr double longest = 20 * 60.0;  // s
+  m_runner->skip(std::move(wanted),
+                 static_cast<std::uint64_t>(longest * m_frame->settings->tickRate));
+}
+
+void MatchController::skipToKickOff() {
+  if (m_frame && !m_frame->desk) {
+    refuse(QStringLiteral("This match has no referee, so there is no kick-off to skip to."));
+    return;
+  }
+  skip([](const link::MatchEvent& event) {
+    return event.kind == link::MatchEventKind::GameState && event.detail == "PLAYING";
+  });
+}
+
+void MatchController::skipToEvent(const EventFilter& shown) {
+  skip([shown](const link::MatchEvent& event) { return shown.shows(event); });
 }
 
 /// Those whose profile says so.

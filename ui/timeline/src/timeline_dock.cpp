@@ -49,6 +49,7 @@ class TimelineDock : public QWidget {
               context.timelineActions->fill(&menu);
               menu.exec(at);
             });
+    m_strip->setFuture(context.future);
     if (context.compared != nullptr) {
       connect(m_strip, &TimelineStrip::comparedMoved, context.compared,
               &ComparedSession::setOffset);

@@ -9,6 +9,7 @@
 
 #include <ui/base/quick_painting.h>
 #include <ui/base/theme.h>
+#include <ui/sources/abandoned_future.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/timeline.h>
@@ -34,6 +35,7 @@ void TimelineStrip::paintEvent(QPaintEvent*) {
   painter.setRenderHint(QPainter::Antialiasing);
   painter.fillRect(rect(), theme().window);
   paintBand(painter);
+  paintBranch(painter);
   paintRange(painter);
   paintWindow(painter);
   paintAxis(painter);
@@ -56,6 +58,30 @@ void TimelineStrip::paintBand(QPainter& painter) const {
   if (right <= left) return;
   drawRoundBox(painter, QRectF(left, band.top() + 1, right - left, band.height() - 2), 2,
                theme().innerLine);
+}
+
+// Where the match has been and is not any more: no label, no shape that could be taken for its own.
+void TimelineStrip::paintBranch(QPainter& painter) const {
+  const QRectF row = branchRect();
+  if (row.isEmpty()) return;
+  const QRect band = bandRect();
+  QColor pale = theme().secondaryText;
+  pale.setAlphaF(0.35F);
+  const double fork = m_axis.pixel(m_future->begin());
+  if (fork >= band.left()) {
+    painter.setPen(QPen(pale, 2.0, Qt::SolidLine, Qt::RoundCap));
+    painter.drawLine(QPointF(fork, band.top()),
+                     QPointF(fork + band.top() - row.center().y(), row.center().y()));
+  }
+  drawRoundBox(painter, row, 2, pale);
+  painter.setOpacity(0.5);
+  for (const link::MatchEvent& event : m_future->events().events()) {
+    if (!m_timeline->eventFilter().shows(event)) continue;
+    const double x = m_axis.pixel(event.time);
+    if (x < row.left() || x > row.right()) continue;
+    stem(painter, x, row.top(), row.bottom(), markColor(link::info(event.kind).shape), 1.4);
+  }
+  painter.setOpacity(1.0);
 }
 
 void TimelineStrip::paintWindow(QPainter& painter) const {
@@ -182,7 +208,7 @@ void TimelineStrip::editNote(int row) {
   m_note->setObjectName(QStringLiteral("bookmarkNote"));
   m_note->setFont(themeFont(TypeRole::Secondary));
   m_note->setMaxLength(EventList::maxNote);
-  m_note->setPlaceholderText(QStringLiteral("Note, then Enter"));
+  m_note->setPlaceholderText(QStringLiteral("Type a note, then Enter"));
   const int wide = std::min(scaled(this, 200), width());
   const int x =
       std::clamp(static_cast<int>(m_axis.pixel(m_noteTime)) + scaled(this, 8), 0, width() - wide);

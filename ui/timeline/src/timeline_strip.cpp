@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include <ui/base/theme.h>
+#include <ui/sources/abandoned_future.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/playback.h>
@@ -96,8 +97,30 @@ void TimelineStrip::setCompared(const EventList* events, double offset, const QS
   update();
 }
 
+void TimelineStrip::setFuture(AbandonedFuture* future) {
+  m_future = future;
+  if (future == nullptr) return;
+  connect(future, &AbandonedFuture::changed, this, [this] {
+    updateGeometry();
+    fitAxis();
+    update();
+  });
+}
+
 QSize TimelineStrip::sizeHint() const {
-  return {scaled(this, 600), scaled(this, m_compared != nullptr ? 76 : 56)};
+  return {scaled(this, 600), scaled(this, m_compared != nullptr ? 76 : 56) + branchHeight()};
+}
+
+int TimelineStrip::branchHeight() const {
+  return m_future != nullptr && m_future->isOn() ? scaled(this, 9) : 0;
+}
+
+QRect TimelineStrip::branchRect() const {
+  if (branchHeight() == 0) return {};
+  const QRect band = bandRect();
+  const int left = std::max(qRound(m_axis.pixel(m_future->begin())), band.left());
+  const int right = std::min(qRound(m_axis.pixel(m_future->end())), band.right());
+  return {left, band.top() - branchHeight(), std::max(right - left, 0), scaled(this, 6)};
 }
 
 QSize TimelineStrip::minimumSizeHint() const {
@@ -114,12 +137,12 @@ QRect TimelineStrip::comparedRect() const {
   if (m_compared == nullptr) return {};
   const QRect band = bandRect();
   const int high = scaled(this, 18);
-  return {band.left(), band.top() - high, band.width(), high};
+  return {band.left(), band.top() - branchHeight() - high, band.width(), high};
 }
 
 QRect TimelineStrip::marksRect() const {
   const QRect band = bandRect();
-  const int bottom = m_compared != nullptr ? comparedRect().top() : band.top();
+  const int bottom = m_compared != nullptr ? comparedRect().top() : band.top() - branchHeight();
   return {band.left(), 0, band.width(), bottom};
 }
 
@@ -143,13 +166,15 @@ void TimelineStrip::fitAxis() {
   m_axis.left = band.left();
   m_axis.width = band.width();
   const auto there = m_timeline->available();
-  const double now = std::max(m_timeline->now(), there ? there->end : 0.0);
+  double now = std::max(m_timeline->now(), there ? there->end : 0.0);
+  if (m_showsAll && branchHeight() > 0) now = std::max(now, m_future->end());
   if (m_showsAll) {
     double begin = there ? there->begin : now;
     const auto& events = m_timeline->events()->events();
     if (!events.empty()) begin = std::min(begin, events.front().time);
     if (m_timeline->isRecording()) {
-      m_axis.shown = {begin, std::max(now, begin + narrowest)};
+      constexpr double nothing = 30.0;  // s, without a session
+      m_axis.shown = {begin, there ? std::max(now, begin + narrowest) : begin + nothing};
       return;
     }
     if (begin < 5.0) begin = std::min(begin, 0.0);
@@ -230,6 +255,11 @@ const EventMark* TimelineStrip::markAt(QPointF at) {
 }
 
 QString TimelineStrip::tipAt(QPointF at) {
+  if (branchRect().contains(at.toPoint())) {
+    const auto clock = m_timeline->clock();
+    return QStringLiteral("Abandoned future, %1 to %2")
+        .arg(momentText(m_future->begin(), 0, clock), momentText(m_future->end(), 0, clock));
+  }
   const EventMark* mark = markAt(at);
   if (mark == nullptr) return momentText(m_axis.time(at.x()), 1, m_timeline->clock());
   QStringList lines;

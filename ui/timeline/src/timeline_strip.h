@@ -19,6 +19,7 @@ class QLineEdit;
 
 namespace pitchboard::ui {
 
+class AbandonedFuture;
 class EventList;
 class LinkedTime;
 class Timeline;
@@ -33,6 +34,9 @@ class TimelineStrip : public QWidget {
   /// A second session's events in a row of their own, under this caption; its second 0 stands at
   /// `offset`. Null: none.
   void setCompared(const EventList* events, double offset, const QString& caption);
+
+  /// What the match has left, a pale branch above the band; null: none.
+  void setFuture(AbandonedFuture* future);
 
   telemetry::TimeRange shown() const { return m_axis.shown; }
   /// Shows this much; ends following.
@@ -50,6 +54,7 @@ class TimelineStrip : public QWidget {
   std::vector<EventMark> comparedMarks() const;
   QRect bandRect() const;
   QRect comparedRect() const;  ///< empty while nothing is compared
+  QRect branchRect() const;    ///< of the abandoned future; empty while there is none
   std::optional<QRectF> windowRect() const;
 
   QSize sizeHint() const override;
@@ -87,6 +92,8 @@ class TimelineStrip : public QWidget {
   QString tipAt(QPointF at);
   void finishNote(bool keep);
   QRect marksRect() const;
+  int branchHeight() const;
+  void paintBranch(QPainter& painter) const;
   void paintBand(QPainter& painter) const;
   void paintWindow(QPainter& painter) const;
   void paintRange(QPainter& painter) const;
@@ -96,6 +103,7 @@ class TimelineStrip : public QWidget {
 
   Timeline* m_timeline;
   LinkedTime* m_plots;
+  AbandonedFuture* m_future = nullptr;
   const EventList* m_compared = nullptr;
   double m_comparedOffset = 0.0, m_grabOffset = 0.0;
   QString m_comparedCaption;

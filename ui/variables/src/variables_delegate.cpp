@@ -66,6 +66,15 @@ int marginOf(const QStyleOptionViewItem& option) {
 
 }  // namespace
 
+QString VariablesDelegate::nameFor(const QModelIndex& index, const QFont& font, double room) {
+  QString name = index.data().toString();
+  const QString heading = index.parent().data().toString().toUpper() + QLatin1Char('_');
+  const bool isUnder = name.startsWith(heading) && name.size() > heading.size();
+  constexpr int roomy = 24;  // letters; all names of a heading are shortened, or none
+  const bool isNarrow = room < roomy * QFontMetrics(font).averageCharWidth();
+  return isUnder && isNarrow ? name.mid(heading.size()) : name;
+}
+
 QSize VariablesDelegate::sizeHint(const QStyleOptionViewItem& option,
                                   const QModelIndex& index) const {
   QSize size = QStyledItemDelegate::sizeHint(option, index);
@@ -76,6 +85,9 @@ QSize VariablesDelegate::sizeHint(const QStyleOptionViewItem& option,
 void VariablesDelegate::initStyleOption(QStyleOptionViewItem* option,
                                         const QModelIndex& index) const {
   QStyledItemDelegate::initStyleOption(option, index);
+  if (index.column() == VariablesModel::Name && option->rect.isValid()) {
+    option->text = nameFor(index, option->font, option->rect.width() - 2 * marginOf(*option));
+  }
   // Words of a code begin with what matters: "walk forward, fast".
   if (index.column() != VariablesModel::Name && option->rect.isValid()) {
     option->text = elidedWords(QFontMetricsF(option->font), option->text,
@@ -160,9 +172,11 @@ void VariablesDelegate::paintPlain(QPainter* painter, const QStyleOptionViewItem
   painter->setPen(color.isValid() ? color.value<QColor>()
                                   : option.palette.color(group, QPalette::Text));
   const int margin = marginOf(option);
-  drawWords(*painter, option.rect.adjusted(margin, 0, -margin, 0),
-            Qt::Alignment(index.data(Qt::TextAlignmentRole).toInt()), words,
-            index.column() == VariablesModel::Name ? option.textElideMode : Qt::ElideRight);
+  const QRect room = option.rect.adjusted(margin, 0, -margin, 0);
+  const bool isName = index.column() == VariablesModel::Name;
+  drawWords(*painter, room, Qt::Alignment(index.data(Qt::TextAlignmentRole).toInt()),
+            isName ? nameFor(index, painter->font(), room.width()) : words,
+            isName ? option.textElideMode : Qt::ElideRight);
 }
 
 void VariablesDelegate::paintSpark(QPainter* painter, const QStyleOptionViewItem& option,

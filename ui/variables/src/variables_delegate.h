@@ -13,6 +13,9 @@ class VariablesDelegate : public QStyledItemDelegate {
  public:
   using QStyledItemDelegate::QStyledItemDelegate;
 
+  /// The name in a room of so many pixels: in little room it leaves out the heading that it stands
+  /// under, BALL_DIST of Vision.
+  static QString nameFor(const QModelIndex& index, const QFont& font, double room);
   void paint(QPainter* painter, const QStyleOptionViewItem& option,
              const QModelIndex& index) const override;
   QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override;

@@ -82,7 +82,8 @@ class VariablesDock : public QWidget {
 
   ~VariablesDock() override {
     if (m_context.settings) {
-      m_context.settings->setValue(headerKey, m_view->header()->saveState());
+      m_context.settings->setValue(headerKey,
+                                   static_cast<VariablesHeader*>(m_view->header())->stateToKeep());
     }
   }
 
@@ -107,7 +108,7 @@ class VariablesDock : public QWidget {
     m_words->setObjectName(QStringLiteral("variablesFilter"));
     m_words->setPlaceholderText(QStringLiteral("Filter, e.g. ball dist"));
     m_words->setToolTip(
-        QStringLiteral("Rows that have all the words, in robot, process, name or unit"));
+        QStringLiteral("Show rows that contain all words in robot, process, name or unit"));
     m_words->setClearButtonEnabled(true);
     m_words->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
     connect(m_words, &QLineEdit::textChanged, this, [this](const QString& text) {
@@ -115,7 +116,7 @@ class VariablesDock : public QWidget {
       filterChanged();
     });
     m_stars = makeButton("favouritesOnly", "starred-symbolic",
-                         QStringLiteral("Favourites only. * on a variable makes it one."));
+                         QStringLiteral("Show favourites only. Press * on a variable to add it."));
     m_stars->setCheckable(true);
     connect(m_stars, &QToolButton::toggled, this, [this](bool on) {
       m_filter->setFavouritesOnly(on);
@@ -227,7 +228,7 @@ class VariablesDock : public QWidget {
         m_message->say(InPlaceMessage::Tone::Note, why);
       else
         m_message->say(InPlaceMessage::Tone::Note,
-                       QStringLiteral("Values are locked against accidents."),
+                       QStringLiteral("Editing is off to prevent accidents."),
                        QStringLiteral("Edit values"), [this] { m_lock->setChecked(true); });
     });
     connect(m_model, &VariablesModel::favouritesChanged, this, [this] {
@@ -269,10 +270,9 @@ class VariablesDock : public QWidget {
     const QString why = VariablesModel::whyNotEditable(m_context.source->kind());
     m_lock->setToolTip(
         !why.isEmpty() ? why
-        : past
-            ? QStringLiteral("A past moment is shown. Now leads back to values that can be edited.")
-            : QStringLiteral(
-                  "Edit values: double-click a value of a simulated robot to change it"));
+        : past         ? QStringLiteral("You are viewing the past. Press Now to edit values.")
+                       : QStringLiteral(
+                             "Edit values: double-click a value of a simulated robot to change it"));
     m_lock->setAccessibleName(QStringLiteral("Edit values"));
   }
 
@@ -293,14 +293,13 @@ class VariablesDock : public QWidget {
   }
 
   static QString whereText(int key) {
-    return key == 0
-               ? QStringLiteral(
-                     "This blackboard is in the studio's own memory: other programs cannot reach "
-                     "it. Simulation > Robots decide shares it.")
-               : QStringLiteral(
-                     "System V shared memory, key %1, 2048 bytes. In a terminal: "
-                     "pitchboard-cli blackboard watch --key %1")
-                     .arg(key);
+    return key == 0 ? QStringLiteral(
+                          "This blackboard is in the studio's own memory, so other programs cannot "
+                          "open it. To share it, use Simulation > Run robot processes.")
+                    : QStringLiteral(
+                          "System V shared memory, key %1, 2048 bytes. In a terminal: "
+                          "pitchboard-cli blackboard watch --key %1")
+                          .arg(key);
   }
 
   void applyChanged() {
@@ -357,15 +356,14 @@ class VariablesDock : public QWidget {
                  ? QStringLiteral("No variables yet. They appear with the first values of a robot.")
                  : why;
     }
-    if (!m_words->text().trimmed().isEmpty())
-      return QStringLiteral("No variable has all of these words.");
+    if (!m_words->text().trimmed().isEmpty()) return QStringLiteral("No matching variables.");
     if (m_stars->isChecked() && m_model->favourites().isEmpty()) {
-      return QStringLiteral("No favourites yet. Select a variable and press * to make it one.");
+      return QStringLiteral("No favourites yet. Select a variable and press * to add it.");
     }
     if (m_changed->isChecked()) {
       return QStringLiteral("Nothing changed within the last %1 s.").arg(m_menu->changedWithin());
     }
-    return QStringLiteral("None of the favourites is in this match.");
+    return QStringLiteral("This match has none of your favourites.");
   }
 
   VariablesContext m_context;

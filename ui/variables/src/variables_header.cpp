@@ -35,7 +35,7 @@ VariablesHeader::VariablesHeader(QWidget* parent) : QHeaderView(Qt::Horizontal, 
 void VariablesHeader::reset() {
   setMinimumSectionSize(scaled(this, 24));
   setSectionResizeMode(VariablesModel::Name, QHeaderView::Stretch);
-  const std::pair<int, int> widths[] = {{VariablesModel::Value, 56},
+  const std::pair<int, int> widths[] = {{VariablesModel::Value, 52},
                                         {VariablesModel::Unit, 38},
                                         {VariablesModel::Rate, 66},
                                         {VariablesModel::Age, 56},
@@ -49,7 +49,24 @@ void VariablesHeader::reset() {
   }
   setSectionHidden(VariablesModel::Rate, true);
   setSectionHidden(VariablesModel::Age, true);
+  setSectionHidden(VariablesModel::Spark, m_hidSpark);
   setSortIndicator(-1, Qt::AscendingOrder);
+}
+
+// Names are not cut for a curve.
+void VariablesHeader::resizeEvent(QResizeEvent* event) {
+  QHeaderView::resizeEvent(event);
+  constexpr int least = 300;  // px of the mock
+  const bool fits = width() >= scaled(this, least);
+  const bool hidden = isSectionHidden(VariablesModel::Spark);
+  if (fits ? !m_hidSpark : hidden) return;
+  m_hidSpark = !fits;
+  setSectionHidden(VariablesModel::Spark, !fits);
+}
+
+QByteArray VariablesHeader::stateToKeep() {
+  if (m_hidSpark) setSectionHidden(VariablesModel::Spark, false);
+  return saveState();
 }
 
 void VariablesHeader::fillColumns(QMenu* menu) {
@@ -59,8 +76,10 @@ void VariablesHeader::fillColumns(QMenu* menu) {
         menu->addAction(model()->headerData(c, Qt::Horizontal, Qt::DisplayRole).toString());
     action->setCheckable(true);
     action->setChecked(!isSectionHidden(c));
-    connect(action, &QAction::toggled, this,
-            [this, c](bool shown) { setSectionHidden(c, !shown); });
+    connect(action, &QAction::toggled, this, [this, c](bool shown) {
+      if (c == VariablesModel::Spark) m_hidSpark = false;
+      setSectionHidden(c, !shown);
+    });
   }
 }
 

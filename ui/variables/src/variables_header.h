@@ -18,6 +18,14 @@ class VariablesHeader : public QHeaderView {
   void reset();
   /// One entry for each column that may be hidden, in place of what the menu had.
   void fillColumns(QMenu* menu);
+  /// For the next start, without what is hidden for want of room. At the end.
+  QByteArray stateToKeep();
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  bool m_hidSpark = false;  // for want of room
 };
 
 }  // namespace pitchboard::ui

@@ -41,7 +41,7 @@ VariablesView::VariablesView(VariablesModel* model, VariablesFilter* filter, QWi
   setEditTriggers(NoEditTriggers);
   setDragEnabled(true);
   setDragDropMode(DragOnly);
-  setIndentation(scaled(this, 10));
+  setIndentation(scaled(this, 8));
   setTextElideMode(Qt::ElideMiddle);  // names differ at both ends
   setAnimated(false);
   setExpandsOnDoubleClick(true);

@@ -47,7 +47,8 @@ QWidget* referee(const StudioParts& s, QWidget* parent) {
 }
 QWidget* plots(const StudioParts& s, QWidget* parent) {
   return makePlotsDock(
-      {s.source, s.time, s.timeline, s.plots, s.settings, s.compared, firstPlots()}, parent);
+      {s.source, s.time, s.timeline, s.plots, s.settings, s.compared, s.future, firstPlots()},
+      parent);
 }
 QWidget* processes(const StudioParts& s, QWidget* parent) {
   return makeProcessesDock(s.controller, s.source, parent);
@@ -62,7 +63,7 @@ QWidget* log(const StudioParts& s, QWidget* parent) {
   return makeLogDock(s.controller, s.source, s.timeline, parent);
 }
 QWidget* timeline(const StudioParts& s, QWidget* parent) {
-  return makeTimelineDock({s.time, s.timeline, s.timelineActions, s.compared}, parent);
+  return makeTimelineDock({s.time, s.timeline, s.timelineActions, s.compared, s.future}, parent);
 }
 
 }  // namespace
@@ -77,7 +78,7 @@ std::span<const DockInfo> studioDocks() {
       {"referee", "Referee", Qt::RightDockWidgetArea, false, referee},
       {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, badMessages},
       {"log", "Log", Qt::BottomDockWidgetArea, true, log},
-      {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, experiments},
+      {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, experiments, false, 300},
       {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, timeline, true},
   };
   return docks;

@@ -22,6 +22,7 @@ struct DockInfo {
   bool shownAtFirst;
   QWidget* (*make)(const StudioParts& parts, QWidget* parent);
   bool ownRow = false;  ///< bottom: below the tabs, without a title while docked
+  int height = 0;       ///< px of the mock that it needs while it is open; 0: what it is given
 };
 
 std::span<const DockInfo> studioDocks();

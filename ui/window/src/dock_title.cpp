@@ -52,13 +52,14 @@ QSize DockTitle::sizeHint() const {
   return {QWidget::sizeHint().width(), m_folded ? 0 : scaled(this, 24)};
 }
 
-void DockTitle::setFolded(bool folded) {
-  if (folded == m_folded) return;
+bool DockTitle::setFolded(bool folded) {
+  if (folded == m_folded) return false;
   m_folded = folded;
   setVisible(!folded);
   updateGeometry();
   // A dock asks its title for its size only when the title is set.
   if (auto* dock = qobject_cast<QDockWidget*>(parentWidget())) dock->setTitleBarWidget(this);
+  return true;
 }
 
 }  // namespace pitchboard::ui

@@ -17,7 +17,8 @@ class DockTitle : public QWidget {
  public:
   explicit DockTitle(QDockWidget* dock);
   /// Folded it takes no room: the dock is one of several tabs, and the tab says its name.
-  void setFolded(bool folded);
+  /// Says whether that is new.
+  bool setFolded(bool folded);
   /// Between the name and the buttons; something else may take it away again.
   void setCorner(QWidget* corner);
   QSize sizeHint() const override;

@@ -5,12 +5,17 @@
 #include <QEvent>
 #include <QLabel>
 #include <QPainter>
+#include <QSettings>
+#include <QUndoStack>
+#include <algorithm>
 #include <functional>
 
 #include <ui/base/scoreboard_state.h>
 #include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
+#include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
 
 namespace pitchboard::ui {
@@ -40,6 +45,7 @@ class FieldSign : public QLabel {
     setText(text);
     setVisible(!text.isEmpty());
     if (text.isEmpty()) return;
+    setWordWrap(false);  // its size hint is that of one line
     setGeometry(place(sizeHint()));
     raise();
   }
@@ -66,6 +72,29 @@ class FieldSign : public QLabel {
   QColor ThemeColors::*m_line;
 };
 
+/// In the middle of the upper edge; text that is wider than the field takes a second line.
+QRect topOfField(FieldSign& sign, const QWidget& canvas, QSize text) {
+  const int room = canvas.width() - scaled(&sign, 16), padding = scaled(&sign, 24);
+  const bool fits = text.width() + padding <= room;
+  sign.setWordWrap(!fits);
+  QRect box(0, 0, std::min(text.width() + padding, room), scaled(&sign, fits ? 28 : 46));
+  // Where the field is alone the scoreboard stands above it.
+  box.moveTop(scaled(&sign, canvas.window()->isFullScreen() ? 44 : 8));
+  box.moveLeft((canvas.width() - box.width()) / 2);
+  return box;
+}
+
+/// As the frames of `source` want it.
+void presentFrames(FieldSign* sign, FrameSource* source) {
+  const auto present = [sign] {
+    // Most frames say the same.
+    if (sign->textNow() != sign->text() || sign->isVisible() == sign->text().isEmpty())
+      sign->present();
+  };
+  QObject::connect(source, &FrameSource::frameReceived, sign, present);
+  QObject::connect(source, &FrameSource::restarted, sign, present);
+}
+
 }  // namespace
 
 QWidget* makeOpeningSign(MatchController* controller, QWidget* canvas) {
@@ -89,6 +118,57 @@ QWidget* makeOpeningSign(MatchController* controller, QWidget* canvas) {
   return sign;
 }
 
+void makeFirstSteps(SourceSwitch* source, MatchController* controller, Timeline* timeline,
+                    const QList<QAction*>& actions, QSettings* settings, QWidget* canvas) {
+  static const QString wantedKey = QStringLiteral("window/firstSteps");
+  if (!settings->value(wantedKey, true).toBool()) return;
+  auto* sign = new FieldSign(canvas, QStringLiteral("firstSteps"), &ThemeColors::accentLine);
+  sign->textNow = [source] {
+    const bool plays = source->kind() == SourceKind::Simulate && source->frame();
+    return plays ? QStringLiteral("Drag the ball  ·  Space pauses  ·  F1 shows all keys")
+                 : QString();
+  };
+  sign->place = [sign, canvas](QSize text) { return topOfField(*sign, *canvas, text); };
+  const auto present = [sign] {
+    if (sign->isVisible() == sign->textNow().isEmpty()) sign->present();
+  };
+  QObject::connect(source, &FrameSource::frameReceived, sign, present);
+  QObject::connect(source, &FrameSource::restarted, sign, present);
+  const auto leave = [sign, settings] {
+    settings->setValue(wantedKey, false);
+    sign->hide();
+    sign->deleteLater();
+  };
+  for (QAction* action : actions) QObject::connect(action, &QAction::triggered, sign, leave);
+  QObject::connect(controller->edits()->undoStack(), &QUndoStack::indexChanged, sign, leave);
+  QObject::connect(timeline, &Timeline::lookingBackChanged, sign, leave);
+}
+
+QWidget* makeFinalWhistleSign(SourceSwitch* source, QWidget* canvas) {
+  auto* sign = new FieldSign(canvas, QStringLiteral("finalWhistle"), &ThemeColors::innerLine);
+  sign->textNow = [source] {
+    const FramePtr frame = source->frame();
+    const bool over = source->kind() == SourceKind::Simulate && frame && frame->finished &&
+                      frame->origin == link::FrameOrigin::Simulated;
+    if (!over) return QString();
+    const ScoreboardState board = scoreboardOf(*frame);
+    return QStringLiteral("%1: %2 %3 : %4 %5. Space plays again, or look back on the timeline.")
+        .arg(frame->desk ? QStringLiteral("Final whistle") : QStringLiteral("The match is over"),
+             board.leftName)
+        .arg(board.left)
+        .arg(board.right)
+        .arg(board.rightName);
+  };
+  sign->place = [sign, canvas](QSize text) { return topOfField(*sign, *canvas, text); };
+  const auto present = [sign] {
+    if (sign->isVisible() == sign->textNow().isEmpty()) sign->present();
+  };
+  QObject::connect(source, &FrameSource::frameReceived, sign, present);
+  QObject::connect(source, &FrameSource::restarted, sign, present);
+  QObject::connect(source, &SourceSwitch::changed, sign, present);
+  return sign;
+}
+
 QWidget* makePenaltyStrip(FrameSource* source, QWidget* canvas) {
   auto* sign = new FieldSign(canvas, QStringLiteral("penaltyStrip"), &ThemeColors::innerLine);
   sign->textNow = [source] {
@@ -100,13 +180,25 @@ QWidget* makePenaltyStrip(FrameSource* source, QWidget* canvas) {
     const int wide = qMin(text.width() + scaled(sign, 16), canvas->width() - 2 * edge);
     return QRect(canvas->width() - wide - edge, edge, wide, scaled(sign, 22));
   };
-  const auto present = [sign, source] {
-    // Most frames say the same.
-    if (sign->textNow() != sign->text() || sign->isVisible() == sign->text().isEmpty())
-      sign->present();
+  presentFrames(sign, source);
+  return sign;
+}
+
+QWidget* makeNobodyPlaysSign(FrameSource* source, QWidget* canvas) {
+  auto* sign = new FieldSign(canvas, QStringLiteral("nobodyPlaysSign"), &ThemeColors::warningText);
+  sign->textNow = [source] {
+    const FramePtr frame = source->frame();
+    return frame && frame->nobodyPlays
+               ? QStringLiteral("No robot was told to play: choose rules in the Referee panel")
+               : QString();
   };
-  QObject::connect(source, &FrameSource::frameReceived, sign, present);
-  QObject::connect(source, &FrameSource::restarted, sign, present);
+  sign->place = [sign, canvas](QSize text) {
+    const int high = scaled(sign, 22);
+    QRect box(0, 0, qMin(canvas->width(), text.width() + scaled(sign, 16)), high);
+    box.moveCenter({canvas->width() / 2, canvas->height() - high / 2 - scaled(sign, 8)});
+    return box;
+  };
+  presentFrames(sign, source);
   return sign;
 }
 
@@ -116,7 +208,7 @@ QWidget* makePublishedKeysSign(QAction* publishedKeys, QWidget* canvas) {
   sign->setAttribute(Qt::WA_TransparentForMouseEvents, false);
   sign->setCursor(Qt::PointingHandCursor);
   sign->setToolTip(QStringLiteral(
-      "Letters give orders to robots, as in the published simulator. Click to switch it off."));
+      "Letter keys control robots, as in the published simulator. Click to turn this off."));
   sign->clicked = [publishedKeys] { publishedKeys->setChecked(false); };
   sign->textNow = [publishedKeys] {
     return publishedKeys->isChecked() ? QStringLiteral("Published keys are on") : QString();
@@ -135,17 +227,11 @@ QWidget* makeLookingBackSign(Timeline* timeline, QWidget* canvas) {
   sign->textNow = [timeline] {
     // As the line of this moment says it in the plots.
     return timeline->isLookingBack()
-               ? QStringLiteral("Looking back: %1 (Now leads back)")
+               ? QStringLiteral("Viewing %1 · press Now to return")
                      .arg(momentText(timeline->shownTime(), 2, timeline->clock()))
                : QString();
   };
-  sign->place = [sign, canvas](QSize text) {
-    QRect box(0, 0, text.width() + scaled(sign, 24), scaled(sign, 28));
-    // Where the field is alone the scoreboard stands above it.
-    box.moveTop(scaled(sign, canvas->window()->isFullScreen() ? 44 : 8));
-    box.moveLeft((canvas->width() - box.width()) / 2);
-    return box;
-  };
+  sign->place = [sign, canvas](QSize text) { return topOfField(*sign, *canvas, text); };
   QObject::connect(timeline, &Timeline::lookingBackChanged, sign, &FieldSign::present);
   QObject::connect(timeline, &Timeline::moved, sign, &FieldSign::present);
   QObject::connect(timeline, &Timeline::sourceChanged, sign, &FieldSign::present);

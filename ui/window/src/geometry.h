@@ -23,7 +23,7 @@ constexpr Extents extentsFor(QSize window) {
   extents.left = wide < 1100 ? 208 : wide < 1400 ? 232 : 256;
   extents.right = wide < 1100 ? 280 : wide < 1400 ? 336 : 416;
   // Below 900 a single row of curves; it grows by a drag.
-  extents.bottom = high < 560 ? 86 : high < 700 ? 96 : high < 900 ? 120 : 200;
+  extents.bottom = high < 560 ? 100 : high < 900 ? 130 : 200;
   return extents;
 }
 

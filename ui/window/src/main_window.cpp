@@ -28,6 +28,7 @@
 #include <ui/processes/orphan_notice.h>
 #include <ui/session/export_dialog.h>
 #include <ui/session/session_files.h>
+#include <ui/sources/abandoned_future.h>
 #include <ui/sources/attached_boards.h>
 #include <ui/sources/compared_session.h>
 #include <ui/sources/linked_time.h>
@@ -82,9 +83,10 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
       m_time(new LinkedTime(this)),
       m_plots(new PlotTarget(this)),
       m_timeline(new Timeline(m_source, this)),
+      m_future(new AbandonedFuture(controller, m_source, m_timeline, this)),
       m_replay(new ReplayController(this)),
       m_recording(new SessionRecording(controller, m_live, m_source, m_timeline, settings, this)),
-      m_timelineActions(new TimelineActions(m_timeline, m_time, this)),
+      m_timelineActions(new TimelineActions(m_timeline, m_time, m_future, this)),
       m_boards(new AttachedBoards(controller, m_live, m_source, settings, this)) {
   guardWheel(*qApp);
   m_source->add(m_live);
@@ -137,9 +139,13 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     makeOpeningSign(controller, canvas);
+    makeFinalWhistleSign(m_source, canvas);
     makeLookingBackSign(m_timeline, canvas);
+    makeNobodyPlaysSign(m_source, canvas);
     makePublishedKeysSign(m_field->actions().publishedKeys, canvas);
     makePenaltyStrip(m_source, canvas);
+    makeFirstSteps(m_source, controller, m_timeline,
+                   {m_keys->action("play"), m_keys->action("showKeys")}, settings, canvas);
   }
   connectNotices();
   connect(m_replay, &ReplayController::opened, this, [this] {
@@ -198,6 +204,7 @@ void MainWindow::shutDown() {
   delete m_recording;
   delete m_boards;
   delete m_timelineActions;
+  delete m_future;
   delete m_timeline;
   delete m_source;
   delete m_replay;
@@ -207,7 +214,7 @@ void MainWindow::shutDown() {
 StudioParts MainWindow::parts() const {
   return {m_controller, m_source,   m_selection,       m_field,  m_time,      m_settings,
           m_plots,      m_timeline, m_timelineActions, m_replay, m_recording, m_live,
-          m_overlay,    m_compared, m_tests,           m_boards};
+          m_overlay,    m_compared, m_future,          m_tests,  m_boards};
 }
 
 QStringList MainWindow::recentSessions() const {
@@ -266,9 +273,9 @@ void MainWindow::showPalette() {
 }
 
 void MainWindow::makeMenus() {
-  StudioMenus({parts(), m_undo, m_files, m_sessions, m_bar->scenarios(), m_bar->transportActions(),
-               m_bar->speedSteps(), [this] { showShortcuts(this, *m_keys); }, m_status, m_docks,
-               m_fieldOnly, m_alarms},
+  StudioMenus({parts(), m_undo, m_files, m_sessions, m_bar->scenarios(),
+               m_bar->transportActions() + m_bar->skipActions(), m_bar->speedSteps(),
+               [this] { showShortcuts(this, *m_keys); }, m_status, m_docks, m_fieldOnly, m_alarms},
               *this)
       .make();
 }
@@ -378,6 +385,9 @@ void MainWindow::connectField() {
           &RobotSelection::blackboardRequested);
   connect(m_overlay, &LiveOverlay::otherReceived, m_field, &FieldView::showOther);
   connect(m_compared, &ComparedSession::momentReached, m_field, &FieldView::showCompared);
+  connect(m_future, &AbandonedFuture::momentReached, m_field, [this](const FramePtr& frame) {
+    if (!m_compared->isOn()) m_field->showCompared(frame);
+  });
   connect(m_field, &FieldView::cursorMoved, m_status, &StudioStatusBar::setCursor);
   connect(m_field, &FieldView::saveScenarioRequested, m_files, &ScenarioFiles::askAndSave);
   connect(m_field, &FieldView::loadMatchRequested, m_files,
@@ -411,7 +421,7 @@ void MainWindow::connectNotices() {
                        refused = QStringLiteral("refused"), locked = QStringLiteral("locked"),
                        finished = QStringLiteral("finished"), compared = QStringLiteral("compared"),
                        test = QStringLiteral("test"), continued = QStringLiteral("continued"),
-                       replaced = QStringLiteral("replaced");
+                       replaced = QStringLiteral("replaced"), branch = QStringLiteral("branch");
   const auto tell = [this](const QString& topic) {
     return [this, topic](const QString& sentence) { m_notices->show({topic}, sentence); };
   };
@@ -438,7 +448,16 @@ void MainWindow::connectNotices() {
   connect(m_controller, &MatchController::rewound, m_notices,
           [this] { m_notices->settle(refused); });
   connect(m_controller, &MatchController::opened, m_notices, [this] {
-    if (m_controller->isOpen()) m_notices->settle(scenario);
+    if (m_controller->isOpen()) {
+      m_notices->settle(scenario);
+      return;
+    }
+    m_notices->show(
+        {match},
+        QStringLiteral("The match could not be opened: %1").arg(m_controller->whyNotOpened()),
+        {{QStringLiteral("Try again"),
+          [this] { m_controller->open(m_controller->scenario(), m_controller->isPaused()); }},
+         {QStringLiteral("Choose a scenario"), [this] { m_bar->scenarios()->showPopup(); }}});
   });
   connect(m_controller, &MatchController::scenarioChanged, m_notices, [this] {
     for (const QString& topic : {match, refused, finished, continued, speedTopic}) {
@@ -462,6 +481,18 @@ void MainWindow::connectNotices() {
   connect(m_controller->edits(), &MatchEdits::lockedChanged, m_notices,
           [this] { m_notices->settle(locked); });
   connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices, tell(continued));
+  connect(m_future, &AbandonedFuture::began, m_notices, [this] {
+    m_notices->show(
+        {branch, NoticeTone::Success},
+        QStringLiteral("The match goes on from %1. The abandoned future stays as a pale branch.")
+            .arg(clockText(m_future->begin())),
+        {{QStringLiteral("Compare"), [this] { m_future->setCompared(true); }},
+         {QStringLiteral("Drop"), [this] { m_future->drop(); }},
+         {QStringLiteral("Close"), {}}});
+  });
+  connect(m_future, &AbandonedFuture::changed, m_notices, [this] {
+    if (!m_future->isOn()) m_notices->settle(branch);
+  });
   connect(m_live, &LiveController::errorOccurred, m_notices, tell(live));
   connect(m_live, &LiveController::optionsChanged, m_notices, [this] { m_notices->settle(live); });
   connect(m_compared, &ComparedSession::failed, m_notices, tell(compared));

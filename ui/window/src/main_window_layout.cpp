@@ -34,14 +34,28 @@ const QString untouchedKey = QStringLiteral("window/layoutFollowsSize");
 
 // A tab says the name already, and the timeline its times.
 void MainWindow::showTitles() {
+  bool changed = false;
   for (std::size_t i = 0; i < m_docks.size(); ++i) {
     QDockWidget* dock = m_docks[i];
     const QList<QDockWidget*> beside = tabifiedDockWidgets(dock);
     const bool tabs = std::any_of(beside.begin(), beside.end(),
                                   [](const QDockWidget* other) { return !other->isHidden(); });
     const bool says = studioDocks()[i].ownRow || tabs;
-    static_cast<DockTitle*>(dock->titleBarWidget())->setFolded(!dock->isFloating() && says);
+    auto* title = static_cast<DockTitle*>(dock->titleBarWidget());
+    changed = title->setFolded(!dock->isFloating() && says) || changed;
   }
+  int needed = 0;
+  for (std::size_t i = 0; i < m_docks.size(); ++i) {
+    if (!m_docks[i]->isHidden() && !m_docks[i]->isFloating())
+      needed = std::max(needed, studioDocks()[i].height);
+  }
+  changed = std::exchange(m_neededHeight, needed) != needed || changed;
+  // A title that comes or goes gives its height to the panel beside it, or takes it from there. The
+  // panels' least sizes are known when the layout has heard of it.
+  if (!changed) return;
+  QTimer::singleShot(0, this, [this] {
+    if (m_followsSize && !m_fieldOnly->isOn()) shareRoomOut();
+  });
 }
 
 void MainWindow::restoreLayout() {
@@ -101,7 +115,10 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
 
 void MainWindow::shareRoomOut() {
   const double unit = scaled(this, 1000) / 1000.0;
-  const Extents extents = extentsFor(size() / unit);
+  Extents extents = extentsFor(size() / unit);
+  // At most two fifths of the window.
+  extents.bottom =
+      std::max(extents.bottom, std::min(m_neededHeight, qRound(height() * 0.4 / unit)));
   const std::pair<Qt::DockWidgetArea, int> areas[] = {{Qt::LeftDockWidgetArea, extents.left},
                                                       {Qt::RightDockWidgetArea, extents.right},
                                                       {Qt::BottomDockWidgetArea, extents.bottom}};

@@ -4,6 +4,7 @@
 #include <QAbstractItemView>
 #include <QFileInfo>
 #include <QSettings>
+#include <QStylePainter>
 #include <algorithm>
 
 #include <robotlink/scenario/scenario.h>
@@ -49,6 +50,19 @@ void ScenarioChooser::showCurrent(const QString& nameOrPath, const QString& titl
     m_settings->setValue(recentKey, recent.mid(0, maxRecent));
   }
   fill();
+}
+
+// A title that is too long ends in dots, not in half a letter.
+void ScenarioChooser::paintEvent(QPaintEvent*) {
+  QStylePainter painter(this);
+  QStyleOptionComboBox option;
+  initStyleOption(&option);
+  painter.drawComplexControl(QStyle::CC_ComboBox, option);
+  const QRect room =
+      style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, this);
+  option.currentText =
+      fontMetrics().elidedText(option.currentText, Qt::ElideRight, room.width() - scaled(this, 4));
+  painter.drawControl(QStyle::CE_ComboBoxLabel, option);
 }
 
 QStringList ScenarioChooser::recentFiles() const {

@@ -23,6 +23,9 @@ class ScenarioChooser : public QComboBox {
   void chosen(const QString& nameOrPath);
   void openRequested();
 
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
  private:
   void fill();
   QSettings* m_settings;

@@ -25,8 +25,7 @@ Scoreboard::Scoreboard(QWidget* parent) : QWidget(parent) {
 void Scoreboard::setState(const ScoreboardState& state) {
   if (state == m_state) return;
   m_state = state;
-  setToolTip(state.tip.isEmpty() ? QStringLiteral("Score, time of play and state of the game")
-                                 : state.tip);
+  setToolTip(state.tip.isEmpty() ? QStringLiteral("Score, time and game state") : state.tip);
   setAccessibleName(
       QStringLiteral("%1 %2 %3, %4, %5")
           .arg(state.leftName, scoreText(state), state.rightName, state.clock, state.state));
@@ -43,7 +42,7 @@ Scoreboard::Widths Scoreboard::widths() const {
   widths.name = scaled(this, narrow ? 40 : wide ? 150 : 76);
   widths.score = score.horizontalAdvance(QStringLiteral("88 : 88"));
   widths.clock = names.horizontalAdvance(QStringLiteral("88:88")) + scaled(this, 2);
-  widths.tag = scaled(this, narrow ? 84 : wide ? 180 : 132);
+  widths.tag = scaled(this, narrow ? 100 : wide ? 180 : 132);
   widths.gap = scaled(this, narrow ? 5 : 8);
   return widths;
 }
@@ -97,6 +96,7 @@ void Scoreboard::paintEvent(QPaintEvent*) {
   colourAt(rightName.left() + rightWide + px(5), m_state.rightColour);
   painter.fillRect(QRect(left - w.gap / 2, px(4), 1, height() - px(8)), theme().innerLine);
   word(take(w.clock, w.gap), m_state.clock, w.names, Qt::AlignHCenter);
+  if (m_state.state.isEmpty()) return;
   const QFont tagFont = themeFont(TypeRole::Secondary, true);
   const QRect place = take(w.tag, 0);
   const QRectF tag(place.left() + 0.5, (height() - px(20)) / 2 + 0.5, place.width() - 1,

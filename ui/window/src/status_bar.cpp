@@ -186,7 +186,7 @@ void StudioStatusBar::showMemory() {
     if (!room.isEmpty()) text += QStringLiteral(", ") + room;
     const auto kind = telemetry::troubleOf(status);
     if (kind == telemetry::RecordingTrouble::DiskBehind)
-      text += QStringLiteral(", disk does not keep up");
+      text += QStringLiteral(", disk cannot keep up");
     if (status.dropped > 0) text += QStringLiteral(", %1 rows lost").arg(countText(status.dropped));
     m_recording->setText(text);
     m_recording->setToolTip((trouble.isEmpty() ? QString() : trouble + QLatin1Char('\n')) +
@@ -237,19 +237,18 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
                                           .arg(frame.settings->seed));
   switch (m_context.controller->cognition()) {
     case link::Cognition::Separate:
-      m_processes->setText(frame.inLockStep
-                               ? QStringLiteral("Robot processes separate, in lock-step")
-                               : QStringLiteral("Robot processes separate, running freely"));
+      m_processes->setText(frame.inLockStep ? QStringLiteral("Separate processes, in lock-step")
+                                            : QStringLiteral("Separate processes, running freely"));
       break;
     case link::Cognition::Inline:
-      m_processes->setText(QStringLiteral("Robots decide in the studio"));
+      m_processes->setText(QStringLiteral("Processes run inside the studio"));
       break;
     case link::Cognition::None:
-      m_processes->setText(QStringLiteral("Waiting for your processes"));
+      m_processes->setText(QStringLiteral("Waiting for team programs"));
       break;
   }
   if (frame.slowestTeamProgram) {
-    m_processes->setText(QStringLiteral("%1 · own programs reach ×%2")
+    m_processes->setText(QStringLiteral("%1 · team programs reach ×%2")
                              .arg(m_processes->text(), numberText(*frame.slowestTeamProgram, 1)));
   }
   if (frame.matchNumber.value_or(0) > 0) {

@@ -9,6 +9,7 @@ class QSettings;
 namespace pitchboard::ui {
 
 class AttachedBoards;
+class AbandonedFuture;
 class ComparedSession;
 class FieldView;
 class LinkedTime;
@@ -40,6 +41,7 @@ struct StudioParts {
   LiveController* live = nullptr;       ///< listens once it was asked to
   LiveOverlay* overlay = nullptr;       ///< the other source drawn beside the shown one
   ComparedSession* compared = nullptr;  ///< a second session drawn over the shown one
+  AbandonedFuture* future = nullptr;    ///< what the match has left by going on from earlier
   SituationTests* tests = nullptr;      ///< moments that are saved as tests
   AttachedBoards* boards = nullptr;     ///< blackboards of this computer
 };

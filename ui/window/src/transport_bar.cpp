@@ -38,7 +38,7 @@ struct Mode {
 constexpr Mode modes[] = {
     {SourceKind::Simulate, "Simulate", "Robots simulated on this computer"},
     {SourceKind::Live, "Live",
-     "Robots and referee as the network tells. Nothing is sent to robots"},
+     "Robots and referee received from the network. Nothing is sent to robots"},
     {SourceKind::Replay, "Replay", "A recorded session"},
 };
 
@@ -138,6 +138,7 @@ void TransportBar::addTransport() {
                        else
                          m_context.controller->stepOnce();
                      });
+  addSkip();
   m_restart->setObjectName(QStringLiteral("restart"));
   m_play->setObjectName(QStringLiteral("play"));
   m_step->setObjectName(QStringLiteral("step"));
@@ -163,6 +164,35 @@ void TransportBar::addTransport() {
   for (Playback* past : {m_context.timeline->past(), m_context.replay->playback()}) {
     connect(past, &Playback::changed, this, &TransportBar::showTransport);
   }
+}
+
+void TransportBar::addSkip() {
+  const auto make = [this](const char* id, const char* text, const char* tip) {
+    auto* action = new QAction(QString::fromUtf8(text), this);
+    action->setObjectName(QLatin1String(id));
+    action->setToolTip(QString::fromUtf8(tip));
+    m_skips << action;
+    return action;
+  };
+  connect(make("skipToKickOff", "Skip to &kick-off",
+               "Plays at full speed until the ball may be kicked off"),
+          &QAction::triggered, m_context.controller, &MatchController::skipToKickOff);
+  connect(make("skipToEvent", "Skip to next &event",
+               "Plays at full speed until something happens that the timeline marks"),
+          &QAction::triggered, this,
+          [this] { m_context.controller->skipToEvent(m_context.timeline->eventFilter()); });
+  auto* button = new QToolButton(this);
+  button->setObjectName(QStringLiteral("skip"));
+  button->setIcon(themedIcon(QStringLiteral("media-seek-forward")));
+  button->setToolTip(
+      QStringLiteral("Skip to kick-off (Ctrl+Shift+J) or to the next event "
+                     "(Ctrl+J), at full speed"));
+  button->setAccessibleName(QStringLiteral("Skip"));
+  auto* menu = new QMenu(button);
+  menu->addActions(m_skips);
+  button->setMenu(menu);
+  button->setPopupMode(QToolButton::InstantPopup);
+  addControl(SourceKind::Simulate, addWidget(button));
 }
 
 void TransportBar::setSpeed(double speed) {
@@ -266,13 +296,21 @@ void TransportBar::resizeEvent(QResizeEvent* event) {
   // Widths follow the window and nothing else: titles, scores and recordings move nothing.
   constexpr int narrow = 1100, roomy = 1400;  // px of the mock
   const bool isNarrow = width() < scaled(this, narrow);
+  for (QToolButton* mode : findChildren<QToolButton*>(QStringLiteral("mode"))) {
+    const int padding = scaled(this, isNarrow ? 14 : 26);
+    mode->setFixedWidth(mode->fontMetrics().horizontalAdvance(mode->text()) + padding);
+    mode->setStyleSheet(isNarrow ? QStringLiteral("padding: 4px 0px;") : QString());
+  }
+  layout()->setSpacing(scaled(this, isNarrow ? 2 : 4));
   m_scenarios->setFixedWidth(scaled(this, isNarrow                        ? 104
                                           : width() < scaled(this, roomy) ? 196
                                                                           : 266));
-  m_liveBar->setNarrow(width() < scaled(this, roomy));
+  m_liveBar->setRoom(isNarrow                        ? LiveBar::Room::Least
+                     : width() < scaled(this, roomy) ? LiveBar::Room::Narrow
+                                                     : LiveBar::Room::Wide);
   m_record->setToolButtonStyle(isNarrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
   m_record->setFixedWidth(scaled(this, isNarrow ? 44 : 96));
-  m_speed->setFixedWidth(scaled(this, isNarrow ? 58 : 68));
+  m_speed->setFixedWidth(scaled(this, isNarrow ? 62 : 68));
   placeScoreboard();
 }
 
@@ -331,6 +369,7 @@ void TransportBar::showTransport() {
   const bool usable = past != nullptr || m_context.source->kind() == SourceKind::Simulate;
   for (QAction* action : transportActions()) action->setEnabled(there && usable);
   m_step->setEnabled(there && usable && !again);
+  for (QAction* action : m_skips) action->setEnabled(past == nullptr && m_step->isEnabled());
   m_speed->setEnabled(usable);
   const std::span<const double> speeds =
       past != nullptr ? past->speeds() : std::span<const double>(matchSpeeds);

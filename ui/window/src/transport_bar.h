@@ -49,6 +49,8 @@ class TransportBar : public QToolBar {
   ScenarioChooser* scenarios() const { return m_scenarios; }
   /// Restart, play/pause, step: for the menu too.
   QList<QAction*> transportActions() const { return {m_restart, m_play, m_step}; }
+  /// To kick-off, to the next event.
+  QList<QAction*> skipActions() const { return m_skips; }
   /// Buttons of these in Replay.
   void addReplayActions(const QList<QAction*>& actions);
   /// Slower, faster.
@@ -70,6 +72,7 @@ class TransportBar : public QToolBar {
   void addControl(SourceKind kind, QAction* action) { m_controls.push_back({kind, action}); }
   void showMode();
   void addTransport();
+  void addSkip();
   void addRecord();
   void showRecord();
   /// What the buttons move when not the match; null otherwise.
@@ -96,7 +99,7 @@ class TransportBar : public QToolBar {
   QAction* m_restart;
   QAction* m_play;
   QAction* m_step;
-  QList<QAction*> m_speedSteps;
+  QList<QAction*> m_speedSteps, m_skips;
   bool m_finished = false;
 };
 

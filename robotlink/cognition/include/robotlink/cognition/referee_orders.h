@@ -12,7 +12,7 @@
 
 namespace pitchboard::link {
 
-/// The words that COM_REFEREE knows (SYSTEM.md section 6).
+/// The words that COM_REFEREE knows (system.md section 6).
 inline constexpr int refereeStop = 1, refereePlay = 2, refereeReady = 11, refereeSet = 12;
 
 /// What one packet means to one robot.

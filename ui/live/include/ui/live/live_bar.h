@@ -23,8 +23,9 @@ class LiveBar : public QWidget {
  public:
   /// Both must outlive the bar.
   LiveBar(LiveController* live, QSettings* settings, QWidget* parent);
-  /// In little room the button of the ports has no text.
-  void setNarrow(bool narrow);
+  enum class Room { Wide, Narrow, Least };
+  /// With less room the button of the ports loses its text, then the others do, too.
+  void setRoom(Room room);
 
  private:
   void refresh();

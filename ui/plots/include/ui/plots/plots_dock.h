@@ -27,6 +27,7 @@ class QUndoStack;
 
 namespace pitchboard::ui {
 
+class AbandonedFuture;
 class ComparedSession;
 class NoticeBar;
 class PlotFeed;
@@ -44,6 +45,7 @@ struct PlotsContext {
   PlotTarget* plots = nullptr;          ///< who asks for plots from elsewhere; may be null
   QSettings* settings = nullptr;        ///< the user's; may be null
   ComparedSession* compared = nullptr;  ///< whose curves are drawn beside; may be null
+  AbandonedFuture* future = nullptr;    ///< else its; may be null
   PlotLayout first = {};                ///< shown when nothing was kept, at the very first start
 };
 

@@ -19,6 +19,7 @@
 #include <robotlink/match/match_runner.h>
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
+#include <ui/sources/event_filter.h>
 #include <ui/sources/frame_source.h>
 
 class QTimer;
@@ -56,7 +57,7 @@ class MatchController : public FrameSource {
   /// Ends the running match and starts this one, both on a worker thread: returns at once. Until
   /// `opened` there is no frame and isOpening() holds; orders given meanwhile reach the new match,
   /// edits that can be undone are ignored. Opening again supersedes what was not started yet.
-  /// On failure the old match is gone and `errorOccurred` tells why. When separate processes cannot
+  /// On failure the old match is gone and whyNotOpened() tells why. When separate processes cannot
   /// be had (a key is in use), the match plays with inline processes on heap blackboards and
   /// `errorOccurred` says so.
   void open(const link::Scenario& scenario, bool paused = false);
@@ -81,6 +82,8 @@ class MatchController : public FrameSource {
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override;
   QString emptyText() const override;
+  /// Why the match that was asked for last could not be made; empty while there is one.
+  const QString& whyNotOpened() const { return m_whyNotOpened; }
   FramePtr frameAt(double time) const override;
   /// Where the robots' processes run: as asked for, or Inline when that was not possible.
   link::Cognition cognition() const { return m_cognition; }
@@ -101,6 +104,10 @@ class MatchController : public FrameSource {
   void stepOnce();
   /// Plays at full speed up to this tick of the match, then pauses; for repeatable pictures.
   void runTo(std::uint64_t tick);
+  /// Plays at full speed until the ball may be kicked off next, or an event that the filter shows,
+  /// for 20 minutes of the match at most; then it goes on as before.
+  void skipToKickOff();
+  void skipToEvent(const EventFilter& shown);
   /// link::MatchRunner::unlimitedSpeed = maximum. Not at once if a program keeps real time because
   /// its profile asks for it, and the speed is not ×1: then `askedForSpeed` follows, and
   /// answerSpeed().
@@ -164,6 +171,7 @@ class MatchController : public FrameSource {
   void tellWhoWillNotFollow();
   QStringList realTimePrograms() const;
   void changeSpeed(double timesRealTime);
+  void skip(std::function<bool(const link::MatchEvent&)> wanted);
   void tellWhoKeepsRealTime(std::span<const link::MatchEvent> events);
 
   link::MatchOptions m_options, m_openedWith;
@@ -173,6 +181,7 @@ class MatchController : public FrameSource {
   std::shared_ptr<const link::VariableCatalog> m_nextCatalog, m_catalog;
   std::shared_ptr<link::MatchRunner> m_runner;  // keeps its catalog
   FramePtr m_frame;
+  QString m_whyNotOpened;
   double m_speed = 1.0;
   bool m_paused = false;
   bool m_opening = false;

@@ -26,6 +26,14 @@ namespace pitchboard::ui {
 
 class MatchRows;
 
+/// What a match leaves behind when it goes on from an earlier moment.
+struct MatchBranch {
+  double from = 0.0;  ///< where it was left, s
+  std::shared_ptr<const telemetry::SeriesStore> rows;
+  std::size_t bytes = 0;                 ///< of rows that the match has no more
+  std::vector<link::MatchEvent> events;  ///< later than `from`, as the timeline had them
+};
+
 class MatchMemory : public QObject {
   Q_OBJECT
  public:
@@ -57,6 +65,7 @@ class MatchMemory : public QObject {
   /// Bytes that the rows of a match may take; the oldest leave first. At once and for matches to
   /// come.
   void setMemoryBudget(std::size_t bytes);
+  std::size_t memoryBudget() const { return m_budget; }
   /// Rows are kept of every n-th tick (1: each), from now on. Waits for the tick in progress.
   void setSampling(int everyNth);
   int sampling() const { return m_everyNth; }
@@ -73,14 +82,18 @@ class MatchMemory : public QObject {
   /// What programs have drawn in the recent past; as archive().
   std::shared_ptr<const link::LiveHistory> drawn() const;
   /// Puts the match back to this moment (s) exactly, with what the processes inside it remembered,
-  /// pauses, and forgets what came after it and what could be undone. The controller's `rewound`
-  /// follows, or its `errorOccurred` when memory does not hold the moment any more.
+  /// pauses, and forgets what came after it and what could be undone. `branching`, the controller's
+  /// `rewound` and `branched` follow, or its `errorOccurred` when memory does not hold the moment
+  /// any more.
   void continueFrom(double time);
 
  signals:
   void failed(const QString& sentence);
   /// The match goes on, but not with all that its robots knew: what is lost.
   void continuedWithout(const QString& sentence);
+  /// Whoever keeps something of the future that is left adds it. Before `rewound`.
+  void branching(pitchboard::ui::MatchBranch& left);
+  void branched(const pitchboard::ui::MatchBranch& left);
 
  private:
   MatchController* m_match;

@@ -14,6 +14,7 @@ class QMenu;
 
 namespace pitchboard::ui {
 
+class AbandonedFuture;
 struct EventFilter;
 class LinkedTime;
 class Timeline;
@@ -21,8 +22,8 @@ class Timeline;
 class TimelineActions : public QObject {
   Q_OBJECT
  public:
-  /// `plots` may be null.
-  TimelineActions(Timeline* timeline, LinkedTime* plots, QObject* parent);
+  /// `plots` and `future` may be null.
+  TimelineActions(Timeline* timeline, LinkedTime* plots, AbandonedFuture* future, QObject* parent);
   void fill(QMenu* menu);
 
   QAction* next() const { return m_next; }
@@ -36,6 +37,8 @@ class TimelineActions : public QObject {
 
  private:
   void refresh();
+  /// Asks for a time and shows that moment. What was `typed` before, and why it was refused.
+  void askForTime(const QString& typed = {}, const QString& problem = {});
   void fillFilter(QMenu* menu);
   void change(const std::function<void(EventFilter&)>& how);
 
@@ -43,6 +46,7 @@ class TimelineActions : public QObject {
   LinkedTime* m_plots;
   QAction* m_now;
   QAction* m_oldest;
+  QAction* m_goTo;
   QAction* m_next;
   QAction* m_previous;
   QAction* m_bookmark;
@@ -50,6 +54,8 @@ class TimelineActions : public QObject {
   QAction* m_selectVisible;
   QAction* m_clearRange;
   QAction* m_loop;
+  QAction* m_compareFuture;
+  QAction* m_dropFuture;
 };
 
 }  // namespace pitchboard::ui

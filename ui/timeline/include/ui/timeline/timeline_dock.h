@@ -7,6 +7,7 @@ class QWidget;
 
 namespace pitchboard::ui {
 
+class AbandonedFuture;
 class ComparedSession;
 class LinkedTime;
 class Timeline;
@@ -18,6 +19,7 @@ struct TimelineContext {
   Timeline* timeline = nullptr;  ///< the moment shown, events, looking back
   TimelineActions* timelineActions = nullptr;
   ComparedSession* compared = nullptr;  ///< its events stand in a second row; may be null
+  AbandonedFuture* future = nullptr;    ///< a pale branch; may be null
 };
 
 QWidget* makeTimelineDock(const TimelineContext& context, QWidget* parent);

@@ -22,6 +22,7 @@ struct Scenario;
 
 namespace pitchboard::ui {
 
+class AbandonedFuture;
 class Alarms;
 class AttachedBoards;
 class ComparedSession;
@@ -62,6 +63,7 @@ class MainWindow : public QMainWindow {
   ScenarioFiles* files() const { return m_files; }
   SessionFiles* sessions() const { return m_sessions; }
   ComparedSession* compared() const { return m_compared; }
+  AbandonedFuture* future() const { return m_future; }
   SessionRecording* recording() const { return m_recording; }
   ReplayController* replay() const { return m_replay; }
   LiveController* live() const { return m_live; }
@@ -131,6 +133,7 @@ class MainWindow : public QMainWindow {
   LinkedTime* m_time;
   PlotTarget* m_plots;
   Timeline* m_timeline;
+  AbandonedFuture* m_future;
   ReplayController* m_replay;
   SessionRecording* m_recording;
   SessionFiles* m_sessions;
@@ -154,6 +157,7 @@ class MainWindow : public QMainWindow {
   bool m_wasActive = false;
   bool m_toldFinished = false;
   bool m_followsSize = true;          // nobody has given the panels other sizes
+  int m_neededHeight = 0;             // of the open panels below the field, px of the mock
   std::vector<QDockWidget*> m_docks;  // order of studioDocks()
 };
 

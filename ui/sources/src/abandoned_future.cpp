@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/abandoned_future.h>
+
+#include <utility>
+
+#include <ui/base/robot_words.h>
+#include <ui/sources/event_list.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
+
+namespace pitchboard::ui {
+
+AbandonedFuture::AbandonedFuture(MatchController* match, SourceSwitch* source, Timeline* timeline,
+                                 QObject* parent)
+    : QObject(parent),
+      m_match(match),
+      m_source(source),
+      m_timeline(timeline),
+      m_events(new EventList(this)) {
+  connect(match->memory(), &MatchMemory::branched, this, [this](const MatchBranch& left) {
+    const auto range = left.rows->range();
+    if (!range || range->end <= left.from) return;
+    m_left = left;
+    m_end = range->end;
+    m_events->clear();
+    m_events->add(std::exchange(m_left.events, {}));
+    m_frames.reset();
+    emit changed();
+    emit began();
+    showMoment();
+  });
+  connect(match, &FrameSource::restarted, this, &AbandonedFuture::drop);
+  connect(match, &FrameSource::frameReceived, this, &AbandonedFuture::keepBudget);
+  connect(source, &SourceSwitch::changed, this, [this] {
+    emit changed();
+    showMoment();
+  });
+  connect(timeline, &Timeline::moved, this, &AbandonedFuture::showMoment);
+}
+
+bool AbandonedFuture::isOn() const {
+  return m_left.rows && m_source->kind() == SourceKind::Simulate;
+}
+
+std::shared_ptr<const telemetry::SeriesStore> AbandonedFuture::series() const {
+  return isOn() ? m_left.rows : nullptr;
+}
+
+QString AbandonedFuture::caption() const {
+  return QStringLiteral("abandoned at %1").arg(clockText(begin()));
+}
+
+void AbandonedFuture::setCompared(bool on) {
+  if (on == m_compared || !m_left.rows) return;
+  m_compared = on;
+  if (!on) emit momentReached(nullptr);
+  showMoment();
+  emit changed();
+}
+
+void AbandonedFuture::drop() {
+  if (!m_left.rows) return;
+  setCompared(false);
+  m_left = {};
+  m_events->clear();
+  m_frames.reset();
+  emit changed();
+}
+
+// The match itself goes first.
+void AbandonedFuture::keepBudget() {
+  if (!m_left.rows) return;
+  const auto rows = m_match->series();
+  if (rows && rows->memoryBytes() + m_left.bytes > m_match->memory()->memoryBudget()) drop();
+}
+
+void AbandonedFuture::showMoment() {
+  if (!m_compared) return;
+  const FramePtr now = m_match->frame();
+  const double time = m_timeline->shownTime();
+  if (!isOn() || !now || time < m_left.from || time > m_end) {
+    emit momentReached(nullptr);
+    return;
+  }
+  if (!m_frames) m_frames = std::make_unique<link::RecordedFrames>(*now->settings);
+  emit momentReached(std::make_shared<link::MatchFrame>(m_frames->frameAt(*m_left.rows, time)));
+}
+
+}  // namespace pitchboard::ui
