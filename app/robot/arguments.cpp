@@ -74,6 +74,9 @@ void addCommunicationOptions(CLI::App& command, Arguments& a) {
                   "GameControllers are ignored")
       ->type_name("N")
       ->check(CLI::Range(0, 255));
+  command.add_flag("--set-play", a.process.tellSetPlay,
+                   "Communication also writes which set play the referee gives (COM_SET_PLAY), "
+                   "for a decision process of ours; management adds it by itself");
   command
       .add_option("--shirt", a.process.shirt,
                   "Number in the GameController; the robot's number if not given")
@@ -192,7 +195,7 @@ void addOptions(CLI::App& command, Arguments& a) {
   shared::addGroup(
       command, "Network",
       {"--udp-address", "--telemetry-port-base", "--telemetry-rate", "--team-port-base", "--team",
-       "--referee-team", "--shirt", "--referee-port", "--debug-port"});
+       "--referee-team", "--set-play", "--shirt", "--referee-port", "--debug-port"});
   shared::addGroup(command, "Tuning",
                    {"--distance-to-kick", "--particles", "--seed", "--published-localization"});
 }

@@ -385,7 +385,7 @@ class TestUnchangedProcess : public QObject {
     QVERIFY(walked[0][1] > 0.5);
     QVERIFY2(differ(walked) < 0.05, qPrintable(QString::number(differ(walked))));
     // Lines are collected 20 times a second, 0.4 s of the match.
-    QVERIFY2(differ(seconds) < 0.05 + 0.4 / 12.5, qPrintable(QString::number(differ(seconds))));
+    QVERIFY2(differ(seconds) < 0.05 + 0.4 / 12.0, qPrintable(QString::number(differ(seconds))));
   }
 };
 

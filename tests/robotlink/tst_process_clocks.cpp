@@ -308,6 +308,38 @@ class TestProcessClocks : public QObject {
     }
   }
 
+  // Expirations that a program has not read yet outlast a pause and a change of speed.
+  void aTimersExpirationsAreAllCounted() {
+    ManagedProcess process = python({"-u", "-c", R"(import ctypes, os, time
+libc = ctypes.CDLL(None)
+timer = libc.timerfd_create(1, 0)
+begin = time.monotonic()
+libc.timerfd_settime(timer, 0, ctypes.byref((ctypes.c_long * 4)(1, 0, 1, 0)), None)
+print("armed")
+for seconds in (5.5, 0.1, 2.5):
+    time.sleep(seconds)
+    count = int.from_bytes(os.read(timer, 8), "little")
+    print(count, int(time.monotonic() - begin))
+)"});
+    m_manager->setTime(0.0, 2.0, SteadyClock::now());
+    const int id = add(process);
+    QTRY_VERIFY((look(), !m_lines.empty()));
+    QTest::qWait(1200);
+    m_manager->setPaused(true, SteadyClock::now());
+    QTest::qWait(700);
+    m_manager->setPaused(false, SteadyClock::now());
+    QTRY_VERIFY((look(), status(id).state == ProcessState::Ended));
+    look();
+    QCOMPARE(m_lines.size(), std::size_t{4});
+    int all = 0;
+    for (std::size_t i = 1; i < m_lines.size(); ++i) {
+      int count = 0, passed = 0;
+      QCOMPARE(std::sscanf(m_lines[i].c_str(), "%d %d", &count, &passed), 2);
+      all += count;
+      QCOMPARE(all, passed);
+    }
+  }
+
   // A match that is slower than it was asked to be takes the program's clock with it.
   void theClockIsSteeredToTheMatch() {
     const auto clock = ProgramClock::create();

@@ -13,7 +13,6 @@
 #include <simcore/world/published_frame.h>
 
 #include "match_parts.h"
-#include "referee_codes.h"
 
 namespace pitchboard::link {
 
@@ -132,21 +131,12 @@ void SimulatedMatch::Parts::hearReferee(bool again) {
     const int team = world.game->teamOf(robot.team);
     if (team < 0 || slots.all()[i]->runtime.hearsReferee) continue;
     const sim::GameTeam& own = world.game->teams[static_cast<std::size_t>(team)];
-    if (const auto word =
-            slots.all()[i]->orders.take(referee.packet(), own.number, own.slotOf(robot.number))) {
-      slots.all()[i]->board.write(base.variables.comReferee, *word);
-      if (slots.all()[i]->extended) tellSetPlay(*slots.all()[i], own.number);
+    RobotSlot& slot = *slots.all()[i];
+    if (const auto order =
+            slot.orders.take(referee.packet(), own.number, own.slotOf(robot.number))) {
+      refereeVariables.write(slot.board, *order, slot.extended);
     }
   }
-}
-
-/// Which set play it is, and whether it is the robot's own: of robots that know the extension of
-/// the map.
-void SimulatedMatch::Parts::tellSetPlay(RobotSlot& slot, int team) const {
-  const telemetry::RefereeState& packet = referee.packet();
-  const ToldSetPlay told = setPlayIn(packet);
-  writeIfPresent(slot.board, comSetPlay, static_cast<int>(told.kind));
-  writeIfPresent(slot.board, comSetPlayOurs, told.team == team ? 1 : 0);
 }
 
 /// Our processes of teams that have changed sides start again, told where they attack. A team's own

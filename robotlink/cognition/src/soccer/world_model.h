@@ -43,7 +43,7 @@ class WorldModel {
   double now() const { return m_now; }
   Referee referee() const { return m_referee; }
   bool fallen() const { return m_fallen; }
-  /// The set play that the referee has given, as the match tells it; None without.
+  /// The set play that the referee has given, as COM_SET_PLAY says; None without.
   sim::SetPlay setPlay() const { return m_setPlay; }
   bool setPlayIsOurs() const { return m_setPlayOurs; }
   const sim::FieldSpec& field() const { return m_field; }
