@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/beat.h>
 #include <ui/processes/processes_dock.h>
 
 #include <QLabel>
 #include <QMenu>
 #include <QStackedWidget>
-#include <QTimer>
 #include <algorithm>
 #include <chrono>
 
@@ -49,7 +49,7 @@ class ProcessesDock : public QStackedWidget {
         m_model(new ProcessesModel(this)),
         m_table(new QTableView(this)),
         m_empty(makeEmptyLabel(this, QStringLiteral("noProcesses"))) {
-    constexpr int refreshMilliseconds = 250;
+    constexpr Beat::Milliseconds least{250}, most{1000};
     m_table->setObjectName(QStringLiteral("processesTable"));
     m_table->setModel(m_model);
     m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
@@ -60,11 +60,9 @@ class ProcessesDock : public QStackedWidget {
     }
     addWidget(m_table);
     addWidget(m_empty);
-    auto* timer = new QTimer(this);
-    connect(timer, &QTimer::timeout, this, [this] {
-      if (isVisible()) refresh();
-    });
-    timer->start(refreshMilliseconds);
+    m_refresh = Beat::display().add(
+        this, least, [this] { refresh(); }, most);
+    connect(m_source, &SourceSwitch::frameReceived, this, [this] { m_refresh->want(); });
     connect(m_source, &SourceSwitch::changed, this, [this] { refresh(); });
     for (const auto changed : {&MatchController::scenarioChanged, &MatchController::opened}) {
       connect(m_controller, changed, this, [this] { refresh(); });
@@ -153,6 +151,7 @@ class ProcessesDock : public QStackedWidget {
   ProcessesModel* m_model;
   QTableView* m_table;
   QLabel* m_empty;
+  std::unique_ptr<Beat::Part> m_refresh;
 };
 
 }  // namespace
