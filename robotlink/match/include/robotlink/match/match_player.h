@@ -53,7 +53,8 @@ class MatchPlayer {
   /// One tick, whatever the pace.
   void tick();
   /// Looks after the robots' processes, and tells the observers what they wrote and what happened
-  /// to them. About 20 times a second, also while the match stands still.
+  /// to them. About 20 times a second; while the match stands still four times, and when
+  /// ProcessManager::descriptor() is readable.
   void lookAfterProcesses(Clock::time_point now);
   /// Tells the observers what has happened between ticks: processes that ended, orders by hand,
   /// and what was drawn.
