@@ -4,6 +4,8 @@
 //   bench_studio match [SECONDS]   the same while it is played
 //   bench_studio live [SECONDS]    22 robots at 60 messages a second each over UDP, all panels
 //   bench_studio start [TIMES]     from the start of a process to its first frame of a match
+//   bench_studio replay FILE       from a jump in a session that is larger than memory to a minute of
+//     curves; FILE: pitchboard-cli record --scenario match-3v3 --duration 1800 -o FILE
 //   bench_studio splitter          dragging the edge of a panel beside three plots of a match
 // The first three give the CPU time of the studio as a share of a core; robots and senders are
 // processes of their own. Under Xvfb:
@@ -36,11 +38,15 @@
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
+#include <ui/sources/linked_time.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/timeline.h>
 #include <ui/window/main_window.h>
 
 #include "../support/test_socket.h"
+#include "chart_pane.h"
 
 using namespace pitchboard;
 using Clock = std::chrono::steady_clock;
@@ -297,6 +303,47 @@ int splitter() {
   return 0;
 }
 
+int replay(const char* path) {
+  Studio studio({1440, 900});
+  studio.window.setMemoryBudget(64);  // MB
+  studio.window.show();
+  studio.window.openSession(QString::fromUtf8(path));
+  const auto* file = studio.window.replay();
+  while (!file->isOpen() || file->loaded() < 1.0) spin(std::chrono::milliseconds(20));
+  auto* plots = studio.window.findChild<ui::PlotsDock*>();
+  plots->plotVariables({QStringLiteral("B1/LOCALIZATION_X"), QStringLiteral("B1/BATTERY")});
+  plots->time()->setWindow(60.0);
+  spin(std::chrono::seconds(2));
+  const auto* chart = studio.window.findChild<ui::ChartPane*>();
+  const double length = studio.window.timeline()->available()->end;
+  constexpr int times = 40;
+  std::vector<double> cpu, real;
+  for (int i = 0; i < times; ++i) {
+    // Neither what was read before nor what lies beside it.
+    const double time = 60.0 + std::fmod(0.382 * (i + 1), 1.0) * (length - 120.0);
+    const auto isDrawn = [&] {
+      const telemetry::TimeRange shown = chart->timeAxis().shown;
+      const auto& traces = chart->traces();
+      return shown.begin <= time && time <= shown.end && traces[0].any && !traces[0].coarse;
+    };
+    const double cpuBefore = cpuMilliseconds();
+    const auto begin = Clock::now();
+    studio.window.timeline()->seek(time);
+    while (!isDrawn()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    QCoreApplication::processEvents();  // the stroke that was asked for
+    cpu.push_back(cpuMilliseconds() - cpuBefore);
+    real.push_back(millisecondsSince(begin));
+    spin(std::chrono::milliseconds(300));
+  }
+  std::sort(cpu.begin(), cpu.end());
+  std::sort(real.begin(), real.end());
+  std::printf(
+      "a minute of curves after a jump: median %.0f ms, 9 of 10 below %.0f ms, CPU time of all "
+      "threads median %.0f ms (wanted: 100)\n",
+      real[times / 2], real[times * 9 / 10], cpu[times / 2]);
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -315,10 +362,12 @@ int main(int argc, char** argv) {
   if (what == "live") return live(number > 0 ? number : 20, portBase, sender);
   if (what == "paused" || what == "match") return match(number > 0 ? number : 20, what == "paused");
   if (what == "splitter") return splitter();
+  if (what == "replay" && argc > 2) return replay(argv[2]);
   if (what == "first-frame" && argc > 2) {
     return firstFrame(Clock::time_point(Clock::duration(std::atoll(argv[2]))));
   }
-  std::fprintf(stderr,
-               "error: bench_studio paused|match|live [SECONDS] | start [TIMES] | splitter\n");
+  std::fprintf(
+      stderr,
+      "error: bench_studio paused|match|live [SECONDS] | start [TIMES] | splitter | replay FILE\n");
   return 2;
 }

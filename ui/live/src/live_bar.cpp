@@ -5,7 +5,6 @@
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QSettings>
-#include <QTimer>
 #include <QToolButton>
 #include <algorithm>
 
@@ -24,7 +23,7 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
       m_team(new QComboBox(this)),
       m_monitor(new QToolButton(this)),
       m_catalog(new QToolButton(this)) {
-  constexpr int refreshMilliseconds = 500;
+  constexpr Beat::Milliseconds most{500};
   m_ports->setObjectName(QStringLiteral("livePorts"));
   m_ports->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   m_ports->setIcon(themedIcon(QStringLiteral("configure")));
@@ -52,11 +51,8 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
   row->addWidget(m_monitor);
   row->addWidget(m_catalog);
   setRoom(Room::Wide);
-  auto* timer = new QTimer(this);
-  connect(timer, &QTimer::timeout, this, [this] {
-    if (isVisible()) refresh();
-  });
-  timer->start(refreshMilliseconds);
+  m_refresh = Beat::display().add(
+      this, most, [this] { refresh(); }, most);
   connect(live, &LiveController::optionsChanged, this, &LiveBar::refresh);
   refresh();
 }

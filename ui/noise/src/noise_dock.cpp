@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/models/robot_models.h>
+#include <ui/base/beat.h>
 #include <ui/noise/noise_dock.h>
 
 #include <QCheckBox>
@@ -51,7 +52,8 @@ class NoiseDock : public QScrollArea {
     setWidget(form);
     setMinimumWidth(form->minimumSizeHint().width() + scaled(this, 14));
     connect(m_controller, &MatchController::scenarioChanged, this, [this] { adopt(); });
-    connect(m_source, &FrameSource::frameReceived, this, [this] { follow(); });
+    m_follow = Beat::display().add(this, {}, [this] { follow(); });
+    connect(m_source, &FrameSource::frameReceived, this, [this] { m_follow->want(); });
     connect(m_controller->edits(), &MatchEdits::robotsChanged, this, [this] { showRobots(); });
     connect(m_controller->edits(), &MatchEdits::physicsChanged, this,
             [this] { showPhysics(m_controller->edits()->physics()); });
@@ -305,6 +307,7 @@ class NoiseDock : public QScrollArea {
   MatchController* m_controller;
   RobotSelection* m_selection;
   const SourceSwitch* m_source;
+  std::unique_ptr<Beat::Part> m_follow;
   QLabel* m_whose = nullptr;
   QWidget* m_robots = nullptr;
   QComboBox* m_kind = nullptr;

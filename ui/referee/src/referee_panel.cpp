@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/beat.h>
 #include <ui/referee/referee_panel.h>
 
 #include <QAction>
@@ -6,7 +7,6 @@
 #include <QMenu>
 #include <QScrollArea>
 #include <QShowEvent>
-#include <QTimer>
 #include <algorithm>
 #include <array>
 
@@ -92,14 +92,9 @@ class RefereePanel : public QScrollArea {
       addKey(QString::fromUtf8(one.words), one.key,
              [this, &one] { callReferee(edits(), one.call, QString::fromUtf8(one.words)); });
     }
-    m_later = new QTimer(this);
-    m_later->setSingleShot(true);
-    constexpr int least = 100;  // ms between two looks at frames
-    m_later->setInterval(least);
-    connect(m_later, &QTimer::timeout, this, &RefereePanel::refresh);
-    connect(context.source, &FrameSource::frameReceived, this, [this] {
-      if (!m_later->isActive()) m_later->start();
-    });
+    constexpr Beat::Milliseconds least{100};  // between two looks at frames
+    m_later = Beat::display().add(this, least, [this] { refresh(); });
+    connect(context.source, &FrameSource::frameReceived, this, [this] { m_later->want(); });
     connect(context.source, &FrameSource::restarted, this, &RefereePanel::refresh);
     connect(context.source, &SourceSwitch::changed, this, &RefereePanel::refresh);
     connect(edits(), &MatchEdits::lockedChanged, this, &RefereePanel::refresh);
@@ -511,7 +506,7 @@ class RefereePanel : public QScrollArea {
   QPushButton* m_give = nullptr;
   RefereeLog* m_log = nullptr;
   RulesFold* m_rules = nullptr;
-  QTimer* m_later = nullptr;
+  std::unique_ptr<Beat::Part> m_later;
   QString m_why;  // everything is grey; empty: calls are as the game allows
 };
 

@@ -3,6 +3,7 @@
 
 #include <QStringList>
 #include <algorithm>
+#include <cmath>
 
 #include <base/angles.h>
 #include <robotlink/scenario/scenario.h>
@@ -218,7 +219,10 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
     m_changed = now;
     m_serial = frame.serial;
   }
-  constexpr double smoothing = 0.1;
+  // A tenth in a tenth of a second.
+  const auto passed = m_updated < 0 ? 100.0 : static_cast<double>(now - m_updated);
+  const double smoothing = 1.0 - std::pow(0.9, passed / 100.0);
+  m_updated = now;
   const double age =
       static_cast<double>(now - m_changed) + 500.0 / std::max(1.0, frame.settings->tickRate);
   m_age += smoothing * (age - m_age);

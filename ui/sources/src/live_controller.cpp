@@ -8,15 +8,12 @@
 
 namespace pitchboard::ui {
 namespace {
-constexpr qint64 framePeriod = 32;  // ms, while many are heard
+constexpr Beat::Milliseconds manyPeriod{32};  // between frames, while many are heard
 constexpr std::size_t fewRobots = 8;
 }  // namespace
 
-LiveController::LiveController(QObject* parent) : FrameSource(parent) {
-  m_nextFrame.setSingleShot(true);
-  m_nextFrame.setTimerType(Qt::PreciseTimer);
-  connect(&m_nextFrame, &QTimer::timeout, this, &LiveController::deliverNow);
-}
+LiveController::LiveController(QObject* parent)
+    : FrameSource(parent), m_news(Beat::display().addSource([this] { deliver(); })) {}
 
 // The watch's thread posts to this object: it ends while this is whole.
 LiveController::~LiveController() {
@@ -25,8 +22,8 @@ LiveController::~LiveController() {
 
 void LiveController::start() {
   if (m_watch) return;
-  m_watch =
-      std::make_unique<link::LiveWatch>(m_options, [this] { m_toUi.post([this] { deliver(); }); });
+  m_watch = std::make_unique<link::LiveWatch>(m_options,
+                                              [this] { m_toUi.post([this] { m_news->want(); }); });
   keepRows();
   for (const auto& observer : m_observers) m_watch->observe(observer);
   emit restarted();
@@ -169,21 +166,12 @@ void LiveController::stopObserving(const std::shared_ptr<link::LiveObserver>& ob
 // A frame that comes after a rest is shown at once. Where many robots send often, half as many
 // pictures of them tell as much and cost half.
 void LiveController::deliver() {
-  if (m_nextFrame.isActive()) return;  // which shows this one, too
-  const bool many = m_frame && m_frame->robots.size() > fewRobots;
-  const qint64 rested = many ? m_sinceFrame.elapsed() : framePeriod;
-  if (rested >= framePeriod)
-    deliverNow();
-  else
-    m_nextFrame.start(static_cast<int>(framePeriod - rested));
-}
-
-void LiveController::deliverNow() {
   if (!m_watch) return;  // stopped while this was on its way
-  m_sinceFrame.start();
   const link::LiveNews news = m_watch->take();
   for (const auto& renamings : news.renamings) emit robotsRenamed(renamings);
   m_frame = news.frame;
+  const bool many = m_frame && m_frame->robots.size() > fewRobots;
+  m_news->setLeast(many ? manyPeriod : Beat::Milliseconds(0));
   if (m_frame) {
     emit frameReceived(m_frame);
   }

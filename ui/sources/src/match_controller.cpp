@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/sources/match_controller.h>
 
-#include <QTimer>
 #include <algorithm>
 #include <map>
 
@@ -38,13 +37,9 @@ MatchController::MatchController(link::MatchOptions options, QObject* parent)
       m_options(std::move(options)),
       m_nextCatalog(&link::VariableCatalog::published(), [](const auto*) {}),
       m_catalog(m_nextCatalog),
-      m_timer(new QTimer(this)),
+      m_news(Beat::display().addSource([this] { poll(); })),
       m_edits(new MatchEdits(this)),
       m_memory(new MatchMemory(this)) {
-  constexpr int displayMilliseconds = 16;
-  m_timer->setTimerType(Qt::PreciseTimer);
-  m_timer->setInterval(displayMilliseconds);
-  connect(m_timer, &QTimer::timeout, this, &MatchController::poll);
   connect(m_edits, &MatchEdits::failed, this, &MatchController::refuse);
   connect(m_memory, &MatchMemory::failed, this, &MatchController::refuse);
 }
@@ -141,7 +136,7 @@ QString MatchController::emptyText() const {
 std::shared_ptr<link::MatchRunner> MatchController::retire() {
   if (m_runner) emit ending();
   ++m_generation;
-  m_timer->stop();
+  if (m_runner) m_runner->setNews({});
   m_opening = false;
   m_whenOpen.clear();
   m_runTo.reset();
@@ -272,7 +267,7 @@ void MatchController::take(Opening& opening) {
     m_runner->setPaused(m_paused);
     if (m_runTo) m_runner->runTo(*m_runTo);
     for (link::MatchRunner::Command& command : m_whenOpen) m_runner->post(std::move(command));
-    m_timer->start();
+    m_runner->setNews([this] { m_toUi.post([this] { m_news->want(); }); });
   }
   m_whenOpen.clear();
   m_runTo.reset();

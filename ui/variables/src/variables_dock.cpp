@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/beat.h>
 #include <ui/variables/variables_dock.h>
 
 #include <QApplication>
 #include <QDockWidget>
+#include <QElapsedTimer>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QSettings>
-#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -50,7 +51,6 @@ class VariablesDock : public QWidget {
         m_view(new VariablesView(m_model, m_filter, this)),
         m_message(new InPlaceMessage(this)),
         m_empty(makeEmptyLabel(this, QStringLiteral("emptyVariables"))),
-        m_timer(new QTimer(this)),
         m_writer(new ValueWriter(context.controller, m_model, m_message, this)) {
     m_model->setObjectName(QStringLiteral("variablesModel"));
     m_catalog = new CatalogChoice(context.controller, context.settings, m_message, this);
@@ -74,9 +74,10 @@ class VariablesDock : public QWidget {
       connect(context.selection, &RobotSelection::blackboardRequested, this,
               [this](const RobotKey& robot) { showBlackboard(robot); });
     }
-    connect(m_timer, &QTimer::timeout, this, [this] { poll(); });
-    constexpr int pollMilliseconds = 100;
-    m_timer->start(pollMilliseconds);
+    constexpr Beat::Milliseconds least{100}, most{500};
+    m_refresh = Beat::display().add(
+        this, least, [this] { poll(); }, most);
+    connect(context.source, &FrameSource::frameReceived, this, [this] { m_refresh->want(); });
     adoptSource();
   }
 
@@ -331,18 +332,25 @@ class VariablesDock : public QWidget {
     m_model->updateGroups();
     describeBoards();
     m_model->refreshSet(m_view->rowsInSight());
-    constexpr int slowly = 5;
+    constexpr int filterMilliseconds = 450;
     const bool busy = m_view->isEditing() || QApplication::mouseButtons() != Qt::NoButton;
-    if (++m_polls % slowly == 0 && !busy) m_filter->update();
-    refresh();
+    if (!busy && (!m_filtered.isValid() || m_filtered.elapsed() >= filterMilliseconds)) {
+      m_filtered.start();
+      m_filter->update();
+    }
+    // A line of some seconds hardly moves in a tenth of one.
+    constexpr int sparkMilliseconds = 190;
+    const bool sparks = !m_sparks.isValid() || m_sparks.elapsed() >= sparkMilliseconds;
+    refresh(sparks);
   }
 
-  void refresh() {
+  void refresh(bool sparks = true) {
     const bool any = m_filter->rowCount() > 0;
     m_view->setVisible(any);
     m_empty->setVisible(!any);
     if (any) {
-      m_model->refresh(m_view->rowsInSight(), m_view->sparkPixels());
+      if (sparks) m_sparks.start();
+      m_model->refresh(m_view->rowsInSight(), sparks ? m_view->sparkPixels() : 0);
       m_view->fitNumbers();
     } else {
       m_empty->setText(emptyText());
@@ -372,7 +380,8 @@ class VariablesDock : public QWidget {
   VariablesView* m_view;
   InPlaceMessage* m_message;
   QLabel* m_empty;
-  QTimer* m_timer;
+  std::unique_ptr<Beat::Part> m_refresh;
+  QElapsedTimer m_filtered, m_sparks;  // since they were renewed
   ValueWriter* m_writer;
   CatalogChoice* m_catalog = nullptr;
   VariablesMenu* m_menu = nullptr;
@@ -380,7 +389,6 @@ class VariablesDock : public QWidget {
   QToolButton *m_stars = nullptr, *m_changed = nullptr, *m_lock = nullptr;
   std::shared_ptr<const telemetry::SeriesStore> m_store;
   std::set<int> m_attached;  // keys of blackboards that could be read
-  unsigned m_polls = 0;
 };
 
 }  // namespace

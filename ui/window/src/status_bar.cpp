@@ -7,7 +7,6 @@
 #include <QLabel>
 #include <QMenu>
 #include <QPainter>
-#include <QTimer>
 #include <algorithm>
 
 #include <base/angles.h>
@@ -56,7 +55,7 @@ class StatusLabel : public QLabel {
 
 StudioStatusBar::StudioStatusBar(const StatusContext& context, QWidget* parent)
     : QStatusBar(parent), m_context(context) {
-  constexpr int refreshMilliseconds = 200;
+  constexpr Beat::Milliseconds least{200}, most{500};
   m_clock.start();
   setSizeGripEnabled(false);
   m_pace = addLabel("statusPace", false);
@@ -65,9 +64,9 @@ StudioStatusBar::StudioStatusBar(const StatusContext& context, QWidget* parent)
   m_recording = addLabel("statusRecording", false);
   m_cursor = addLabel("statusCursor", true);
   m_selected = addLabel("statusSelected", true);
-  auto* timer = new QTimer(this);
-  connect(timer, &QTimer::timeout, this, &StudioStatusBar::refresh);
-  timer->start(refreshMilliseconds);
+  m_refresh = Beat::display().add(
+      this, least, [this] { refresh(); }, most);
+  connect(context.source, &SourceSwitch::frameReceived, this, [this] { m_refresh->want(); });
   connect(this, &QStatusBar::messageChanged, this, [this](const QString& message) {
     if (message.isEmpty()) refresh();
   });

@@ -53,7 +53,8 @@ class MatchPlayer {
   /// Plays one tick now.
   void tick();
   /// Watches the robots' processes, and tells observers what they printed and what happened to
-  /// them. Call it about 20 times a second, also while the match is paused.
+  /// them. Call it about 20 times a second; while the match is paused four times, and when
+  /// ProcessManager::descriptor() is readable.
   void lookAfterProcesses(Clock::time_point now);
   /// Tells observers what happened between ticks: ended processes, edits by hand, and drawings.
   /// Call it after such changes.

@@ -11,6 +11,7 @@
 // group is killed, and for a team program also what left the group.
 
 #include <sys/types.h>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +57,9 @@ class ChildProcess {
   /// writes much blocks if nobody reads. Lines are cut at maxLineBytes. After the end, the object
   /// cannot be used any more.
   std::optional<End> poll(std::vector<std::string>& lines);
+  /// Tells this set (epoll) when it has written something and when it has ended, each time once,
+  /// with `id`. False where the system cannot: then poll() it regularly.
+  bool tell(int epoll, std::uint64_t id) const;
 
  private:
   ChildProcess(Spawned child, UniqueFd keeper, pid_t pid);
@@ -63,6 +67,7 @@ class ChildProcess {
   void endLine(std::vector<std::string>& lines);
 
   Spawned m_child;    // the keeper of a team's program
+  UniqueFd m_ended;   // readable once that has ended
   UniqueFd m_keeper;  // to it; empty: there is none
   pid_t m_pid = 0;
   std::string m_partial;  // the line that has no end yet
