@@ -31,6 +31,7 @@ void addRecordCommand(CLI::App& parent, int& exitCode);
 void addExportCommand(CLI::App& parent, int& exitCode);
 void addExperimentCommand(CLI::App& parent, int& exitCode);
 void addTestCommand(CLI::App& parent, int& exitCode);
+void addCalibrateCommand(CLI::App& parent, int& exitCode);
 
 using shared::addGroup;
 using shared::reportError;
