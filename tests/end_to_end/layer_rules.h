@@ -33,7 +33,7 @@ inline QStringList all(const QString& library) {
       {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session"}},
       {"robotlink",
        {"blackboard", "processes", "models", "cognition", "rollout", "scenario", "frame", "match", "live",
-        "session", "report", "experiment", "conformance", "capi"}},
+        "session", "report", "experiment", "calibrate", "conformance", "capi"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
         "noise", "processes", "log", "referee", "experiments", "window"}}};
@@ -93,6 +93,9 @@ inline const QList<Module>& table() {
          below + QStringList{board, processes, models, cognition, scenario, frame, match, session,
                              "robotlink/report", "resources"},
          {"boost/", "nlohmann/"}},
+        {"robotlink/calibrate",
+         below + QStringList{board, models, frame, live, session, "robotlink/report"},
+         {"Eigen/", "boost/", "nlohmann/"}},
         {"robotlink/conformance",
          all("simcore") + QStringList{board, processes, cognition, scenario, frame, match},
          {"nlohmann/", "zlib.h"}},
