@@ -32,8 +32,8 @@ inline QStringList all(const QString& library) {
       {"simcore", {"base", "world", "rules", "physics", "simulation"}},
       {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session"}},
       {"robotlink",
-       {"blackboard", "processes", "models", "cognition", "rollout", "scenario", "frame", "match", "live",
-        "session", "report", "experiment", "calibrate", "conformance", "capi"}},
+       {"blackboard", "processes", "models", "cognition", "rollout", "scenario", "frame", "match",
+        "live", "session", "report", "experiment", "calibrate", "conformance", "capi"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
         "noise", "processes", "log", "referee", "experiments", "window"}}};
@@ -49,9 +49,9 @@ inline const QList<Module>& table() {
     const QString wire = "telemetry/wire", series = "telemetry/series";
     const QString board = "robotlink/blackboard", processes = "robotlink/processes",
                   models = "robotlink/models", cognition = "robotlink/cognition",
-                  rollout = "robotlink/rollout",
-                  scenario = "robotlink/scenario", frame = "robotlink/frame",
-                  match = "robotlink/match", live = "robotlink/live", session = "robotlink/session";
+                  rollout = "robotlink/rollout", scenario = "robotlink/scenario",
+                  frame = "robotlink/frame", match = "robotlink/match", live = "robotlink/live",
+                  session = "robotlink/session";
     const QStringList below = all("simcore") + all("telemetry");
     const QStringList belowUi = below + all("robotlink");
     const QStringList qt{"Q"};

@@ -8,8 +8,8 @@
 #include <optional>
 #include <set>
 
-#include <base/actions.h>
 #include <base/angles.h>
+#include <simcore/world/action_codes.h>
 #include <simcore/world/parameters.h>
 
 #include "calibration_check.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "executed_actions.h"
 
-#include <base/actions.h>
+#include <simcore/world/action_codes.h>
 
 namespace pitchboard::link {
 namespace {

@@ -469,7 +469,7 @@ void MatchRunner::runTo(std::uint64_t tick) {
   m_shared->skip.reset();
   m_shared->paceChanged = true;
   m_shared->settled = false;
-  m_shared->changed.notify_all();
+  m_shared->wake();
 }
 
 void MatchRunner::skip(std::function<bool(const MatchEvent&)> wanted, std::uint64_t mostTicks) {
