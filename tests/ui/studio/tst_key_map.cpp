@@ -240,6 +240,7 @@ class TestKeyMap : public QObject {
     Keys k;
     auto* overlay = k.find<QWidget>("helpOverlay");
     QVERIFY(overlay && !overlay->isVisible());
+    QTRY_VERIFY(k.window.findChild<RobotCard*>());
     QWidget* card = k.window.findChild<RobotCard*>();
     card->setFocus();
     QTest::keyClick(card, Qt::Key_F1);
