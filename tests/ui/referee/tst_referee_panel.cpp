@@ -289,7 +289,7 @@ class TestRefereePanel : public QObject {
     }
     // The log is there without scrolling.
     const auto* log = desk.dock->findChild<QTableView*>("refereeLog");
-    QVERIFY(log && log->visibleRegion().boundingRect().height() >= scaled(log, 72));
+    QVERIFY(log && log->viewport()->visibleRegion().boundingRect().height() >= scaled(log, 72));
   }
 
   void aGoalAndTheScoreboard() {

@@ -107,12 +107,12 @@ ExperimentForm::ExperimentForm(QWidget* parent)
   m_add->setObjectName(QStringLiteral("addCondition"));
   m_remove->setObjectName(QStringLiteral("removeCondition"));
   connect(m_add, &QPushButton::clicked, this, [this] {
-    const int row = m_conditions->rowCount();
-    addCondition({{}, QStringLiteral("condition %1").arg(row + 1).toStdString(), {}});
+    const int last = m_conditions->rowCount();
+    addCondition({{}, QStringLiteral("condition %1").arg(last + 1).toStdString(), {}});
     fitConditions();
     tellEdited();
     m_conditions->setFocus();
-    m_conditions->editItem(m_conditions->item(row, 1));
+    m_conditions->editItem(m_conditions->item(last, 1));
   });
   connect(m_remove, &QPushButton::clicked, this, [this] {
     if (m_conditions->currentRow() < 0) return;

@@ -453,7 +453,7 @@ void MainWindow::connectNotices() {
       return;
     }
     m_notices->show(
-        {match},
+        {scenario},
         QStringLiteral("The match could not be opened: %1").arg(m_controller->whyNotOpened()),
         {{QStringLiteral("Try again"),
           [this] { m_controller->open(m_controller->scenario(), m_controller->isPaused()); }},
