@@ -4,7 +4,7 @@
 //   bench_studio match [SECONDS]   the same while it is played
 //   bench_studio live [SECONDS]    22 robots at 60 messages a second each over UDP, all panels
 //   bench_studio start [TIMES]     from the start of a process to its first frame of a match
-//   bench_studio replay FILE       from a jump in a session that is larger than memory to a minute of
+//   bench_studio replay FILE       from a jump in a session larger than memory to a minute of
 //     curves; FILE: pitchboard-cli record --scenario match-3v3 --duration 1800 -o FILE
 //   bench_studio splitter          dragging the edge of a panel beside three plots of a match
 // The first three give the CPU time of the studio as a share of a core; robots and senders are

@@ -161,7 +161,7 @@ class TestCliSimulate : public QObject {
     QTemporaryDir dir;
     const QString path = dir.filePath("moment.json");
     const QString session = dir.filePath("match.mcap");
-    QVERIFY(simulate({"--duration", "120", "--save-moment", path}).exitCode == 0);
+    QVERIFY(simulate({"--duration", "100", "--save-moment", path}).exitCode == 0);
     QFile file(path);
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QJsonObject saved = QJsonDocument::fromJson(file.readAll()).object();

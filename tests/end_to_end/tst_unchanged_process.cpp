@@ -34,14 +34,14 @@ class TestUnchangedProcess : public QObject {
            more + "}]}";
   }
 
-  static ProcessSummary firstProgram(const MatchRunner& runner) {
+  static ProcessSummary firstProgram(MatchRunner& runner) {
     const auto frame = runner.latest();
     const auto all = frame->robots[0].processes();
     return all.empty() ? ProcessSummary{} : all.front();
   }
 
   /// What is loaded into the first program of the match, and how it gets its time.
-  static QByteArray timeVariables(const MatchRunner& runner) {
+  static QByteArray timeVariables(MatchRunner& runner) {
     QByteArray found;
     QFile environment(QStringLiteral("/proc/%1/environ").arg(firstProgram(runner).pid));
     if (!environment.open(QIODevice::ReadOnly)) return "no environment";
