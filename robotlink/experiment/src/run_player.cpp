@@ -199,11 +199,12 @@ Result<RunResult> recordAgain(const std::string& folder, const Experiment& exper
   auto result = player.record(number, path, settings.program);
   if (!result || result->hash == before.hash || !before.match.repeatable) return result;
   TRY(markUnrepeatable(folder, experiment, number));
-  return failure(ErrorCode::Conflict,
-                 "run " + std::to_string(number) +
-                     " ended in a different state than in the results, which say now that it is not "
-                     "repeatable; were they played by another version?",
-                 path);
+  return failure(
+      ErrorCode::Conflict,
+      "run " + std::to_string(number) +
+          " ended in a different state than in the results, which say now that it is not "
+          "repeatable; were they played by another version?",
+      path);
 }
 
 namespace {
