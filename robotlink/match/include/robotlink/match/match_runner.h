@@ -67,9 +67,9 @@ class MatchRunner {
   void observe(const std::shared_ptr<TickObserver>& observer);
   void stopObserving(const std::shared_ptr<TickObserver>& observer);
 
-  /// `tell` is called on the runner's thread when there is a new frame, event or log line, once until
-  /// latest(), takeEvents() or takeLog() is called. Empty: nobody is told, but a call may be under
-  /// way.
+  /// `tell` is called on the runner's thread when there is a new frame, event or log line, once
+  /// until latest(), takeEvents() or takeLog() is called. Empty: nobody is told, but a call may be
+  /// under way.
   void setNews(std::function<void()> tell);
   /// Returns the newest frame, or null if `knownSerial` is the newest.
   std::shared_ptr<const MatchFrame> latest(std::uint64_t knownSerial = 0);
