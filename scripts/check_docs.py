@@ -4,10 +4,10 @@
 
 Of README, ARCHITECTURE, CONVENTIONS and docs/ (or the given files) it checks
   - links to files of this repository, and to headings (#...);
-  - paths and file names in `code`: `robotlink/match`, `docs/LIVE.md`, `resources/**/*.json`, `skills.h`;
+  - paths and file names in `code`: `robotlink/match`, `docs/live.md`, `resources/**/*.json`, `skills.h`;
   - options in `code` and in blocks of commands: a program or a script of ours has to know `--debug-port`;
   - without files given, that every command of pitchboard-cli is shown by one of them.
-Prints "file:line: what" for each that is not, and ends with 1. Example: scripts/check_docs.py docs/LIVE.md
+Prints "file:line: what" for each that is not, and ends with 1. Example: scripts/check_docs.py docs/live.md
 """
 import re
 import subprocess

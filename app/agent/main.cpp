@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// pitchboard-agent: runs on the robot and sends the variables of its blackboard (docs/AGENT.md).
-#include <time.h>
-
+// pitchboard-agent: runs on the robot and sends the variables of its blackboard (docs/agent.md).
 #include <algorithm>
-#include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <span>
+#include <thread>
 #include <vector>
 
 #include <base/try.h>
@@ -18,19 +17,10 @@
 namespace pitchboard::agent {
 namespace {
 
-Time now() {
-  timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return std::chrono::seconds(time.tv_sec) +
-         std::chrono::duration_cast<Time>(std::chrono::nanoseconds(time.tv_nsec));
-}
+using Clock = std::chrono::steady_clock;
 
-void sleepUntil(Time time) {
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time);
-  timespec until{};
-  until.tv_sec = static_cast<time_t>(seconds.count());
-  until.tv_nsec = static_cast<long>(std::chrono::nanoseconds(time - seconds).count());
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) continue;
+Time now() {
+  return std::chrono::duration_cast<Time>(Clock::now().time_since_epoch());
 }
 
 /// For a person or the journal: nothing of it is read by programs.
@@ -73,7 +63,7 @@ Result<void> run(const Arguments& arguments) {
     }
     // Ticks that were missed, because the computer slept or was busy, are left out.
     tick = std::max(tick + step, now());
-    sleepUntil(tick);
+    std::this_thread::sleep_until(Clock::time_point(tick));
   }
 }
 

@@ -78,7 +78,8 @@ Result<std::vector<int>> keysToRemove(const RemoveOptions& options) {
   std::vector<int> keys;
   if (options.orphans) {
     if (!options.robots.empty() || options.key != 0)
-      return failure(ErrorCode::InvalidArgument, "give either --orphans or robots, not both");
+      return failure(ErrorCode::InvalidArgument,
+                     "--orphans and robots cannot be used together; leave out one of them");
     for (const SegmentInfo& info : SystemVSegments::list(options.keyBase)) {
       if (info.orphan) keys.push_back(info.key);
     }
@@ -88,7 +89,7 @@ Result<std::vector<int>> keysToRemove(const RemoveOptions& options) {
     keys.push_back(link::blackboardKey(RobotId{robot}, options.keyBase));
   if (options.key != 0) keys.push_back(options.key);
   if (keys.empty())
-    return failure(ErrorCode::InvalidArgument, "name the robots, a --key, or --orphans");
+    return failure(ErrorCode::InvalidArgument, "give robot numbers, --key or --orphans");
   return keys;
 }
 
@@ -105,8 +106,8 @@ Result<int> removeBlackboards(RemoveOptions& options) {
     if (info->attached > 0 && !options.force) {
       worst = reportError({ErrorCode::Conflict,
                            std::to_string(info->attached) +
-                               " processes are attached; end them, or add --force: they would keep "
-                               "a blackboard that nobody else can find",
+                               " processes are attached. End them first, or add --force (they "
+                               "would keep a blackboard that no other program can find)",
                            "blackboard " + std::to_string(key)});
       continue;
     }
@@ -129,9 +130,9 @@ void addListCommand(CLI::App& parent, int& exitCode) {
       "list",
       "List the blackboards on this computer with owner and attached processes.\n"
       "Example: pitchboard-cli blackboard list");
-  command->add_option("--key-base", options->keyBase, "added to 100 x robot number")
+  command->add_option("--key-base", options->keyBase, "Added to 100 x robot number")
       ->check(CLI::Range(0, 2'000'000'000));
-  command->add_flag("--json", options->json, "as JSON");
+  command->add_flag("--json", options->json, "Print JSON");
   command->callback(
       [options, &exitCode] { exitCode = listBlackboards(options->keyBase, options->json); });
 }
@@ -157,14 +158,14 @@ void addRemoveCommand(CLI::App& parent, int& exitCode) {
       parent.add_subcommand("remove",
                             "Remove blackboards. One with attached processes needs --force.\n"
                             "Example: pitchboard-cli blackboard remove --orphans");
-  command->add_option("ROBOT", options->robots, "robot numbers")->check(CLI::Range(1, 64));
-  command->add_option("--key", options->key, "a System V key instead of a robot number")
+  command->add_option("ROBOT", options->robots, "Robot numbers")->check(CLI::Range(1, 64));
+  command->add_option("--key", options->key, "System V key instead of a robot number")
       ->check(CLI::PositiveNumber);
-  command->add_option("--key-base", options->keyBase, "added to 100 x robot number")
+  command->add_option("--key-base", options->keyBase, "Added to 100 x robot number")
       ->check(CLI::Range(0, 2'000'000'000));
   command->add_flag("--orphans", options->orphans,
-                    "every blackboard of ours that nobody uses and whose creator has ended");
-  command->add_flag("--force", options->force, "also when processes are attached");
+                    "Remove all Pitchboard blackboards without users whose creator has ended");
+  command->add_flag("--force", options->force, "Remove it even if processes are attached");
   whenChosen(*command, options, exitCode, removeBlackboards);
 }
 

@@ -29,14 +29,14 @@ using link::VariableType;
 using Words = std::array<std::uint32_t, Blackboard::words>;
 
 void BlackboardTarget::addTo(CLI::App& command) {
-  command.add_option("ROBOT", robot, "robot number")->check(CLI::Range(1, 64));
+  command.add_option("ROBOT", robot, "Robot number")->check(CLI::Range(1, 64));
   addKeysTo(command);
 }
 
 void BlackboardTarget::addKeysTo(CLI::App& command) {
-  command.add_option("--key", key, "a System V key instead of a robot number")
+  command.add_option("--key", key, "System V key instead of a robot number")
       ->check(CLI::PositiveNumber);
-  command.add_option("--key-base", keyBase, "added to 100 x robot number")
+  command.add_option("--key-base", keyBase, "Added to 100 x robot number")
       ->check(CLI::Range(0, 2'000'000'000));
 }
 
@@ -104,8 +104,8 @@ Result<std::vector<Variable>> choose(const VariableCatalog& catalog,
     const Variable* const found = catalog.find(name);
     if (found == nullptr)
       return failure(ErrorCode::NotFound,
-                     "the variable map has no such name; `pitchboard-cli blackboard dump` lists "
-                     "them, --catalog FILE reads a team's own map",
+                     "no such variable in the catalog; `pitchboard-cli blackboard dump` lists them "
+                     "all, --catalog FILE reads a team's catalog",
                      name);
     chosen.push_back(*found);
   }
@@ -214,7 +214,7 @@ Result<int> watch(WatchOptions& options) {
   Words before{};
   board.copyWords(before);
   // Whoever reads our output knows from here on that no change is missed.
-  std::fprintf(stderr, "watching blackboard %d; Ctrl+C ends\n", board.key());
+  std::fprintf(stderr, "watching blackboard %d; press Ctrl+C to stop\n", board.key());
   const auto end =
       SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(
                                std::chrono::duration<double>(options.duration.value_or(0.0)));
@@ -264,7 +264,8 @@ struct Assignment {
 Result<Assignment> parseAssignment(const VariableCatalog& catalog, const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
-    return failure(ErrorCode::InvalidArgument, "must be NAME=VALUE, as DECISION_ACTION_A=8", text);
+    return failure(ErrorCode::InvalidArgument, "must be NAME=VALUE, such as DECISION_ACTION_A=8",
+                   text);
   const auto chosen = TRY(choose(catalog, {text.substr(0, equals)}));
   Assignment assignment{chosen.front()};
   std::string_view value = std::string_view(text).substr(equals + 1);
@@ -308,8 +309,8 @@ Result<int> set(SetOptions& options) {
 
 void addCatalogOption(CLI::App& command, std::string& file) {
   command.add_option("--catalog", file,
-                     "variable map: a team's blackboard.h, SharedMemory.py or JSON "
-                     "(default: the published map)");
+                     "Variable catalog: a team's blackboard.h, SharedMemory.py or JSON (default: "
+                     "the published one)");
 }
 
 }  // namespace
@@ -322,8 +323,8 @@ void addDumpCommand(CLI::App& parent, int& exitCode) {
                             "Example: pitchboard-cli blackboard dump 1 --json");
   options->target.addTo(*command);
   addCatalogOption(*command, options->catalog);
-  command->add_flag("--all", options->all, "also words without a name that are not zero");
-  command->add_flag("--json", options->json, "as JSON");
+  command->add_flag("--all", options->all, "Print words without a name, too, unless they are zero");
+  command->add_flag("--json", options->json, "Print JSON");
   whenChosen(*command, options, exitCode, &dumpValues);
 }
 
@@ -335,15 +336,15 @@ void addWatchCommand(CLI::App& parent, int& exitCode) {
       "Example: pitchboard-cli blackboard watch 1 DECISION_ACTION_A VISION_BALL_DIST");
   options->target.addKeysTo(*command);
   command->add_option("ROBOT NAME", options->names,
-                      "robot number, then the variables to watch (default: all)");
+                      "Robot number, then the variables to watch (default: all)");
   addCatalogOption(*command, options->catalog);
-  command->add_option("--interval", options->intervalMs, "milliseconds between two looks")
+  command->add_option("--interval", options->intervalMs, "Milliseconds between two samples")
       ->check(CLI::Range(1, 60'000))
       ->capture_default_str();
-  command->add_option("--count", options->count, "end after this many changes")
+  command->add_option("--count", options->count, "Stop after this many changes")
       ->check(CLI::PositiveNumber);
-  shared::addDuration(*command, "--duration", options->duration, "end after this time");
-  command->add_flag("--json", options->json, "one JSON object a line");
+  shared::addDuration(*command, "--duration", options->duration, "Stop after this time");
+  command->add_flag("--json", options->json, "Print one JSON object per line");
   whenChosen(*command, options, exitCode, &watch);
 }
 
@@ -354,7 +355,9 @@ void addSetCommand(CLI::App& parent, int& exitCode) {
       "Write variables of a blackboard.\n"
       "Example: pitchboard-cli blackboard set 1 DECISION_ACTION_A=8 DECISION_ACTION_B=20");
   options->target.addKeysTo(*command);
-  command->add_option("ROBOT NAME=VALUE", options->assignments, "robot number, then what to write")
+  command
+      ->add_option("ROBOT NAME=VALUE", options->assignments,
+                   "Robot number, then the values to write")
       ->required();
   addCatalogOption(*command, options->catalog);
   whenChosen(*command, options, exitCode, &set);

@@ -50,19 +50,18 @@ int importCatalog(const ImportOptions& options) {
 }  // namespace
 
 void addCatalogCommands(CLI::App& parent, int& exitCode) {
-  auto* const group = parent.add_subcommand(
-      "catalog",
-      "Import variable maps of blackboards.\n"
-      "Example: pitchboard-cli catalog import blackboard.h --json -o our-team.json");
+  auto* const group = parent.add_subcommand("catalog",
+                                            "Import variable catalogs.\nExample: pitchboard-cli "
+                                            "catalog import blackboard.h --json -o our-team.json");
   group->require_subcommand(1);
   const auto options = std::make_shared<ImportOptions>();
   auto* const command = group->add_subcommand(
       "import",
-      "Read a team's blackboard.h, SharedMemory.py or JSON map and print it.\n"
-      "Example: pitchboard-cli catalog import blackboard.h --json -o our-team.json");
-  command->add_option("FILE", options->file, "the map: .h, .hpp, .py or .json")->required();
-  command->add_flag("--json", options->json, "as JSON that --catalog reads");
-  command->add_option("-o,--output", options->output, "write to this file");
+      "Read a team's variable catalog (blackboard.h, SharedMemory.py or JSON) and print "
+      "it.\nExample: pitchboard-cli catalog import blackboard.h --json -o our-team.json");
+  command->add_option("FILE", options->file, "The catalog: .h, .hpp, .py or .json")->required();
+  command->add_flag("--json", options->json, "Print JSON that --catalog reads");
+  command->add_option("-o,--output", options->output, "Write to this file");
   command->callback([options, &exitCode] { exitCode = importCatalog(*options); });
 }
 

@@ -30,7 +30,9 @@ void addRepairCommand(CLI::App& parent, int& exitCode);
 void addRecordCommand(CLI::App& parent, int& exitCode);
 void addExportCommand(CLI::App& parent, int& exitCode);
 void addExperimentCommand(CLI::App& parent, int& exitCode);
+void addTournamentCommand(CLI::App& parent, int& exitCode);
 void addTestCommand(CLI::App& parent, int& exitCode);
+void addCalibrateCommand(CLI::App& parent, int& exitCode);
 
 using shared::addGroup;
 using shared::reportError;

@@ -205,20 +205,22 @@ void addDecodeCommand(CLI::App& parent, int& exitCode) {
   auto text = std::make_shared<DecodeOptions>();
   CLI::App* telemetry = decode->add_subcommand(
       "telemetry",
-      "Datagrams of robots: messages, and variables (PB2).\n"
+      "Decode datagrams of robots: messages, and variables (PB2).\n"
       "Text: one per line; a line may begin with time, tab, sender, tab.\n"
       "Binary: one per file, or lines of JSON with the bytes under \"hex\".\n"
       "Example: pitchboard-cli decode telemetry --profile mitecom message.bin");
   telemetry->add_option("FILE", text->files, "Files; - is standard input")->required();
   telemetry->add_option("--profile", text->profile,
-                        "Format of the messages: a file (docs/LIVE.md), or " + profileNames());
+                        "Format of the messages: a file (docs/live.md), or " + profileNames());
   telemetry->add_flag("--json", text->json, "One JSON object per datagram");
   whenChosen(*telemetry, text, exitCode, decodeTelemetry);
 
   auto referee = std::make_shared<DecodeOptions>();
-  CLI::App* controller = decode->add_subcommand(
-      "gamecontroller",
-      "Referee packets. One packet per file, or lines of JSON with the bytes under \"hex\".");
+  CLI::App* controller =
+      decode->add_subcommand("gamecontroller",
+                             "Decode referee packets: one packet per file, or lines of JSON with "
+                             "the bytes under \"hex\".\n"
+                             "Example: pitchboard-cli decode gamecontroller --json packet.bin");
   controller->add_option("FILE", referee->files, "Files; - is standard input")->required();
   controller->add_flag("--json", referee->json, "One JSON object per packet");
   whenChosen(*controller, referee, exitCode, decodeGameController);

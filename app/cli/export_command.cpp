@@ -3,6 +3,7 @@
 #include <telemetry/session/session_time.h>
 
 #include <unistd.h>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -40,7 +41,7 @@ Result<Part> partOf(const SessionReader& session, const ExportOptions& options) 
   const auto range = session.range();
   if (!range && (!options.from.empty() || !options.until.empty())) {
     return failure(ErrorCode::InvalidArgument,
-                   "There is nothing in this session, so --from and --until cannot be used.");
+                   "The recording is empty, so --from and --until cannot be used.");
   }
   const auto read = [&](const char* option, const std::string& text,
                         std::optional<double>& to) -> Result<void> {
@@ -61,13 +62,42 @@ Result<Part> partOf(const SessionReader& session, const ExportOptions& options) 
   return part;
 }
 
+/// An option that has a meaning for some formats only.
+struct FormatOption {
+  const char* option;
+  std::vector<std::string_view> formats;
+};
+
+/// Refuses options that would be ignored.
+Result<void> checkOptions(const CLI::App& command, const std::string& format) {
+  static const FormatOption limited[] = {
+      {"--interpolate", {"csv-even"}},
+      {"--rate", {"csv-even", "mp4", "webm"}},
+      {"--rows-only", {"jsonl", "mcap"}},
+      {"--variables", {"csv-wide", "csv-even", "csv-long", "jsonl", "mcap"}}};
+  for (const FormatOption& one : limited) {
+    if (command.count(one.option) == 0 || std::ranges::count(one.formats, format) > 0) {
+      continue;
+    }
+    std::string formats;
+    for (const std::string_view name : one.formats) {
+      formats += (formats.empty() ? "" : ", ") + std::string(name);
+    }
+    return failure(ErrorCode::InvalidArgument, std::string(one.option) + " only works with --to " +
+                                                   formats + ", not with " + format +
+                                                   ". Leave it out or choose another format.");
+  }
+  return {};
+}
+
 int exportSession(const ExportOptions& options) {
   const bool asReport = options.format == reportFormat;
   const bool asPicture = isPictureFormat(options.format);
   const auto format = asReport || asPicture ? ExportFormat::CsvWide : exportFormat(options.format);
   if (!format) return reportError(format.error());
   if (*format == ExportFormat::Mcap && options.output.empty()) {
-    return reportError({ErrorCode::InvalidArgument, "A session needs a file; add -o FILE.", {}});
+    return reportError(
+        {ErrorCode::InvalidArgument, "MCAP output needs a file: add -o FILE.mcap", {}});
   }
   const InterruptGuard signals;
   Progress progress("exporting", options.progress);
@@ -118,7 +148,7 @@ int exportSession(const ExportOptions& options) {
     std::fprintf(stderr, "warning: %s\n", note.c_str());
   if (!report) return reportError(report.error());
   if (std::fflush(stdout) != 0) {
-    return reportError({ErrorCode::SystemError, "The output cannot be written.", {}});
+    return reportError({ErrorCode::SystemError, "Cannot write to standard output.", {}});
   }
   return 0;
 }
@@ -152,10 +182,10 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       ->capture_default_str();
   command->add_option("--from", options->from, std::string("Start: ") + sessionTimeForms)
       ->type_name("T");
-  command->add_option("--until", options->until, "End, in the same format")->type_name("T");
+  command->add_option("--until", options->until, "End; same format as --from")->type_name("T");
   command
       ->add_option("--robots", options->robots,
-                   "Export only these robots, e.g. B1,R2; match for what belongs to no robot")
+                   "Export only these robots, e.g. B1,R2; 'match' for data of no robot")
       ->type_name("NAMES")
       ->delimiter(',');
   command
@@ -163,7 +193,7 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
                    "Export only these variables; * matches any letters")
       ->type_name("NAMES")
       ->delimiter(',');
-  command->add_option("--rate", options->rate, "Rows (csv-even) or pictures (videos) per second")
+  command->add_option("--rate", options->rate, "Rows (csv-even) or frames (videos) per second")
       ->type_name("N")
       ->capture_default_str();
   command->add_flag("--interpolate", options->interpolate,
@@ -179,7 +209,10 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       ->type_name("FILE");
   command->add_flag("--progress", options->progress,
                     "Print progress to stderr even if it is not a terminal");
-  command->callback([options, &exitCode] { exitCode = exportSession(*options); });
+  command->callback([options, command, &exitCode] {
+    const auto good = checkOptions(*command, options->format);
+    exitCode = good ? exportSession(*options) : reportError(good.error());
+  });
 }
 
 }  // namespace pitchboard::cli

@@ -90,7 +90,7 @@ void printText(const SessionReader& session, const InspectOptions& options) {
               static_cast<double>(session.file().contents().fileBytes) / 1e6,
               session.complete() && !session.isDamaged()
                   ? ""
-                  : "; broken off or damaged: pitchboard-cli repair makes a whole one");
+                  : "; truncated or damaged: recover it with pitchboard-cli repair");
   if (session.ours()) {
     std::printf("recorded %s by %s, %s \"%s\"", wallText(info.created).c_str(),
                 info.program.c_str(), info.source.c_str(), info.title.c_str());

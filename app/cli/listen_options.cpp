@@ -38,7 +38,7 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
   command.add_option("--port-base", options.portBase, "Robot n sends to port base + n")
       ->type_name("PORT")
       ->capture_default_str();
-  command.add_option("--robots", options.robots, "Number of ports after the base")
+  command.add_option("--robots", options.robots, "Number of robots, and of ports after the base")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
@@ -48,22 +48,23 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
       ->type_name("PORT")
       ->capture_default_str();
   command
-      .add_option("--catalog", options.catalogs,
-                  "Map of variables that robots send, besides the published one; may be repeated")
+      .add_option(
+          "--catalog", options.catalogs,
+          "Catalog of variables that robots send, besides the published one; may be repeated")
       ->type_name("FILE");
   command.add_option("--gamecontroller-port", options.refereePort, "Port of the referee's packets")
       ->type_name("PORT")
       ->capture_default_str();
   command
       .add_option("--profile", options.profile,
-                  "Format of the robots' messages: a file (docs/LIVE.md), or " + profileNames())
+                  "Format of the robots' messages: a file (docs/live.md), or " + profileNames())
       ->type_name("FILE|NAME");
   command.add_option("--team", options.teams,
-                     "Team setup as JSON: ports, senders, profile, colour; may be repeated");
+                     "Team setup as JSON (ports, senders, profile, colour); may be repeated");
   command
       .add_option("--our-team", options.ourTeam,
-                  "Our team: the referee's number or the colour, such as blue or red. Gives its "
-                  "robots their colour, penalties and the first place")
+                  "Our team, by the referee's number or its colour, such as blue or red: gives its "
+                  "robots colour and penalties and lists them first")
       ->type_name("N|COLOUR");
   command
       .add_option(
@@ -133,9 +134,9 @@ void reportPorts(const ReceiverStatus& status, std::map<std::size_t, std::string
     std::string& last = told[i];
     if (port.problem == last) continue;
     if (port.bound) {
-      std::fprintf(stderr, "port %d is received now\n", port.port);
+      std::fprintf(stderr, "port %d is open now\n", port.port);
     } else {
-      std::fprintf(stderr, "warning: %s It is tried again; the other ports work.\n",
+      std::fprintf(stderr, "warning: %s Trying again; the other ports work.\n",
                    port.problem.c_str());
     }
     last = port.problem;
@@ -148,10 +149,10 @@ std::string refusedText(const link::LiveDetails& details) {
     if (count == 0) return;
     out += (out.empty() ? "; refused: " : ", ") + std::to_string(count) + what;
   };
-  add(details.team.refusedByFilter, " of senders that --from does not name");
-  add(details.refusedVariables, " with variables of senders that --from does not name");
-  add(details.refusedReferees, " of referees that --referee-from does not name");
-  add(details.team.refusedRobots, " of more robots than are kept");
+  add(details.team.refusedByFilter, " from senders outside --from");
+  add(details.refusedVariables, " with variables from senders outside --from");
+  add(details.refusedReferees, " from referees outside --referee-from");
+  add(details.team.refusedRobots, " beyond the robot limit");
   add(details.rows.rows, " rows beyond the limits");
   add(details.rows.values, " values beyond the limits");
   return out;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include <base/actions.h>
 #include <robotlink/live/live_teams.h>
+#include <simcore/world/action_codes.h>
 
 namespace pitchboard::cli {
 namespace {
@@ -248,7 +248,7 @@ std::string healthLine(const RobotStatus& robot, const std::string& name) {
     std::snprintf(part, sizeof part, " (%.1f %%)", *robot.loss * 100.0);
     out += ", " + std::to_string(robot.lost) + " lost" + part;
   }
-  out += ", " + std::to_string(robot.duplicates) + " twice";
+  out += ", " + std::to_string(robot.duplicates) + " duplicates";
   if (robot.loss) out += ", " + std::to_string(robot.late) + " late";
   return out;
 }
@@ -287,7 +287,7 @@ std::string healthLine(const link::SentStatus& sent) {
   const LinkHealth& link = sent.link;
   char text[160];
   std::snprintf(text, sizeof text,
-                ": %zu from %s, %llu received, %llu lost (%.1f %%), %llu twice, %llu late, "
+                ": %zu from %s, %llu received, %llu lost (%.1f %%), %llu duplicates, %llu late, "
                 "jitter %.1f ms",
                 sent.variables, link.sender.address.text().c_str(),
                 static_cast<unsigned long long>(link.messages),

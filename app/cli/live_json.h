@@ -19,17 +19,17 @@ const char* typeOf(const link::LiveDatagram& datagram);
 bool isGood(const link::LiveDatagram& datagram);
 /// As everywhere: "B1", "Robot 1"; empty for number 0.
 std::string nameOf(const RobotKey& robot, const link::Teams& teams);
-/// What a datagram says (docs/LIVE.md). What stands in it when it could not be read is "text".
+/// What a datagram says (docs/live.md). What stands in it when it could not be read is "text".
 Json messageJson(const link::LiveDatagram& datagram, const link::LiveOptions& options);
 std::string messageLine(const link::LiveDatagram& datagram, const link::LiveOptions& options);
 
-/// {"type": "health", "robot": 1, "name": "B1", "received": 900, "lost": 300, ...}: docs/LIVE.md.
+/// {"type": "health", "robot": 1, "name": "B1", "received": 900, "lost": 300, ...}: docs/live.md.
 Json healthJson(const telemetry::RobotStatus& robot, const std::string& name,
                 telemetry::WallTime now);
 /// "B1: 900 received, 300 lost (25.0 %), 0 twice, 0 late"
 std::string healthLine(const telemetry::RobotStatus& robot, const std::string& name);
 
-/// {"type": "variablesHealth", "robot": 1, "name": "B1", "received": 900, ...}: docs/LIVE.md.
+/// {"type": "variablesHealth", "robot": 1, "name": "B1", "received": 900, ...}: docs/live.md.
 Json healthJson(const link::SentStatus& sent, telemetry::WallTime now);
 /// "B1 variables: 205 from 192.168.0.1, 900 received, ..."
 std::string healthLine(const link::SentStatus& sent);

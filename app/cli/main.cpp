@@ -20,7 +20,8 @@ int main(int argc, char** argv) {
   constexpr std::array commands{&addSimulateCommand, &addConformanceCommand, &addBlackboardCommands,
                                 &addCatalogCommands, &addListenCommand,      &addDecodeCommand,
                                 &addRecordCommand,   &addInspectCommand,     &addRepairCommand,
-                                &addExportCommand,   &addExperimentCommand,  &addTestCommand};
+                                &addExportCommand,   &addExperimentCommand,  &addTournamentCommand,
+                                &addTestCommand,     &addCalibrateCommand};
   for (const AddCommand add : commands) add(app, exitCode);
 
   if (const auto ended = pitchboard::shared::parse(app, argc, argv)) return *ended;

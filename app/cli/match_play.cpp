@@ -40,9 +40,10 @@ class ProcessNews : public link::TickObserver {
   void happened(std::span<const link::MatchEvent> events) override {
     for (const link::MatchEvent& event : events) {
       using Kind = link::MatchEventKind;
-      constexpr std::array told{
-          Kind::ProcessDied,    Kind::ProcessEnded,    Kind::ProcessRestarted,  Kind::ProcessSilent,
-          Kind::ProcessGivenUp, Kind::ProcessRealTime, Kind::ProcessNotAttached};
+      constexpr std::array told{Kind::ProcessDied,        Kind::ProcessEnded,
+                                Kind::ProcessRestarted,   Kind::ProcessSilent,
+                                Kind::ProcessGivenUp,     Kind::ProcessRealTime,
+                                Kind::ProcessNotAttached, Kind::CycleLate};
       if (std::ranges::find(told, event.kind) == told.end()) continue;
       std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
                    link::sentenceOf(event).c_str());
@@ -73,6 +74,12 @@ class Playing {
       if (next > now) std::this_thread::sleep_until(std::min(next, now + pollInterval));
     }
     m_player.lookAfterProcesses(Clock::now());  // their last lines
+    if (m_match.nobodyPlays()) {
+      std::fputs(
+          "warning: nobody played, because no robot was told to. Add --referee "
+          "humanoid-soccer-2026, or write COM_REFEREE = 2 in the scenario.\n",
+          stderr);
+    }
     Outcome outcome;
     outcome.ticks = m_player.currentTick() - first;
     outcome.simulatedSeconds =
@@ -104,7 +111,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& o) {
   command
       .add_option("--speed", o.speed,
                   "Speed relative to real time, or max; default: max with inline cognition, 1 with "
-                  "separate processes or --obey-referee")
+                  "separate processes, a team's programs or --obey-referee")
       ->type_name("X|max");
   command.add_flag("--keep-speed", o.keepSpeed,
                    "Do not slow down to team programs that cannot keep up");
@@ -150,10 +157,12 @@ Result<link::Cognition> cognitionOf(const PlayOptions& options) {
                  "--cognition must be inline, external or none, not \"" + options.cognition + "\"");
 }
 
-Result<double> speedOf(const PlayOptions& options, link::Cognition cognition) {
+Result<double> speedOf(const PlayOptions& options, link::Cognition cognition,
+                       const link::Scenario& scenario) {
   const std::string& text = options.speed;
   if (text.empty()) {
-    const bool ownPace = cognition == link::Cognition::Inline && !options.obeyReferee;
+    const bool ownPace = cognition == link::Cognition::Inline && !options.obeyReferee &&
+                         !TRY(link::usesTeamPrograms(scenario));
     return ownPace ? 0.0 : 1.0;
   }
   if (text == "max") return 0.0;
@@ -179,17 +188,18 @@ Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const Pla
   }
   scenario = shared::withRuntimes(std::move(*scenario), options.robots);
   // With none, programs that the scenario names are somebody else's to start.
-  if (!scenario || (cognition == link::Cognition::None && options.robots.runtimes.empty())) {
-    return scenario;
+  if (scenario && cognition == link::Cognition::None && !options.robots.runtimes.empty() &&
+      TRY(link::usesTeamPrograms(*scenario))) {
+    return failure(ErrorCode::InvalidArgument,
+                   "--runtime names a program to start, but --cognition none starts none; leave "
+                   "one of them out");
   }
-  TRY(link::usesTeamPrograms(*scenario, cognition == link::Cognition::Separate,
-                             "add --cognition external"));
   return scenario;
 }
 
 Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario, const PlayOptions& options,
                                          link::Cognition cognition) {
-  const auto speed = TRY(speedOf(options, cognition));
+  const auto speed = TRY(speedOf(options, cognition, scenario));
   shared::warnOfIgnoredSettings(scenario);
   link::MatchOptions made;
   made.speed = speed;

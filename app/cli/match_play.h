@@ -39,11 +39,12 @@ void addPlayOptions(CLI::App& command, PlayOptions& options);
 /// Errors name the option.
 Result<link::Cognition> cognitionOf(const PlayOptions& options);
 /// Times real time; 0 = as fast as possible.
-Result<double> speedOf(const PlayOptions& options, link::Cognition cognition);
+Result<double> speedOf(const PlayOptions& options, link::Cognition cognition,
+                       const link::Scenario& scenario);
 
 /// `scenario` with the options' rules and runtimes, and with an end: --duration, else its own stop
 /// conditions, else the final whistle of an automatic referee, else defaultDuration (none with
-/// Cognition::None). Fails if programs of a team are to play and cannot.
+/// Cognition::None). Fails if programs of a team are to be started and cannot.
 Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const PlayOptions& options,
                                       link::Cognition cognition);
 

@@ -62,7 +62,7 @@ Result<void> runStudio(std::vector<std::string> arguments,
   setenv("QT_QPA_PLATFORM", "offscreen", 1);
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) {
-    return failure(ErrorCode::SystemError, "no pipe can be made: " + systemReason(errno));
+    return failure(ErrorCode::SystemError, "cannot create a pipe: " + systemReason(errno));
   }
   const UniqueFd output(ends[0]);
   UniqueFd input(ends[1]);
@@ -76,7 +76,7 @@ Result<void> runStudio(std::vector<std::string> arguments,
   input.reset();
   if (failed != 0) {
     return failure(failed == ENOENT ? ErrorCode::NotFound : ErrorCode::SystemError,
-                   "The studio paints pictures and videos, and " + arguments[0] +
+                   "Pictures and videos are painted by the studio, but " + arguments[0] +
                        " cannot be started (" + systemReason(failed) +
                        "). Install the studio, or name its program in PITCHBOARD_STUDIO.");
   }
@@ -93,12 +93,12 @@ Result<void> runStudio(std::vector<std::string> arguments,
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  if (interrupted) return failure(ErrorCode::Conflict, "The export was stopped.");
+  if (interrupted) return failure(ErrorCode::Conflict, "Export cancelled.");
   constexpr std::string_view error = "error: ";
   const bool told = said.last.starts_with(error);
   return failure(ErrorCode::SystemError,
                  told ? said.last.substr(error.size())
-                      : "The studio ended without painting. Its last words: " + said.last);
+                      : "The studio ended without painting. Its last output: " + said.last);
 }
 
 std::vector<std::string> paintArguments(const std::string& session, const std::string& picture,
@@ -139,10 +139,10 @@ bool isPictureFormat(std::string_view format) {
 Result<void> exportPictures(const telemetry::SessionReader& session, const PictureRequest& request,
                             const telemetry::ExportProgress& progress) {
   if (request.output.empty()) {
-    return failure(ErrorCode::InvalidArgument, "a picture needs a file; add -o FILE");
+    return failure(ErrorCode::InvalidArgument, "pictures need a file: add -o FILE");
   }
   const auto all = session.range();
-  if (!all) return failure(ErrorCode::NotFound, "there is nothing in this session");
+  if (!all) return failure(ErrorCode::NotFound, "the recording is empty");
   const std::string& file = session.file().contents().name;
   auto target = FileTarget::at(request.output, IfExists::Refuse, file);
   if (!target) return tl::unexpected(target.error());
@@ -155,7 +155,7 @@ Result<void> exportPictures(const telemetry::SessionReader& session, const Pictu
   }
   if (auto painted = runStudio(std::move(arguments), progress); !painted) return painted;
   if (std::rename(picture.c_str(), target->partPath().c_str()) != 0) {
-    return failure(ErrorCode::SystemError, "the picture cannot be named: " + systemReason(errno));
+    return failure(ErrorCode::SystemError, "cannot rename the picture: " + systemReason(errno));
   }
   return target->commit();
 }
@@ -165,7 +165,7 @@ Result<std::string> svgPicture(const telemetry::SessionReader& session, double t
   constexpr std::size_t mostBytes = std::size_t{64} << 20;
   const Folder folder;
   if (folder.path().empty()) {
-    return failure(ErrorCode::SystemError, "the folder for temporary files cannot be used");
+    return failure(ErrorCode::SystemError, "cannot use the folder for temporary files");
   }
   const std::string picture = folder.path() + "/field.svg";
   const auto painted =

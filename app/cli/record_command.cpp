@@ -67,7 +67,7 @@ class Health {
                   static_cast<double>(status.bytes) / 1e6);
     const std::string room = roomText(status);
     m_progress.say(text + (room.empty() ? room : ", " + room) +
-                   (trouble == RecordingTrouble::DiskBehind ? ", disk does not keep up" : ""));
+                   (trouble == RecordingTrouble::DiskBehind ? ", disk cannot keep up" : ""));
   }
 
  private:
@@ -77,9 +77,9 @@ class Health {
 
 Result<int> recordMatch(const RecordOptions& options) {
   const auto cognition = TRY(cognitionOf(options.play));
-  const auto speed = TRY(speedOf(options.play, cognition));
   const auto scenario =
       TRY(scenarioToPlay(shared::scenarioFrom(options.play.match), options.play, cognition));
+  const auto speed = TRY(speedOf(options.play, cognition, scenario));
   auto match = TRY(createMatch(scenario, options.play, cognition));
 
   SessionWriterOptions writing;
@@ -146,7 +146,7 @@ Result<int> record(RecordOptions& options) {
   const InterruptGuard signals;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end
   if (!options.output.empty()) return options.live ? recordLive(options) : recordMatch(options);
-  return failure(ErrorCode::InvalidArgument, "Say where to: -o FILE.mcap");
+  return failure(ErrorCode::InvalidArgument, "a recording needs a file: add -o FILE.mcap");
 }
 
 }  // namespace
@@ -173,11 +173,15 @@ void addRecordCommand(CLI::App& parent, int& exitCode) {
   CLI::Option* live =
       command->add_flag("--live", o.live, "Record what robots and the referee send");
   for (const char* ofAMatch :
-       {"--scenario", "--seed", "--noise", "--physics", "--robot-model", "--speed", "--cognition",
-        "--referee", "--obey-referee", "--answer-referee", "--match", "--key-base", "--runtime"}) {
+       {"--scenario", "--seed", "--noise", "--physics", "--robot-model", "--speed", "--keep-speed",
+        "--cognition", "--referee", "--obey-referee", "--answer-referee", "--match", "--key-base",
+        "--pace", "--runtime", "--robot-program"}) {
     live->excludes(command->get_option(ofAMatch));
   }
+  const std::size_t before = command->get_options().size();
   addListenOptions(*command, o.network);
+  const auto all = command->get_options();
+  for (std::size_t i = before; i < all.size(); ++i) all[i]->needs(live);
   addGroup(*command, "Live", {"--profile", "--team", "--our-team"});
   command->add_flag("--progress", o.progress,
                     "Print progress to stderr even if it is not a terminal");

@@ -15,13 +15,13 @@ namespace pitchboard::cli {
 Result<void> exportReport(const telemetry::SessionReader& session, telemetry::TimeRange range,
                           const std::vector<std::string>& robots, const std::string& output) {
   if (output.empty()) {
-    return failure(ErrorCode::InvalidArgument, "a report needs a file; add -o FILE.html");
+    return failure(ErrorCode::InvalidArgument, "a report needs a file: add -o FILE.html");
   }
   const auto all = session.range();
-  if (!all) return failure(ErrorCode::NotFound, "there is nothing in this session");
+  if (!all) return failure(ErrorCode::NotFound, "the recording is empty");
   const telemetry::TimeRange part{std::max(range.begin, all->begin), std::min(range.end, all->end)};
   if (!(part.begin <= part.end)) {
-    return failure(ErrorCode::InvalidArgument, "there is nothing in this part of the session");
+    return failure(ErrorCode::InvalidArgument, "this part of the recording is empty");
   }
   link::ReportContent content;
   content.session = session.info();
@@ -30,7 +30,7 @@ Result<void> exportReport(const telemetry::SessionReader& session, telemetry::Ti
   content.events = link::eventsOf(session);
   link::keepRobots(content, robots);
   content.notes = session.notes();
-  if (!session.complete()) content.notes.push_back("The recording broke off.");
+  if (!session.complete()) content.notes.push_back("The recording is truncated.");
 
   link::RecordedFrames frames(link::backdropOf(session), robots);
   const link::MatchFrame frame = frames.frameAt(session, part.end);
@@ -38,12 +38,12 @@ Result<void> exportReport(const telemetry::SessionReader& session, telemetry::Ti
     if (const auto picture = svgPicture(session, part.end)) {
       content.picture = *picture;
       char caption[96];
-      std::snprintf(
-          caption, sizeof caption, "The field at %.1f s%s", part.end,
-          frame.truthKnown ? "; dashed: where the robots believe to be." : ", as the robots say.");
+      std::snprintf(caption, sizeof caption, "The field at %.1f s%s", part.end,
+                    frame.truthKnown ? "; dashed: where the robots believe they are."
+                                     : ", as reported by the robots.");
       content.pictureCaption = caption;
     } else {
-      content.notes.push_back("The picture of the field is missing: " + picture.error().text());
+      content.notes.push_back("Could not paint the field: " + picture.error().text());
     }
   }
   return link::writeReport(output, content, IfExists::Refuse, session.file().contents().name);

@@ -43,8 +43,8 @@ Result<void> serveWorldLines(link::Scenario usual) {
     const std::string answer = lines.answer(line) + '\n';
     if (std::fwrite(answer.data(), 1, answer.size(), stdout) != answer.size() ||
         std::fflush(stdout) != 0) {
-      return failure(ErrorCode::SystemError,
-                     "an answer could not be written: " + systemReason(errno), "standard output");
+      return failure(ErrorCode::SystemError, "cannot write an answer: " + systemReason(errno),
+                     "standard output");
     }
   }
   return {};
@@ -76,7 +76,7 @@ struct Recorded {
 Result<double> momentIn(const telemetry::SessionReader& session, const Arguments& arguments) {
   const auto range = session.range();
   if (!range) {
-    return failure(ErrorCode::NotFound, "There is nothing in this session.", arguments.session);
+    return failure(ErrorCode::NotFound, "The recording is empty.", arguments.session);
   }
   using telemetry::TimeForms;
   const auto time = telemetry::sessionTime(arguments.at, session.info().start, *range,
@@ -98,7 +98,7 @@ Result<Recorded> recordedMoment(const Arguments& arguments) {
   const auto text = session.attachment(link::scenarioAttachment);
   if (!text) {
     return failure(ErrorCode::NotFound,
-                   "this session has no scenario, so that nobody knows the match",
+                   "this recording has no scenario, so its match cannot be continued",
                    arguments.session);
   }
   auto scenario = TRY(link::scenarioFromJson(*text, arguments.session + ": scenario.json"));
@@ -126,7 +126,7 @@ Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition 
 /// An old file is refused with the option that allows it.
 tl::unexpected<Error> cannotWrite(Error error, const Arguments& arguments) {
   if (error.code == ErrorCode::Conflict && !isSameFile(error.context, arguments.session)) {
-    error.message = "This file exists; choose another name or add --force.";
+    error.message = "This file already exists. Choose another name or add --force.";
   }
   return tl::unexpected(std::move(error));
 }
@@ -151,12 +151,12 @@ class TraceRows : public link::TickObserver {
 
 Result<void> simulate(const Arguments& arguments) {
   const auto cognition = TRY(cognitionOf(arguments.play));
-  const auto speed = TRY(speedOf(arguments.play, cognition));
   std::optional<Recorded> recorded;
   if (!arguments.session.empty()) {
     recorded = TRY(recordedMoment(arguments));
   }
   const auto scenario = TRY(scenarioFrom(arguments, cognition, recorded));
+  const auto speed = TRY(speedOf(arguments.play, cognition, scenario));
   const InterruptGuard signals;
   auto match = TRY(createMatch(scenario, arguments.play, cognition));
   if (recorded) {
@@ -214,14 +214,13 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
   addPlayOptions(*command, a.play);
   CLI::Option* from =
       command
-          ->add_option(
-              "--from", a.session,
-              "Continue a recorded match from --at, exactly; the robots' processes start anew")
+          ->add_option("--from", a.session,
+                       "Continue a recorded match exactly from --at; the robots' processes restart")
           ->type_name("FILE.mcap");
   CLI::Option* at =
       command
           ->add_option("--at", a.at,
-                       std::string("Time in the session: ") + telemetry::sessionTimeForms)
+                       std::string("Time in the recording: ") + telemetry::sessionTimeForms)
           ->type_name("T")
           ->needs(from);
   from->needs(at);
@@ -238,10 +237,9 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
   command->add_flag("--force", a.force, "Overwrite existing files");
   command->add_flag("--json", a.json, "Print the result as a JSON object");
   command->add_flag("--list", a.list, "List the built-in scenarios");
-  CLI::Option* stdio =
-      command->add_flag("--stdio", a.stdio,
-                        "Let another program step worlds by lines of JSON on standard input "
-                        "(docs/LEARNING.md)");
+  CLI::Option* stdio = command->add_flag(
+      "--stdio", a.stdio,
+      "Let another program step worlds with lines of JSON on standard input (docs/learning.md)");
   for (const char* other : {"--scenario", "--seed", "--noise", "--physics"}) {
     from->excludes(command->get_option(other));
   }

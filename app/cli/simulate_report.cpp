@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulate_report.h"
 
-#include <cctype>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -60,50 +59,10 @@ const char* reasonText(const std::string& finishedBy) {
   return "interrupted";
 }
 
-std::string titleOf(const TeamOutcome& team, bool withSide) {
-  if (!team.name.empty()) return team.name;
-  std::string out(info(team.colour).name);
-  out.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(out.front())));
-  return withSide ? out + " (" + std::string(link::sideName(team.side)) + ')' : out;
-}
-
 }  // namespace
 
-std::array<TeamOutcome, 2> teamOutcomes(const link::SimulatedMatch& match) {
-  using link::Side;
-  const sim::WorldState& world = match.simulation().state();
-  link::Teams teams;
-  link::fillTeams(world.settings.teams, teams);
-  const auto nameOf = [&](TeamColor colour) {
-    return teams[static_cast<std::size_t>(colour) + 1].name;
-  };
-  if (world.game) {
-    std::array<TeamOutcome, 2> out;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const sim::GameTeam& team = world.game->teams[i];
-      out[i] = {team.colour, i == world.game->leftTeam() ? Side::Left : Side::Right, team.number,
-                team.score, nameOf(team.colour)};
-    }
-    return out;
-  }
-  TeamOutcome left{link::teamOn(Side::Left, world.robots), Side::Left, {}, world.score.left, {}};
-  TeamOutcome right{
-      link::teamOn(Side::Right, world.robots), Side::Right, {}, world.score.right, {}};
-  left.name = nameOf(left.colour);
-  right.name = nameOf(right.colour);
-  if (right.colour < left.colour) return {right, left};
-  return {left, right};
-}
-
-std::string scoreText(const link::SimulatedMatch& match) {
-  const auto [first, second] = teamOutcomes(match);
-  const bool alike = first.colour == second.colour;
-  return titleOf(first, alike) + ' ' + std::to_string(first.score) + " : " +
-         std::to_string(second.score) + ' ' + titleOf(second, alike);
-}
-
 void printResult(const link::SimulatedMatch& match, const Outcome& outcome) {
-  std::printf("%s; %s\n", scoreText(match).c_str(), reasonText(outcome.finishedBy));
+  std::printf("%s; %s\n", resultText(match.result()).c_str(), reasonText(outcome.finishedBy));
 }
 
 std::string noiseName(const sim::NoiseParameters& noise) {
@@ -121,7 +80,7 @@ void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
               (scenario.title.empty() ? scenario.name : scenario.title).c_str(),
               settings.physics.c_str(), outcome.noise.c_str(), settings.seed);
   std::printf("  Ended      %s\n", reasonText(outcome.finishedBy));
-  std::printf("  Score      %s\n", scoreText(match).c_str());
+  std::printf("  Score      %s\n", resultText(match.result()).c_str());
   std::printf("  Time       %.2f s simulated in %.2f s, %" PRIu64 " ticks, %.1f x real time\n",
               outcome.simulatedSeconds, outcome.wallSeconds, outcome.ticks, speedOf(outcome));
   std::printf("  State hash %s\n", hashText(match.simulation().hash()).c_str());
@@ -155,11 +114,13 @@ void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
                       {"unknown_actions", robot.statistics.unknownActions}});
   }
   Json teams = Json::array();
-  for (const TeamOutcome& team : teamOutcomes(match)) {
+  const link::MatchResult result = match.result();
+  for (const link::TeamResult& team : result.teams) {
     Json one{{"side", link::sideName(team.side)}, {"colour", info(team.colour).name}};
     if (team.number) one["number"] = *team.number;
     if (!team.name.empty()) one["name"] = team.name;
     one["score"] = team.score;
+    if (!team.byHalf.empty()) one["by_half"] = team.byHalf;
     teams.push_back(std::move(one));
   }
   Json out{{"scenario", match.scenario().name},
@@ -175,7 +136,7 @@ void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
            {"robots", std::move(robots)},
            {"finished_by", outcome.finishedBy},
            {"state_hash", hashText(match.simulation().hash())},
-           {"repeatable", match.isRepeatable()}};
+           {"repeatable", result.repeatable}};
   if (Json programs = programsJson(match); !programs.empty()) out["programs"] = std::move(programs);
   std::printf("%s\n", out.dump().c_str());
 }

@@ -65,16 +65,15 @@ std::vector<Found> testsOf(const std::string& name) {
   const bool folder = std::filesystem::is_directory(name, code);
   if (!folder && (example || std::filesystem::exists(name, code))) return {{name, {}}};
   if (!folder && name.find_first_of("/.") == std::string::npos) {
-    return {{name, Error{ErrorCode::NotFound,
-                         "there is no such folder or file, and no example of this name (--list "
-                         "prints them)",
-                         name}}};
+    return {{name,
+             Error{ErrorCode::NotFound,
+                   "there is no such folder, file or example (--list prints the examples)", name}}};
   }
   std::set<std::filesystem::path> seen;
   collect(name, seen, out);
   std::ranges::sort(out, {}, &Found::path);
   if (out.empty()) {
-    out.push_back({name, Error{ErrorCode::NotFound, "there is no .json file in it", name}});
+    out.push_back({name, Error{ErrorCode::NotFound, "it contains no .json file", name}});
   }
   return out;
 }
@@ -103,7 +102,8 @@ Result<link::ExperimentSummary> played(const link::Experiment& experiment,
 Result<link::TestedExperiment> tested(const Found& test, const TestOptions& options) {
   if (test.error) return tl::unexpected(*test.error);
   auto experiment = TRY(link::loadExperiment(test.path));
-  if (experiment.assertions.empty()) {
+  const auto& tournament = experiment.tournament;
+  if (experiment.assertions.empty() && (!tournament || tournament->assertions.empty())) {
     return failure(ErrorCode::InvalidArgument, "has no assertions, so it tests nothing", test.path);
   }
   auto summary = played(experiment, options);
@@ -168,13 +168,13 @@ void addTestCommand(CLI::App& parent, int& exitCode) {
       ->type_name("DIR|FILE|NAME");
   command->add_option("--junit", o.junit, "Write the results as JUnit XML, errors included")
       ->type_name("FILE.xml");
-  command->add_option("--jobs", o.jobs, "Runs at a time; default: one for each processor")
+  command->add_option("--jobs", o.jobs, "Runs at the same time; default: one per processor")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("--list", o.list, "Print the examples");
+  command->add_flag("--list", o.list, "List the examples");
   command
       ->add_option("--robot-program", o.robotProgram,
-                   "Program of separate processes; default: pitchboard-robot beside this one")
+                   "Program of separate processes; default: pitchboard-robot beside this program")
       ->type_name("FILE");
   command->callback([options, &exitCode] {
     if (options->list) {

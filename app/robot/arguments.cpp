@@ -44,8 +44,9 @@ std::string checkModel(const std::string& text) {
 void addCommunicationOptions(CLI::App& command, Arguments& a) {
   const CLI::Range port(1, 65535);
   command
-      .add_option("--udp-address", a.process.udpAddress,
-                  "Where communication and team send; 255.255.255.255 is everybody on the network")
+      .add_option(
+          "--udp-address", a.process.udpAddress,
+          "Address that communication and team send to; 255.255.255.255 reaches the whole network")
       ->type_name("ADDRESS")
       ->capture_default_str()
       ->check(checkAddress);
@@ -69,9 +70,13 @@ void addCommunicationOptions(CLI::App& command, Arguments& a) {
       ->check(CLI::Range(0, 99));
   command
       .add_option("--referee-team", a.process.refereeTeam,
-                  "Our team's number in the GameController; without it nobody listens to one")
+                  "Our team's number in the GameController; if not given, packets of "
+                  "GameControllers are ignored")
       ->type_name("N")
       ->check(CLI::Range(0, 255));
+  command.add_flag("--set-play", a.process.tellSetPlay,
+                   "Communication also writes which set play the referee gives (COM_SET_PLAY), "
+                   "for a decision process of ours; management adds it by itself");
   command
       .add_option("--shirt", a.process.shirt,
                   "Number in the GameController; the robot's number if not given")
@@ -84,7 +89,7 @@ void addCommunicationOptions(CLI::App& command, Arguments& a) {
       ->check(port);
   command
       .add_option("--debug-port", a.cognitionDebugPort,
-                  "Tell particles and path to a studio on this computer, on this UDP port")
+                  "Send particles and path to a studio on this computer, to this UDP port")
       ->type_name("PORT")
       ->check(port);
 }
@@ -104,9 +109,9 @@ Result<void> takeOver(CLI::App& command, const link::IniFile& file) {
     if (option == nullptr) {
       return failure(ErrorCode::ParseError,
                      "there is no option '" + entry.name +
-                         "'; the options are those that "
+                         "'; for the options, run "
                          "pitchboard-robot " +
-                         command.get_name() + " --help lists",
+                         command.get_name() + " --help",
                      file.place(entry));
     }
     if (option->count() > 0) continue;
@@ -148,9 +153,9 @@ void addOptions(CLI::App& command, Arguments& a) {
   command.add_option("--match-turns", a.matchTurns)->group("");  // for the program that plays it
   command
       .add_option("--behaviour", a.behaviour,
-                  "What decision does: a name, or an object with numbers as in scenario files, "
-                  "such as {\"name\": \"striker\", \"kick_distance\": 0.04}; `pitchboard-robot "
-                  "list` tells them all")
+                  "Behaviour of the decision process: a name, or an object with numbers as in "
+                  "scenario files, such as {\"name\": \"striker\", \"kick_distance\": 0.04}; "
+                  "`pitchboard-robot list` lists them all")
       ->type_name("NAME|{...}")
       ->capture_default_str()
       ->check(checkBehaviour);
@@ -161,7 +166,7 @@ void addOptions(CLI::App& command, Arguments& a) {
   addCommunicationOptions(command, a);
   command
       .add_option("--attack", a.attack,
-                  "Side of the opponents' goal; found out from landmarks and IMU if not given")
+                  "Side of the opponents' goal; estimated from landmarks and IMU if not given")
       ->type_name("SIDE")
       ->check(CLI::IsMember({"left", "right"}));
   command
@@ -172,12 +177,13 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->check(checkField);
   command
       .add_option("--robot-model", a.model,
-                  "Which kind of robot this is: a built-in name, a file, or an object as in "
-                  "scenario files; how fast it walks and how far it kicks")
+                  "Model of the robot (how fast it walks, how far it kicks): a built-in name, a "
+                  "file, or an object as in scenario files")
       ->type_name("NAME|FILE|{...}")
       ->capture_default_str()
       ->check(checkModel);
-  command.add_option("--particles", a.process.particles, "Localization: at most this many")
+  command
+      .add_option("--particles", a.process.particles, "Localization: largest number of particles")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
@@ -189,7 +195,7 @@ void addOptions(CLI::App& command, Arguments& a) {
   shared::addGroup(
       command, "Network",
       {"--udp-address", "--telemetry-port-base", "--telemetry-rate", "--team-port-base", "--team",
-       "--referee-team", "--shirt", "--referee-port", "--debug-port"});
+       "--referee-team", "--set-play", "--shirt", "--referee-port", "--debug-port"});
   shared::addGroup(command, "Tuning",
                    {"--distance-to-kick", "--particles", "--seed", "--published-localization"});
 }
@@ -215,12 +221,12 @@ Result<link::IniFile> settle(CLI::App& command, Arguments& a) {
     file = std::move(*read);
     TRY(takeOver(command, file));
   }
-  RobotId robot = TRY(
-      a.robot ? link::robotFromNumber(*a.robot)
-      : !a.config.empty()
-          ? link::robotFromIni(file)
-          : failure(ErrorCode::InvalidArgument,
-                    "whose process is this? Give --robot N, or --config FILE.ini with the number"));
+  RobotId robot =
+      TRY(a.robot ? link::robotFromNumber(*a.robot)
+          : !a.config.empty()
+              ? link::robotFromIni(file)
+              : failure(ErrorCode::InvalidArgument,
+                        "--robot is missing: add --robot N, or --config FILE.ini with the number"));
   a.process.robot = robot;
   const sim::FieldSpec field = TRY(sim::fieldFromText(a.field, "--field"));
   a.process.field = field;

@@ -47,7 +47,7 @@ std::string wordsOf(const link::ProcessNews& news) {
     case Kind::Silent:
       return "showed " + news.detail + " and was ended" + again;
     case Kind::GivenUp:
-      return "is not started any more: " + news.detail;
+      return "is no longer restarted: " + news.detail;
     case Kind::RealTime:
       return "keeps real time: " + news.detail;
   }
@@ -76,6 +76,10 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
   const std::string key = std::to_string(arguments.blackboardKey());
   const bool clearedByOther =
       std::ranges::find(config.processes, "communication") != config.processes.end();
+  // Words of the extension are for a decision of ours alone.
+  const bool tellsSetPlay =
+      std::ranges::find(config.processes, "decision") != config.processes.end() &&
+      !config.commands.contains("decision") && !arguments.process.tellSetPlay;
   std::vector<link::ManagedProcess> processes;
   for (const std::string& name : config.processes) {
     std::vector<std::string> words;
@@ -91,6 +95,7 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
       words = {program, name, "--robot", robot, "--key", key};
       if (!arguments.config.empty()) words.insert(words.end(), {"--config", arguments.config});
       words.insert(words.end(), given.begin(), given.end());
+      if (tellsSetPlay && name == "communication") words.emplace_back("--set-play");
     }
     link::ManagedProcess process;
     process.spec = {arguments.process.robot, name, std::move(words)};

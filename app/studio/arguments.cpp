@@ -10,8 +10,11 @@
 
 #include <app/command_line.h>
 #include <app/usage.h>
+#include <base/time_text.h>
+#include <base/try.h>
 #include <robotlink/live/live_teams.h>
 #include <robotlink/match/match_runner.h>
+#include <telemetry/session/session_time.h>
 
 namespace pitchboard::studio {
 namespace {
@@ -22,8 +25,8 @@ void addOptions(CLI::App& app, Arguments& a) {
   a.match.scenario = "kick-off";  // somebody moves at once
   shared::addScenarioOptions(app, a.match);
   app.add_option("--cognition", a.cognition,
-                 "Who decides for the robots: separate processes on System V blackboards, the "
-                 "studio itself, or none but yours")
+                 "Where the robots' processes run: separate processes on System V blackboards "
+                 "(external), inside the studio (inline), or only your own programs (none)")
       ->type_name("external|inline|none")
       ->capture_default_str()
       ->check(CLI::IsMember({"external", "inline", "none"}));
@@ -31,10 +34,10 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->type_name("X|max")
       ->capture_default_str();
   shared::addRobotsOptions(app, a.processes);
-  app.add_option("--theme", a.theme, "Colours, this time only")
+  app.add_option("--theme", a.theme, "Colour theme for this run")
       ->type_name("light|dark")
       ->check(CLI::IsMember({"light", "dark"}));
-  app.add_flag("--paused", a.paused, "Do not start playing");
+  app.add_flag("--paused", a.paused, "Start paused");
   app.add_option("--play-to", a.playTo,
                  "Play at full speed up to this tick, then pause: the same moment every time")
       ->type_name("TICK");
@@ -42,29 +45,27 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--settings", a.settings,
                  "File for layout and preferences instead of the user's own")
       ->type_name("FILE");
-  app.add_option("--session", a.session, "Open this recorded session in Replay")
-      ->type_name("FILE.mcap");
+  app.add_option("--session", a.session, "Open this recording in Replay")->type_name("FILE.mcap");
+  app.add_option("--at", a.at, std::string("Start Replay at this time: ") + timeForms)
+      ->type_name("T");
   app.add_option("file", a.file,
-                 "A session to replay, or a scenario (FILE.json) to play; a session given alone is "
-                 "opened in the studio that runs already, if there is one")
+                 "A recording to replay, or a scenario (FILE.json) to play. A recording alone is "
+                 "opened in the running studio, if there is one")
       ->type_name("FILE");
   app.add_flag("--new-window")
-      ->description("Open the session in a studio of its own although one runs");
-  app.add_option(
-         "--record", a.record,
-         "Record from the first moment into this new file, in a match or live; when there is "
-         "such a file already, it is kept and the new one gets a number")
+      ->description("Open the recording in a new studio even if one is running");
+  app.add_option("--record", a.record,
+                 "Record a match or live robots from the start into this new file; an existing "
+                 "file is kept, and the new one gets a number")
       ->type_name("FILE.mcap");
-  app.add_flag(
-      "--live", a.live,
-      "Start with what robots and referee send; no match is simulated unless --scenario is given");
-  app.add_flag("--overlay", a.overlay, "Show live robots over simulated ones");
+  app.add_flag("--live", a.live, "Start in Live; no match is simulated unless --scenario is given");
+  app.add_flag("--overlay", a.overlay, "Overlay live robots on simulated ones");
   app.add_option("--bind", a.bind, "Live: address to receive at")->type_name("ADDRESS");
   app.add_option("--port-base", a.portBase, "Live: robot n sends to port base + n")->type_name("P");
   app.add_option("--variables-port-base", a.variablesPortBase,
                  "Live: robot n sends variables to this port base + n; 0: off")
       ->type_name("P");
-  app.add_option("--robots", a.robots, "Live: how many ports after the base")
+  app.add_option("--robots", a.robots, "Live: number of ports after the base")
       ->type_name("N")
       ->check(CLI::Range(1, 64));
   app.add_option("--gamecontroller-port", a.refereePort, "Live: port of the referee's packets")
@@ -73,16 +74,16 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "Live: our team, by the referee's number or its colour, such as blue or red")
       ->type_name("N|COLOUR");
   app.add_option("--profile", a.profile,
-                 "Live: what stands in a message; a file, or a name that docs/LIVE.md lists")
+                 "Live: message profile: a file, or a name that docs/live.md lists")
       ->type_name("FILE|NAME");
   app.add_option("--team", a.teams, "Live: team setup as JSON; may be repeated")->type_name("FILE");
   app.add_option("--attach", a.attached,
-                 "Live: look at a System V segment of this computer as a robot; may be repeated")
+                 "Live: attach the blackboard with this System V key, read-only; may be repeated")
       ->type_name("KEY[,catalog=FILE][,size=BYTES][,robot=N][,rate=R][,team=COLOUR]");
   CLI::Option* shot =
       app.add_option("--screenshot-to", a.screenshotFile, "Save a picture of the window, then exit")
           ->type_name("FILE.png");
-  app.add_option("--after", a.after, "When to take it")
+  app.add_option("--after", a.after, "When to take the picture")
       ->type_name("SECONDS")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 86400.0))
@@ -100,9 +101,13 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "Where --render-scenario and --paint write: .png or .svg; --paint: also .mp4 or "
                  ".webm")
       ->type_name("FILE");
-  app.add_option("--from", a.from, "Time in the session")->type_name("SECONDS")->needs(paint);
-  app.add_option("--until", a.until, "End of a video")->type_name("SECONDS")->needs(paint);
-  app.add_option("--rate", a.rate, "Pictures a second of a video")
+  app.add_option("--from", a.from, std::string("Time in the recording: ") + timeForms)
+      ->type_name("T")
+      ->needs(paint);
+  app.add_option("--until", a.until, "End of a video; same format as --from")
+      ->type_name("T")
+      ->needs(paint);
+  app.add_option("--rate", a.rate, "Frames per second of a video")
       ->type_name("N")
       ->capture_default_str()
       ->needs(paint);
@@ -151,8 +156,8 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
   if (const auto ended = shared::parse(app, argc, argv)) return ended;
   if (!takeFile(app, arguments)) {
     return shared::reportError({ErrorCode::InvalidArgument,
-                                "two files are named to open, one by its option and " +
-                                    arguments.file + " without; leave out one of the two",
+                                "two files to open are given, one by its option and " +
+                                    arguments.file + " without. Leave out one of them",
                                 {}});
   }
   arguments.scenarioGiven = app.count("--scenario") > 0 || arguments.file.ends_with(".json");
@@ -165,19 +170,24 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
                                 "and --picture needs one of them",
                                 {}});
   }
+  if (!arguments.at.empty() && arguments.session.empty()) {
+    return shared::reportError({ErrorCode::InvalidArgument,
+                                "--at is a time in a recording: name the recording, too, such as "
+                                "match.mcap --at 1:18.7",
+                                {}});
+  }
   if (!arguments.record.empty() && !arguments.session.empty()) {
     return shared::reportError({ErrorCode::InvalidArgument,
                                 "--record records a match or live robots, and " +
                                     arguments.session +
-                                    " is a recording already; leave out one of the two",
+                                    " is a recording already. Leave out one of them",
                                 {}});
   }
   if (!arguments.record.empty() && !arguments.renderScenario.empty()) {
-    return shared::reportError(
-        {ErrorCode::InvalidArgument,
-         "--record needs a match that is played, and --render-scenario only draws one; "
-         "leave out one of the two",
-         {}});
+    return shared::reportError({ErrorCode::InvalidArgument,
+                                "--record needs a match that is played, but --render-scenario only "
+                                "draws one. Leave out one of them",
+                                {}});
   }
   return {};
 }
@@ -191,6 +201,21 @@ Result<double> speedOf(const Arguments& arguments) {
                    "--speed");
   }
   return *speed;
+}
+
+Result<std::optional<double>> timeIn(const telemetry::SessionReader& session,
+                                     const std::string& text, const char* option) {
+  if (text.empty()) return std::optional<double>{};
+  const auto range = session.range();
+  if (!range) return failure(ErrorCode::InvalidArgument, "the recording is empty", option);
+  const auto time = telemetry::sessionTime(text, session.info().start, *range);
+  if (!time) return failure(time.error().code, time.error().message, option);
+  return std::optional(*time);
+}
+
+Result<std::optional<double>> startOf(const Arguments& arguments) {
+  if (arguments.at.empty()) return std::optional<double>{};
+  return timeIn(TRY(telemetry::SessionReader::open(arguments.session)), arguments.at, "--at");
 }
 
 Result<std::optional<WindowSize>> sizeOf(const Arguments& arguments) {

@@ -11,6 +11,7 @@
 #include <app/scenario_options.h>
 #include <robotlink/live/live_watch.h>
 #include <robotlink/match/simulated_match.h>
+#include <telemetry/session/session_reader.h>
 
 namespace pitchboard::studio {
 
@@ -33,12 +34,13 @@ struct Arguments {
   std::string renderScenario;
   std::string paint;  ///< session to paint into `picture`
   std::string picture;
-  std::optional<double> from, until;     ///< s of the session
+  std::string from, until;               ///< times of the session
   double rate = 10.0;                    ///< pictures a second of a video
   std::vector<std::string> paintRobots;  ///< only these; empty: all
   std::string settings;
   std::string file;          ///< named without an option: a session or a scenario to open
   std::string session;       ///< a recorded session to open in Replay
+  std::string at;            ///< where Replay starts; empty: at the beginning
   bool onlySession = false;  ///< nothing else was asked for: a studio that runs can open it
   std::string record;        ///< session file to record into from the first moment; empty: none
   bool live = false;
@@ -62,6 +64,11 @@ Result<std::optional<WindowSize>> sizeOf(const Arguments& arguments);
 /// The scenario with seed, noise and physics of the command line in it.
 Result<link::Scenario> scenarioOf(const Arguments& arguments);
 link::Cognition cognitionOf(const Arguments& arguments);
+/// Second of the session at which Replay starts, where one is given. Reads the session.
+Result<std::optional<double>> startOf(const Arguments& arguments);
+/// The second that is meant by `text`, the value of this option; nothing when it is empty.
+Result<std::optional<double>> timeIn(const telemetry::SessionReader& session,
+                                     const std::string& text, const char* option);
 
 /// The saved options of Live with those of the command line in them.
 Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOptions saved);

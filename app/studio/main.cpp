@@ -16,6 +16,8 @@
 #include <ui/base/theme.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/timeline.h>
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
@@ -72,8 +74,7 @@ bool save(const QPixmap& picture, const std::string& file) {
   }
   shared::reportError(
       {ErrorCode::SystemError,
-       "the picture cannot be written; choose a folder that exists and a name ending in .png",
-       file});
+       "cannot write the picture. Choose an existing folder and a name that ends in .png", file});
   return false;
 }
 
@@ -84,13 +85,13 @@ Result<void> checkRecordFolder(const Arguments& arguments) {
   if (folder.mkpath(QStringLiteral(".")) && QFileInfo(folder.path()).isWritable()) return {};
   return failure(
       ErrorCode::SystemError,
-      "no file can be made in the folder " + folder.path().toStdString() + "; choose another one",
+      "cannot create a file in the folder " + folder.path().toStdString() + ". Choose another one",
       "--record");
 }
 
 int showWindow(QApplication& application, const Arguments& arguments,
                const link::Scenario& scenario, double speed, std::optional<WindowSize> size,
-               QSettings& settings) {
+               std::optional<double> start, QSettings& settings) {
   // They end in the opposite order: the window completes its files while the match is there, and a
   // second signal does not break that off.
   int exitCode = 0;
@@ -105,6 +106,11 @@ int showWindow(QApplication& application, const Arguments& arguments,
   const auto live = liveOptionsOf(arguments, window.live()->options());
   if (!live) return shared::reportError(live.error());
   window.live()->setOptions(*live);
+  if (start) {
+    QObject::connect(
+        window.replay(), &ui::ReplayController::opened, &window,
+        [&window, start] { window.timeline()->seek(*start); }, Qt::SingleShotConnection);
+  }
   if (!arguments.session.empty()) window.openSession(QString::fromStdString(arguments.session));
   const bool recordsMatch = !arguments.record.empty() && !arguments.live;
   if ((!arguments.live && arguments.session.empty()) || arguments.scenarioGiven) {
@@ -173,6 +179,8 @@ int run(int argc, char** argv) {
   if (!size) return shared::reportError(size.error());
   const auto scenario = scenarioOf(arguments);
   if (!scenario) return shared::reportError(scenario.error());
+  const auto start = startOf(arguments);
+  if (!start) return shared::reportError(start.error());
 
   const bool render = !arguments.renderScenario.empty() || !arguments.paint.empty();
   if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM") && qEnvironmentVariableIsEmpty("DISPLAY") &&
@@ -180,8 +188,7 @@ int run(int argc, char** argv) {
     if (!render && arguments.screenshotFile.empty()) {
       return shared::reportError(
           {ErrorCode::SystemError,
-           "there is no display to open a window on; use pitchboard-cli, or set "
-           "QT_QPA_PLATFORM=offscreen",
+           "no display to open a window on. Use pitchboard-cli, or set QT_QPA_PLATFORM=offscreen",
            {}});
     }
     qputenv("QT_QPA_PLATFORM", "offscreen");
@@ -205,7 +212,7 @@ int run(int argc, char** argv) {
   ui::setTheme(application, themeOf(arguments, *settings));
   if (!arguments.paint.empty()) return paintSession(arguments, size->value_or(pictureSize));
   if (render) return paintScenario(arguments, *scenario, size->value_or(pictureSize));
-  return showWindow(application, arguments, *scenario, *speed, *size, *settings);
+  return showWindow(application, arguments, *scenario, *speed, *size, *start, *settings);
 }
 
 }  // namespace

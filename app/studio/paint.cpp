@@ -4,7 +4,6 @@
 #include <QApplication>
 #include <QFileInfo>
 #include <QTimer>
-#include <algorithm>
 #include <cstdio>
 
 #include <app/command_line.h>
@@ -51,7 +50,7 @@ int writeVideo(const ui::FieldView& field, const Arguments& arguments, QSize wit
   QObject::connect(&video, &ui::VideoExport::failed, &video, end);
   QObject::connect(&signals_, &EndSignals::received, &video, [&] {
     video.cancel();
-    end(QStringLiteral("The export was stopped."));
+    end(QStringLiteral("Export cancelled."));
   });
   ui::VideoOptions options;
   options.path = QString::fromStdString(arguments.picture);
@@ -96,12 +95,13 @@ int paintSession(const Arguments& arguments, WindowSize within) {
   if (!session) return shared::reportError(session.error());
   const auto all = session->range();
   if (!all) {
-    return shared::reportError(
-        {ErrorCode::NotFound, "there is nothing in this session", arguments.paint});
+    return shared::reportError({ErrorCode::NotFound, "the recording is empty", arguments.paint});
   }
-  const telemetry::TimeRange range{
-      std::clamp(arguments.from.value_or(all->begin), all->begin, all->end),
-      std::clamp(arguments.until.value_or(all->end), all->begin, all->end)};
+  const auto from = timeIn(*session, arguments.from, "--from");
+  if (!from) return shared::reportError(from.error());
+  const auto until = timeIn(*session, arguments.until, "--until");
+  if (!until) return shared::reportError(until.error());
+  const telemetry::TimeRange range{from->value_or(all->begin), until->value_or(all->end)};
   link::RecordedFrames frames(link::backdropOf(*session), arguments.paintRobots);
   const auto frame = std::make_shared<link::MatchFrame>(frames.frameAt(*session, range.begin));
   ui::FieldView field(static_cast<ui::FrameSource*>(nullptr), nullptr);

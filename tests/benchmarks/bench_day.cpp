@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A day of real robots: how large its file is, how soon the first frame and curves over its whole
-// length are there, and in how much memory (docs/PERFORMANCE.md).
+// length are there, and in how much memory (docs/performance.md).
 //
 //   bench_day make FILE [--hours 24] [--rate 5] [--robots 22]    as the studio would record it
 //   bench_day open FILE [--memory MB]                            as the studio opens it

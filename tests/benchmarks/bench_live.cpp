@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole studio in Live under the load of 16 senders: what is lost where, how often the window
-// is painted meanwhile, what it costs in memory (docs/PERFORMANCE.md). The senders are a process of
+// is painted meanwhile, what it costs in memory (docs/performance.md). The senders are a process of
 // their own. Arguments: datagrams per second (50000), seconds (10). `agents [SECONDS]` instead: 22
 // times pitchboard-agent at 20 Hz, with every tenth variable changing all the time.
 #include <QApplication>

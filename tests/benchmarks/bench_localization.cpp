@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time of one update of the particle filter with a fixed number of particles, all four corners
 // seen, resampling in every update: the worst case. The published filter makes 1.9 to 2.8 updates a
-// second with 5000 particles (SYSTEM.md section 10).
+// second with 5000 particles (system.md section 10).
 
 #include <benchmark/benchmark.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What robots' processes cost as separate programs (docs/PERFORMANCE.md):
+// What robots' processes cost as separate programs (docs/performance.md):
 //   bench_processes [SECONDS=10]   how long each of five measurements takes, on the wall
 // In lock-step: 3 against 3, as fast as possible; the match waits for every process in every tick.
 // Running freely: 11 against 11 at 60 ticks a second, CPU time of the match and all processes.

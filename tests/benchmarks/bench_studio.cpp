@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole window as a person has it (docs/PERFORMANCE.md):
-//   bench_studio live [SECONDS]   22 robots at 60 messages a second each and a referee over UDP,
-//     every panel open: CPU time of the studio as a share of a core
-//   bench_studio start [TIMES]    from the start of a process to its first frame of a match
-//   bench_studio splitter         dragging the edge of a panel beside three plots of a match
-// The senders are a process of their own. Under Xvfb:
+// The whole window as a person has it (docs/performance.md):
+//   bench_studio paused [SECONDS]  3 against 3 that stands still
+//   bench_studio match [SECONDS]   the same while it is played
+//   bench_studio live [SECONDS]    22 robots at 60 messages a second each over UDP, all panels
+//   bench_studio start [TIMES]     from the start of a process to its first frame of a match
+//   bench_studio replay FILE       from a jump in a session larger than memory to a minute of
+//     curves; FILE: pitchboard-cli record --scenario match-3v3 --duration 1800 -o FILE
+//   bench_studio splitter          dragging the edge of a panel beside three plots of a match
+// The first three give the CPU time of the studio as a share of a core; robots and senders are
+// processes of their own. Under Xvfb:
 //   xvfb-run -a -s "-screen 0 1920x1080x24" env QT_QPA_PLATFORM=xcb bench_studio live
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -34,11 +38,15 @@
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
+#include <ui/sources/linked_time.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/timeline.h>
 #include <ui/window/main_window.h>
 
 #include "../support/test_socket.h"
+#include "chart_pane.h"
 
 using namespace pitchboard;
 using Clock = std::chrono::steady_clock;
@@ -56,6 +64,13 @@ double cpuMilliseconds() {
     return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3;
   };
   return ms(use.ru_utime) + ms(use.ru_stime);
+}
+
+/// How often a thread of this process has gone to sleep.
+long sleeps() {
+  rusage use{};
+  ::getrusage(RUSAGE_SELF, &use);
+  return use.ru_nvcsw;
 }
 
 double millisecondsSince(Clock::time_point begin) {
@@ -111,13 +126,51 @@ struct Paints : QObject {
 
 /// The studio with settings of its own, as at the first start.
 struct Studio {
-  explicit Studio(QSize size) : window(&controller, &settings) { window.resize(size); }
+  explicit Studio(QSize size, const link::MatchOptions& options = {})
+      : controller(options), window(&controller, &settings) {
+    window.resize(size);
+  }
   QWidget* canvas() const { return window.field()->findChild<QGraphicsView*>()->viewport(); }
   QTemporaryDir folder;
   QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-  ui::MatchController controller{link::MatchOptions()};
+  ui::MatchController controller;
   ui::MainWindow window;
 };
+
+/// What the window costs while time passes.
+void measure(const char* what, const Studio& studio, int seconds, double most) {
+  Paints paints;
+  studio.canvas()->installEventFilter(&paints);
+  const double before = cpuMilliseconds();
+  const long sleptBefore = sleeps();
+  const auto begin = Clock::now();
+  spin(std::chrono::seconds(seconds));
+  const double cpu = cpuMilliseconds() - before, took = millisecondsSince(begin);
+  std::printf(
+      "%s: %.2f %% of a core (wanted: %.0f %%), field painted %.1f times a second, %.0f sleeps a "
+      "second\n",
+      what, 100.0 * cpu / took, most, 1e3 * paints.count / took,
+      1e3 * static_cast<double>(sleeps() - sleptBefore) / took);
+}
+
+/// With robots in processes of their own, as the studio starts them.
+int match(int seconds, bool paused) {
+  link::MatchOptions options;
+  options.cognition = link::Cognition::Separate;
+  options.cognitionDebug = true;
+  options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+  Studio studio({1440, 900}, options);
+  const auto scenario = link::loadScenario("match-3v3");
+  if (!scenario) return 1;
+  studio.controller.open(*scenario, false);
+  studio.window.show();
+  spin(std::chrono::seconds(5));
+  studio.controller.setPaused(paused);
+  spin(std::chrono::seconds(2));
+  measure(paused ? "3 against 3, paused" : "3 against 3, 1440x900", studio, seconds,
+          paused ? 1.0 : 15.0);
+  return 0;
+}
 
 void openEveryDock(const ui::MainWindow& window) {
   QWidget* plots = nullptr;
@@ -144,18 +197,9 @@ int live(int seconds, int portBase, pid_t sender) {
   studio.window.showSource(ui::SourceKind::Live);
   openEveryDock(studio.window);
   spin(std::chrono::seconds(4));  // sizes, curves and memory are what they stay
-  Paints paints;
-  studio.canvas()->installEventFilter(&paints);
-  const double before = cpuMilliseconds();
-  const auto begin = Clock::now();
-  spin(std::chrono::seconds(seconds));
-  const double cpu = cpuMilliseconds() - before, took = millisecondsSince(begin);
+  measure("22 robots at 60 messages/s, every panel open", studio, seconds, 25.0);
   kill(sender, SIGKILL);
   waitpid(sender, nullptr, 0);
-  std::printf(
-      "%d robots at %d messages/s, every panel open: %.1f %% of a core, field painted %.0f "
-      "times a second (wanted: below 25 %%)\n",
-      robots, perSecond, 100.0 * cpu / took, 1e3 * paints.count / took);
   return 0;
 }
 
@@ -259,6 +303,47 @@ int splitter() {
   return 0;
 }
 
+int replay(const char* path) {
+  Studio studio({1440, 900});
+  studio.window.setMemoryBudget(64);  // MB
+  studio.window.show();
+  studio.window.openSession(QString::fromUtf8(path));
+  const auto* file = studio.window.replay();
+  while (!file->isOpen() || file->loaded() < 1.0) spin(std::chrono::milliseconds(20));
+  auto* plots = studio.window.findChild<ui::PlotsDock*>();
+  plots->plotVariables({QStringLiteral("B1/LOCALIZATION_X"), QStringLiteral("B1/BATTERY")});
+  plots->time()->setWindow(60.0);
+  spin(std::chrono::seconds(2));
+  const auto* chart = studio.window.findChild<ui::ChartPane*>();
+  const double length = studio.window.timeline()->available()->end;
+  constexpr int times = 40;
+  std::vector<double> cpu, real;
+  for (int i = 0; i < times; ++i) {
+    // Neither what was read before nor what lies beside it.
+    const double time = 60.0 + std::fmod(0.382 * (i + 1), 1.0) * (length - 120.0);
+    const auto isDrawn = [&] {
+      const telemetry::TimeRange shown = chart->timeAxis().shown;
+      const auto& traces = chart->traces();
+      return shown.begin <= time && time <= shown.end && traces[0].any && !traces[0].coarse;
+    };
+    const double cpuBefore = cpuMilliseconds();
+    const auto begin = Clock::now();
+    studio.window.timeline()->seek(time);
+    while (!isDrawn()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    QCoreApplication::processEvents();  // the stroke that was asked for
+    cpu.push_back(cpuMilliseconds() - cpuBefore);
+    real.push_back(millisecondsSince(begin));
+    spin(std::chrono::milliseconds(300));
+  }
+  std::sort(cpu.begin(), cpu.end());
+  std::sort(real.begin(), real.end());
+  std::printf(
+      "a minute of curves after a jump: median %.0f ms, 9 of 10 below %.0f ms, CPU time of all "
+      "threads median %.0f ms (wanted: 100)\n",
+      real[times / 2], real[times * 9 / 10], cpu[times / 2]);
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -275,10 +360,14 @@ int main(int argc, char** argv) {
   QApplication application(argc, argv);
   ui::setTheme(application, ui::ThemeChoice::Dark);
   if (what == "live") return live(number > 0 ? number : 20, portBase, sender);
+  if (what == "paused" || what == "match") return match(number > 0 ? number : 20, what == "paused");
   if (what == "splitter") return splitter();
+  if (what == "replay" && argc > 2) return replay(argv[2]);
   if (what == "first-frame" && argc > 2) {
     return firstFrame(Clock::time_point(Clock::duration(std::atoll(argv[2]))));
   }
-  std::fprintf(stderr, "error: bench_studio live [SECONDS] | start [TIMES] | splitter\n");
+  std::fprintf(
+      stderr,
+      "error: bench_studio paused|match|live [SECONDS] | start [TIMES] | splitter | replay FILE\n");
   return 2;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How fast telemetry is taken in: the decoder alone, the team's book-keeping, the referee's
-// packets, and a real socket on 127.0.0.1 under the load of 16 senders (docs/LIVE.md).
+// packets, and a real socket on 127.0.0.1 under the load of 16 senders (docs/live.md).
 
 #include <benchmark/benchmark.h>
 #include <array>

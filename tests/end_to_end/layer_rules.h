@@ -32,8 +32,8 @@ inline QStringList all(const QString& library) {
       {"simcore", {"base", "world", "rules", "physics", "simulation"}},
       {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session"}},
       {"robotlink",
-       {"blackboard", "processes", "models", "cognition", "scenario", "frame", "match", "live",
-        "session", "report", "experiment", "conformance", "capi"}},
+       {"blackboard", "processes", "models", "cognition", "rollout", "scenario", "frame", "match",
+        "live", "session", "report", "experiment", "calibrate", "conformance", "capi"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
         "noise", "processes", "log", "referee", "experiments", "window"}}};
@@ -49,8 +49,9 @@ inline const QList<Module>& table() {
     const QString wire = "telemetry/wire", series = "telemetry/series";
     const QString board = "robotlink/blackboard", processes = "robotlink/processes",
                   models = "robotlink/models", cognition = "robotlink/cognition",
-                  scenario = "robotlink/scenario", frame = "robotlink/frame",
-                  match = "robotlink/match", live = "robotlink/live", session = "robotlink/session";
+                  rollout = "robotlink/rollout", scenario = "robotlink/scenario",
+                  frame = "robotlink/frame", match = "robotlink/match", live = "robotlink/live",
+                  session = "robotlink/session";
     const QStringList below = all("simcore") + all("telemetry");
     const QStringList belowUi = below + all("robotlink");
     const QStringList qt{"Q"};
@@ -68,10 +69,12 @@ inline const QList<Module>& table() {
         {"telemetry/expression", {base}, {"muParser.h"}},
         {"telemetry/mcap", {base}, {"zlib.h", "zstd.h"}},
         {"telemetry/session", {base, wire, series, "telemetry/mcap"}, {"nlohmann/", "zlib.h"}},
-        {board, {base, series, wire, "resources"}, {"nlohmann/"}},
+        {board, {base, world, series, wire, "resources"}, {"nlohmann/"}},
         {processes, {base, board, "resources"}, {}},
         {models, {base, world, "resources"}, {"nlohmann/"}},
         {cognition, {base, world, wire, board, processes, models}, {"Eigen/", "nlohmann/"}},
+        // As a robot's processes, it knows nothing of matches and scenarios.
+        {rollout, {base, world, cognition}, {}},
         {scenario,
          {base, world, simulation, wire, board, processes, models, cognition, "resources"},
          {"nlohmann/"}},
@@ -90,11 +93,14 @@ inline const QList<Module>& table() {
          below + QStringList{board, processes, models, cognition, scenario, frame, match, session,
                              "robotlink/report", "resources"},
          {"boost/", "nlohmann/"}},
+        {"robotlink/calibrate",
+         below + QStringList{board, models, frame, live, session, "robotlink/report"},
+         {"Eigen/", "boost/", "nlohmann/"}},
         {"robotlink/conformance",
          all("simcore") + QStringList{board, processes, cognition, scenario, frame, match},
          {"nlohmann/", "zlib.h"}},
         {"robotlink/capi",
-         {base, world, simulation, board, processes, models, scenario, match},
+         {base, world, simulation, board, processes, models, cognition, rollout, scenario, match},
          {"nlohmann/"}},
         // What more than one program needs of its command line.
         {"app/shared", {base, models, scenario, match}, {"CLI/"}},

@@ -79,7 +79,7 @@ def main():
         check(name, qemu)
         package = next((SOURCE / "build/agent").glob("pitchboard-agent_*_%s.deb" % name))
         listed = subprocess.run(["dpkg-deb", "-c", str(package)], check=True, capture_output=True, text=True).stdout
-        for path in ("./usr/bin/pitchboard-agent", "./lib/systemd/system/pitchboard-agent@.service", "AGENT.md"):
+        for path in ("./usr/bin/pitchboard-agent", "./lib/systemd/system/pitchboard-agent@.service", "agent.md"):
             assert path.lstrip(".") in listed, "%s is not in %s" % (path, package.name)
         if shutil.which("lintian"):
             subprocess.run(["lintian", "--allow-root", "--fail-on", "error", str(package)], check=True)

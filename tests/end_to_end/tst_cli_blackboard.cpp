@@ -54,7 +54,7 @@ class TestCliBlackboard : public QObject {
                            << QByteArray("between");
     QTest::newRow("type") << QStringList{"set", "1", "VOLTAGE=1.5"} << QByteArray("whole number");
     QTest::newRow("float") << QStringList{"set", "1", "IMU_EULER_Z=x"} << QByteArray("nan or inf");
-    QTest::newRow("name") << QStringList{"set", "1", "NO=1"} << QByteArray("no such name");
+    QTest::newRow("name") << QStringList{"set", "1", "NO=1"} << QByteArray("no such variable");
     QTest::newRow("form") << QStringList{"set", "1", "VOLTAGE"} << QByteArray("NAME=VALUE");
     QTest::newRow("robot") << QStringList{"dump", "65"} << QByteArray("error: ");
     QTest::newRow("none") << QStringList{"dump", "2"} << QByteArray("no such segment");

@@ -129,6 +129,25 @@ class TestCliExport : public QObject {
     QCOMPARE(cli({"export", m_session, "--from", until, "--until", from}).exitCode, 2);
   }
 
+  void optionsThatWouldBeIgnoredAreRefused_data() {
+    QTest::addColumn<QStringList>("options");
+    QTest::addColumn<QByteArray>("reason");
+    const auto row = [](const char* line, const char* reason) {
+      QTest::newRow(line) << QString(line).split(' ') << QByteArray(reason);
+    };
+    row("--interpolate", "--interpolate only works with --to csv-even, not with csv-wide");
+    row("--to csv-long --rate 5", "--rate only works with --to csv-even, mp4, webm");
+    row("--to csv-wide --rows-only", "--rows-only only works with --to jsonl, mcap");
+    row("--to png --variables VOLTAGE -o a.png", "--variables only works with --to csv-wide");
+  }
+  void optionsThatWouldBeIgnoredAreRefused() {
+    QFETCH(QStringList, options);
+    QFETCH(QByteArray, reason);
+    const ProgramRun run = cli(QStringList{"export", m_session} + options);
+    QCOMPARE(run.exitCode, 2);
+    QVERIFY2(run.err.contains(reason), run.err);
+  }
+
   void aPartIsChosenByMinutesAndSeconds() {
     const auto table = [this](const QString& from, const QString& until) {
       const ProgramRun run =
@@ -199,7 +218,7 @@ class TestCliExport : public QObject {
     QVERIFY2(run.err.contains("Install the studio"), run.err.constData());
     QVERIFY(!QFile::exists(to));
     QCOMPARE(page.exitCode, 0);
-    QVERIFY(contents(report).contains("The picture of the field is missing"));
+    QVERIFY(contents(report).contains("Could not paint the field"));
   }
 
   void picturesAndVideosByFfmpeg() {
@@ -296,7 +315,7 @@ class TestCliExport : public QObject {
       run = cli(words + QStringList{less});
     }
     QVERIFY2(run.exitCode == 2 && run.err.contains("error: "), run.err.constData());
-    QVERIFY2(run.err.contains("largest size that is allowed"), run.err.constData());
+    QVERIFY2(run.err.contains("largest file size allowed"), run.err.constData());
     QCOMPARE(QDir(m_folder.path()).entryList({"less*", "*.part"}, QDir::Files | QDir::Hidden),
              QStringList());
   }

@@ -97,7 +97,7 @@ class TestCliMoments : public QObject {
     // The studio paints; a build without it says so.
     const char* picture = QFile::exists(QStringLiteral(PITCHBOARD_BIN "/pitchboard"))
                               ? "data:image/svg+xml;base64,"
-                              : "The picture of the field is missing";
+                              : "Could not paint the field";
     for (const char* words :
          {"<!DOCTYPE html>", picture, ">B1<", "Belief error", "0:12 of play recorded"}) {
       QVERIFY2(html.contains(words), words);

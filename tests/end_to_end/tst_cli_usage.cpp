@@ -50,6 +50,9 @@ class TestCliUsage : public QObject {
     row("simulate --match 99", "--match must be from 0 to 45, not 99");
     row("simulate --pace slow", "--pace must be lock-step or free, not \"slow\"");
     row("simulate --at 3", "--at only works together with --from");
+    row("record -o a.mcap --bind 127.0.0.1", "--bind only works together with --live");
+    row("record -o a.mcap --live --pace free",
+        "--pace and --live cannot be used together; leave out one of them");
     row("inspect", "FILE is missing: The recording");
     row("simulate --from a.mcap --at 3 --seed 3",
         "--seed and --from cannot be used together; leave out one of them");

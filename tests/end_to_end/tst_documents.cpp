@@ -86,23 +86,23 @@ class TestDocuments : public QObject {
     const auto row = [](const char* what, const char* document, const QStringList& names) {
       QTest::newRow(what) << QString(document) << names;
     };
-    row("scenario", "SCENARIOS.md", namesOf(builtInScenarios(), itsName));
-    row("field", "SCENARIOS.md", namesOf(sim::builtInFields(), itsName));
-    row("noise preset", "SCENARIOS.md", namesOf(noisePresets(), itself));
-    row("kind of robot", "SCENARIOS.md", namesOf(robotModels(), itself));
-    row("physics model", "SCENARIOS.md", namesOf(sim::physicsModels(), itsName));
-    row("rule set", "REFEREE.md", namesOf(refereeRuleSets(), itsName));
-    row("runtime profile", "ROBOTS.md", namesOf(builtInRuntimes(), itself));
-    row("process", "ROBOTS.md", namesOf(cognitiveProcesses(), itsName));
-    row("behaviour", "BEHAVIOURS.md", namesOf(behaviours(), itsName));
-    row("experiment", "EXPERIMENTS.md", namesOf(builtInExperiments(), itsName));
-    row("situation test", "EXPERIMENTS.md", namesOf(builtInSituations(), itsName));
-    row("metric", "EXPERIMENTS.md", namesOf(teamMetrics(), itsName));
-    row("request", "LEARNING.md", namesOf(WorldLines::requests(), itself));
-    row("profile of messages", "LIVE.md", namesOf(telemetry::builtInProfiles(), itself));
-    row("format of messages", "LIVE.md", formats());
-    row("meaning of a field", "LIVE.md", meanings());
-    row("kind of event", "SESSIONS.md", events());
+    row("scenario", "scenarios.md", namesOf(builtInScenarios(), itsName));
+    row("field", "scenarios.md", namesOf(sim::builtInFields(), itsName));
+    row("noise preset", "scenarios.md", namesOf(noisePresets(), itself));
+    row("kind of robot", "scenarios.md", namesOf(robotModels(), itself));
+    row("physics model", "scenarios.md", namesOf(sim::physicsModels(), itsName));
+    row("rule set", "referee.md", namesOf(refereeRuleSets(), itsName));
+    row("runtime profile", "robot-programs.md", namesOf(builtInRuntimes(), itself));
+    row("process", "robot-programs.md", namesOf(cognitiveProcesses(), itsName));
+    row("behaviour", "behaviours.md", namesOf(behaviours(), itsName));
+    row("experiment", "experiments.md", namesOf(builtInExperiments(), itsName));
+    row("situation test", "experiments.md", namesOf(builtInSituations(), itsName));
+    row("metric", "experiments.md", namesOf(teamMetrics(), itsName));
+    row("request", "learning.md", namesOf(WorldLines::requests(), itself));
+    row("profile of messages", "live.md", namesOf(telemetry::builtInProfiles(), itself));
+    row("format of messages", "live.md", formats());
+    row("meaning of a field", "live.md", meanings());
+    row("kind of event", "sessions.md", events());
   }
   void everythingThatIsChosenByNameIsNamed() {
     QFETCH(QString, document);

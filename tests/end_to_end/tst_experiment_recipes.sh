@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tst_experiment_recipes.sh RECIPES BIN: the recipes of docs/EXPERIMENTS.md, and the command line of
+# tst_experiment_recipes.sh RECIPES BIN: the recipes of docs/experiments.md, and the command line of
 # experiments from outside: exit codes, interruption, shards, replay, situation tests.
 set -uo pipefail
 recipes=$1
@@ -48,7 +48,7 @@ mkdir cases && cp bad.json short.json cases
 expect 1 "2 tests, 2 assertions, 1 failed" test cases --junit all.xml
 expect 0 "8 tests, 25 assertions, 0 failed" test
 expect 0 "1 tests, " test ready-positions
-expect 2 "no example of this name" test no-such-test
+expect 2 "no such folder, file or example" test no-such-test
 # What cannot be read is an error of its own; the rest, in subfolders too, is played, and the JUnit file is written.
 mkdir -p mixed/sub && cp short.json mixed/sub && cp bad.json mixed/z.json
 echo '{"version": 1' > mixed/broken.json
@@ -122,7 +122,7 @@ kill -INT $pid
 wait $pid
 code=$?
 if [ $code -eq 2 ]; then
-  grep -q "runs; --resume goes on with them" interrupted.txt || fail "interrupted: $(cat interrupted.txt)"
+  grep -q "runs; add --resume to continue" interrupted.txt || fail "interrupted: $(cat interrupted.txt)"
   [ ! -e long/report.md ] || fail "an interrupted experiment has a report"
   expect 0 "holds" experiment long.json --out long --resume
 else

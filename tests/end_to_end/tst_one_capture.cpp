@@ -278,7 +278,7 @@ class TestOneCapture : public QObject {
     QCOMPARE(badDrawings, 1);
     QCOMPARE(refused, 1);
     QCOMPARE(referees, 2);
-    QVERIFY2(summary.contains("; bad: 3; refused: 1 of senders"), summary.constData());
+    QVERIFY2(summary.contains("; bad: 3; refused: 1 from senders"), summary.constData());
     QCOMPARE(details.team.errors.messages() + details.unknownReferee, std::uint64_t{3});
     QCOMPARE(details.team.refusedByFilter, std::uint64_t{1});
     // Health of the same robots.

@@ -9,6 +9,8 @@
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
+#include <simcore/world/game_state.h>
+#include <telemetry/wire/gamecontroller.h>
 
 #include "../support/segment_keys.h"
 #include "../support/test_socket.h"
@@ -182,6 +184,55 @@ class TestRefereeObeyed : public QObject {
     communication.kill();
     decision.kill();
     QVERIFY(communication.waitForFinished() && decision.waitForFinished());
+  }
+
+  // Only where the decision is ours: a team's own map may have something else on these words.
+  void aSetPlayIsToldToOurDecision_data() {
+    QTest::addColumn<QByteArray>("decision");
+    QTest::addColumn<bool>("told");
+    QTest::newRow("ours") << QByteArray() << true;
+    QTest::newRow("a team's") << QByteArray("command.decision = /bin/sleep 600\n") << false;
+  }
+  void aSetPlayIsToldToOurDecision() {
+    QFETCH(QByteArray, decision);
+    QFETCH(bool, told);
+    const QString corner = "v12hl688_CORNER_KICK";
+    const auto packetRead = telemetry::decodeReferee(packet(corner).toStdString()).value();
+    const auto& state = std::get<telemetry::RefereeState>(packetRead);
+    const int takers = (*state.secStateInfo)[0];
+    const std::uint16_t port = TestSocket(INADDR_ANY).port();
+    const QTemporaryDir folder;
+    QFile config(folder.filePath("robot.ini"));
+    QVERIFY(config.open(QIODevice::WriteOnly));
+    config.write("[Communication]\nno_player_robofei = 1\n[Pitchboard]\nreferee_team = " +
+                 QByteArray::number(takers) + "\nreferee_port = " + QByteArray::number(port) +
+                 "\nbehaviour = idle\ntelemetry_port_base = 60000\nteam_port_base = 60100\n"
+                 "[Pitchboard Management]\nprocesses = decision communication\n" +
+                 decision);
+    config.close();
+    QProcess management;
+    management.start(
+        PITCHBOARD_BIN "/pitchboard-robot",
+        {"management", "--config", config.fileName(), "--key-base", QString::number(m_base)});
+    std::optional<Blackboard> board;
+    const auto isThere = [&] {
+      auto opened = SystemVSegments::open(m_base + 100, AttachMode::AttachOnly);
+      if (opened) board = std::move(*opened);
+      return board.has_value();
+    };
+    QTRY_VERIFY(isThere());
+    const VariableCatalog& map = VariableCatalog::extended();
+    const IntVar kind = *map.intVar("COM_SET_PLAY"), ours = *map.intVar("COM_SET_PLAY_OURS");
+    board->write(kind, 77);
+    const auto hasReceived = [&] {
+      m_controller.send(port, packet(corner).toStdString());
+      return board->read(m_variables.comReferee) != 0;
+    };
+    QTRY_VERIFY(hasReceived());
+    QTRY_COMPARE(board->read(kind), told ? static_cast<int>(sim::SetPlay::CornerKick) : 77);
+    QCOMPARE(board->read(ours), told ? 1 : 0);
+    management.terminate();
+    QVERIFY(management.waitForFinished());
   }
 
   void robotsOfOneComputerShareThePort() {

@@ -161,7 +161,7 @@ class TestRobotProgram : public QObject {
     };
     row("nothing", {}, "--help");
     row("no such process", {"vision"}, "--help");
-    row("no robot", {"decision"}, "whose process is this?");
+    row("no robot", {"decision"}, "--robot is missing");
     row("robot 0", {"decision", "--robot", "0"}, "no robot 0");
     row("robot 65", {"decision", "--robot", "65"}, "no robot 65");
     row("robot x", {"decision", "--robot", "x"}, "--robot");

@@ -77,6 +77,24 @@ class TestStudioProcess : public QObject {
     QCOMPARE(Studio::segments(), std::size_t(0));
   }
 
+  void replayStartsAtTheTimeThatIsGiven() {
+    const auto timeAt = [this](const QStringList& more) {
+      const QString shot = m_folder.filePath(QStringLiteral("at.png"));
+      Studio studio(m_folder);
+      const bool good =
+          studio.launch(QStringList{PITCHBOARD_SOURCE_DIR "/tests/data/sessions/small.mcap",
+                                    "--screenshot-to", shot, "--after", "1", "--size", "1280x800"} +
+                        more) &&
+          studio.waitForFinished(30000) && studio.exitCode() == 0;
+      return good ? QImage(shot).copy(0, 690, 1200, 80) : QImage();
+    };
+    const QImage atBeginning = timeAt({});
+    const QImage later = timeAt({"--at", "0:00.1"});
+    QVERIFY(!atBeginning.isNull() && !later.isNull());
+    QVERIFY(later != atBeginning);
+    QCOMPARE(timeAt({"--at", "0.1"}), later);
+  }
+
   void nothingIsLeftAfter_data() {
     QTest::addColumn<int>("signal");
     QTest::addColumn<bool>("clean");
@@ -116,6 +134,10 @@ class TestStudioProcess : public QObject {
     row("theme", QStringLiteral("--theme pink"), "pink");
     row("physics", QStringLiteral("--physics jelly"), "jelly");
     row("noise", QStringLiteral("--noise loud"), "loud");
+    const QString session = QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/data/sessions/small.mcap");
+    row("time without a recording", QStringLiteral("--at 1:00"), "name the recording");
+    row("time outside", session + QStringLiteral(" --at 9999"), "--at");
+    row("no time", session + QStringLiteral(" --at soon"), "1:18.7");
     row("picture missing", QStringLiteral("--render-scenario match-3v3"), "--picture");
   }
   void badArgumentsEndWithASentence() {

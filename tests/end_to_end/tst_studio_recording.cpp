@@ -150,7 +150,7 @@ class TestStudioRecording : public QObject {
                                << QByteArray("b.mcap is a recording already");
     QTest::newRow("a folder") << QStringList{QStringLiteral("--record"),
                                              QStringLiteral("/proc/none/a.mcap")}
-                              << QByteArray("choose another one");
+                              << QByteArray("Choose another one");
   }
   void whatCannotBeRecordedIsSaid() {
     QFETCH(QStringList, arguments);
@@ -237,7 +237,7 @@ class TestStudioRecording : public QObject {
                     QString::number(refereePort), QStringLiteral("--progress")});
     QByteArray words;
     QTRY_VERIFY2_WITH_TIMEOUT(
-        (words += recorder.readAllStandardError()).contains("disk does not keep up"), words,
+        (words += recorder.readAllStandardError()).contains("disk cannot keep up"), words,
         longWait);
     QVERIFY2(words.contains("warning: The disk does not keep up"), words);
     QVERIFY2(words.contains(" free") || words.contains("room for"), words);

@@ -24,6 +24,44 @@ static void refused(pb_status status, pb_status expected, const char *what) {
   ++failures;
 }
 
+/* A shot on its way into the right goal. */
+static void rollouts(void) {
+  enum { ROLLOUTS = 8 };
+  pb_rollout_options options;
+  pb_play_options how;
+  pb_rollouts *all = NULL;
+  int32_t robots = 0;
+  uint64_t seeds[ROLLOUTS];
+  double goals = 0.0, *poses, *game, *outcomes;
+  const size_t columns = pb_column_count(PB_OUTCOMES), wide = pb_column_count(PB_BELIEF_ROBOTS),
+               about = pb_column_count(PB_BELIEF_GAME);
+  check(pb_rollout_options_init(&options, sizeof options) == PB_OK, "rollout options");
+  check(pb_play_options_init(&how, sizeof how) == PB_OK, "play options");
+  check(pb_rollouts_create(&options, &all) == PB_OK && all != NULL, "rollouts");
+  check(pb_rollouts_robots(all, &robots) == PB_OK && robots == 8, "robots of a match");
+  poses = calloc((size_t)robots * wide, sizeof *poses);
+  game = calloc(about, sizeof *game);
+  outcomes = calloc(ROLLOUTS * columns, sizeof *outcomes);
+  check(pb_rollouts_beginning(all, poses, (size_t)robots * wide, game, about) == PB_OK, "belief");
+  game[0] = 4.3; /* ball_x */
+  game[1] = 0.7; /* ball_y */
+  game[4] = 3.0; /* ball_vx */
+  for (int i = 0; i < ROLLOUTS; ++i) seeds[i] = (uint64_t)i + 1;
+  check(pb_rollouts_play(all, &how, poses, (size_t)robots * wide, game, about, seeds, ROLLOUTS,
+                         outcomes, ROLLOUTS * columns) == PB_OK,
+        "play");
+  for (int i = 0; i < ROLLOUTS; ++i) goals += outcomes[(size_t)i * columns + 3];
+  check(goals >= ROLLOUTS / 2, "most shots score");
+  refused(pb_rollouts_play(all, &how, poses, 1, game, about, seeds, ROLLOUTS, outcomes,
+                           ROLLOUTS * columns),
+          PB_INVALID_ARGUMENT, "a belief that is too short");
+  check(pb_rollouts_destroy(all) == PB_OK, "destroy rollouts");
+  refused(pb_rollouts_robots(all, &robots), PB_STALE_HANDLE, "rollouts that were destroyed");
+  free(poses);
+  free(game);
+  free(outcomes);
+}
+
 static void play(const char *scenario, uint64_t seed, double seconds) {
   pb_options options;
   pb_worlds *worlds = NULL;
@@ -133,6 +171,7 @@ static void wrongCalls(void) {
 
 int main(int argc, char **argv) {
   check(pb_api_version() == PB_API_VERSION, "the library is that of the header");
+  rollouts();
   if (argc == 4) play(argv[1], strtoull(argv[2], NULL, 10), strtod(argv[3], NULL));
   wrongCalls();
   return failures;

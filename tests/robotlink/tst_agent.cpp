@@ -249,45 +249,17 @@ class TestAgent : public QObject {
     shmdt(words);
   }
 
-  // What docs/AGENT.md shows is what runs here.
-  void theGuideShowsThesePrograms_data() {
-    QTest::addColumn<QString>("file");
-    QTest::addColumn<QString>("language");
-    QTest::newRow("Python") << "pb2_robot.py"
-                            << "python";
-    QTest::newRow("C++") << "pb2_robot.cpp"
-                         << "cpp";
-  }
-  void theGuideShowsThesePrograms() {
-    QFETCH(QString, file);
-    QFETCH(QString, language);
-    QFile guide(PITCHBOARD_SOURCE_DIR "/docs/AGENT.md");
-    QFile program(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/" + file);
-    QVERIFY(guide.open(QIODevice::ReadOnly) && program.open(QIODevice::ReadOnly));
-    const QByteArray text = program.readAll();
-    QVERIFY(guide.readAll().contains("```" + language.toUtf8() + "\n" + text + "```\n"));
-
-    const TestSocket socket;
-    const QStringList arguments{"5", "127.0.0.1", QString::number(socket.port())};
-    QProcess sender;
-    if (language == "python") {
-      sender.start("python3", QStringList{program.fileName()} + arguments);
-    } else {
-      sender.start(QCoreApplication::applicationDirPath() + "/pb2_robot", arguments);
+  void everyReceiverGetsTheSame() {
+    auto board = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
+    QVERIFY(board);
+    board->write(IntVar{17}, 42);
+    const TestSocket second;
+    Agent agent({"--key", QString::number(m_key), "--to",
+                 QStringLiteral("127.0.0.1:%1").arg(second.port())});
+    for (int i = 0; i < 5; ++i) {
+      QTRY_VERIFY(second.received() && agent.socket().received());
+      QCOMPARE(second.take(), agent.socket().take());
     }
-    for (std::uint32_t sequence = 0; sequence < 3; ++sequence) {
-      QTRY_VERIFY(socket.received());
-      const std::string datagram = socket.take();
-      const auto message = telemetry::parsePb2(datagram);
-      QVERIFY2(message, message ? "" : message.error().text().c_str());
-      QVERIFY(message->robot == 5 && message->sequence == sequence && message->milliseconds > 0);
-      QCOMPARE(message->values.size(), std::size_t{2});
-      QVERIFY(message->values[0].name == "VOLTAGE" && message->values[0].value == 148.0);
-      QVERIFY(message->values[0].whole && !message->values[1].whole);
-      QVERIFY(message->values[1].name == "IMU_EULER_Z" && message->values[1].value == 0.5);
-    }
-    sender.kill();
-    QVERIFY(sender.waitForFinished());
   }
 
   void itIsOneSmallStaticProgram() {
@@ -325,8 +297,8 @@ class TestAgent : public QObject {
   int m_key = 0, m_number = 0;
 };
 
-}  // namespace tst_agent
+PITCHBOARD_TEST(TestAgent)
 
-QTEST_GUILESS_MAIN(tst_agent::TestAgent)
+}  // namespace tst_agent
 
 #include "tst_agent.moc"

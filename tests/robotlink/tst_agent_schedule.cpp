@@ -322,8 +322,8 @@ class TestAgentSchedule : public QObject {
   }
 };
 
-}  // namespace tst_agent_schedule
+PITCHBOARD_TEST(TestAgentSchedule)
 
-QTEST_GUILESS_MAIN(tst_agent_schedule::TestAgentSchedule)
+}  // namespace tst_agent_schedule
 
 #include "tst_agent_schedule.moc"

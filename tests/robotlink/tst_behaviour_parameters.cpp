@@ -273,7 +273,7 @@ void TestBehaviourParameters::separateProcessesGetThem() {
 
 // PITCHBOARD_WRITE_DOCS=1 puts the table into the document instead.
 void TestBehaviourParameters::theDocumentHasTheTable() {
-  QFile file(QString(PITCHBOARD_SOURCE_DIR) + "/docs/BEHAVIOURS.md");
+  QFile file(QString(PITCHBOARD_SOURCE_DIR) + "/docs/behaviours.md");
   QVERIFY(file.open(QIODevice::ReadOnly));
   const QString text = QString::fromUtf8(file.readAll());
   file.close();

@@ -8,6 +8,7 @@
 #include <pitchboard_sim.h>
 #include <robotlink/capi/worlds.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <thread>
@@ -172,8 +173,9 @@ class TestCapi : public QObject {
   void everyColumnKeepsItsPlaceAndItsName() {
     QFile file(QStringLiteral(PITCHBOARD_TEST_DATA "/world_columns.txt"));
     QVERIFY(file.open(QIODevice::ReadOnly | QIODevice::Text));
-    const QByteArrayList arrays{"percepts", "robots", "game", "commands"};
-    std::vector<QByteArrayList> recorded(4);
+    const QByteArrayList arrays{"percepts",      "robots",      "game",    "commands",
+                                "belief_robots", "belief_game", "outcomes"};
+    std::vector<QByteArrayList> recorded(7);
     for (const QByteArray& line : file.readAll().split('\n')) {
       if (line.isEmpty() || line.startsWith('#')) continue;
       const QByteArrayList parts = line.split(' ');
@@ -184,7 +186,7 @@ class TestCapi : public QObject {
       QCOMPARE(parts[1].toInt(), static_cast<int>(names.size()));
       names.append(parts[2]);
     }
-    for (int array = 0; array < 4; ++array) {
+    for (int array = 0; array < 7; ++array) {
       QByteArrayList names;
       for (std::size_t i = 0; i < pb_column_count(array); ++i) {
         const QByteArray name = pb_column_name(array, i), words = pb_column_words(array, i);
@@ -195,7 +197,8 @@ class TestCapi : public QObject {
       }
       QCOMPARE(names, recorded[static_cast<std::size_t>(array)]);
     }
-    QCOMPARE(pb_api_version(), 1);
+    QCOMPARE(pb_column_count(7), std::size_t{0});
+    QCOMPARE(pb_api_version(), 2);
   }
 
   void aNewBeginningIsLikeANewMatch() {
@@ -243,6 +246,113 @@ class TestCapi : public QObject {
     Worlds others = make(loadScenario("match-3v3").value());
     const auto refused = others.restore(0, snapshot);
     QVERIFY(!refused && refused.error().message.find("another scenario") != std::string::npos);
+  }
+
+  /// Many worlds in one call: from one snapshot with a seed for each, placed, and some reset.
+  void manyWorldsAtOnce() {
+    WorldsOptions options;
+    options.count = 4;
+    Worlds worlds = make(steered(), options);
+    playByRule(worlds, 40);
+    const WorldSnapshot snapshot = worlds.snapshot(0).value();
+    const std::vector<int> which{1, 3, 2};
+    const std::vector<std::uint64_t> seeds{7, 8, 7};
+    QVERIFY(worlds.restore(which, seeds, snapshot).has_value());
+    const std::vector<std::int32_t> walk(4, 1);
+    QVERIFY(worlds.writeActions(walk).has_value() && worlds.step(60).has_value());
+    const auto after = hashes(worlds);
+    QCOMPARE(after[1], after[2]);
+    QVERIFY(after[1] != after[3] && after[1] != after[0]);
+
+    const std::vector<Pose> poses{{{1, 1}, 0.5}, {{2, -1}, 1.5}, {{0, 2}, -1}};
+    QVERIFY(worlds.placeRobots(which, RobotId{1}, poses).has_value());
+    const std::vector<Point> places{{0.5, 0}, {-0.5, 0}, {0, 1}};
+    const std::vector<Velocity> still(3);
+    QVERIFY(worlds.placeBalls(which, places, still).has_value());
+    const std::size_t row = columnsOf(WorldArray::Robots).size();
+    const auto robots = values(worlds, WorldArray::Robots);
+    const std::size_t x = columnOf(WorldArray::Robots, "x");
+    QCOMPARE(robots[row + x], 1.0);
+    QCOMPARE(robots[2 * row + x], 0.0);
+    QCOMPARE(robots[3 * row + x], 2.0);
+    const std::size_t gameRow = columnsOf(WorldArray::Game).size();
+    const std::size_t ball = columnOf(WorldArray::Game, "ball_x");
+    QCOMPARE(values(worlds, WorldArray::Game)[3 * gameRow + ball], -0.5);
+
+    const std::vector<int> some{0, 2};
+    const std::vector<std::uint64_t> anew{5, 6};
+    const auto before = hashes(worlds);
+    QVERIFY(worlds.reset(some, anew).has_value());
+    Worlds fresh = make(steered(), options);
+    QVERIFY(fresh.reset(0, 5).has_value() && fresh.reset(2, 6).has_value());
+    QCOMPARE(hashes(worlds)[0], hashes(fresh)[0]);
+    QCOMPARE(hashes(worlds)[2], hashes(fresh)[2]);
+    QCOMPARE(hashes(worlds)[3], before[3]);
+
+    // Nothing changes when a world is not there, or a value is missing.
+    const auto now = hashes(worlds);
+    const std::vector<int> wrong{0, 4}, everyone{Worlds::all, 1};
+    QVERIFY(!worlds.reset(wrong, anew) && !worlds.reset(everyone, anew));
+    QVERIFY(!worlds.restore(which, anew, snapshot) && !worlds.placeBalls(some, places, still));
+    QCOMPARE(hashes(worlds), now);
+  }
+
+  /// As a program without C++ has them: the scenario's beginning, changed, and what becomes of it.
+  void rolloutsOfAScenario() {
+    pb_rollout_options options;
+    QCOMPARE(pb_rollout_options_init(&options, sizeof options), PB_OK);
+    options.scenario = "match-3v3";
+    options.noise = "realistic";
+    pb_rollouts* rollouts = nullptr;
+    QCOMPARE(pb_rollouts_create(&options, &rollouts), PB_OK);
+    std::int32_t count = 0;
+    QCOMPARE(pb_rollouts_robots(rollouts, &count), PB_OK);
+    QCOMPARE(count, 6);
+    const std::size_t row = pb_column_count(PB_BELIEF_ROBOTS);
+    std::vector<double> robots(6 * row), game(pb_column_count(PB_BELIEF_GAME));
+    QCOMPARE(
+        pb_rollouts_beginning(rollouts, robots.data(), robots.size(), game.data(), game.size()),
+        PB_OK);
+    QCOMPARE(robots[0], -2.0);
+    QCOMPARE(QByteArray(pb_column_name(PB_BELIEF_GAME, 0)), QByteArray("ball_x"));
+    game[0] = 4.2;
+    game[4] = 3.0;  // m/s towards the right goal
+    pb_play_options play;
+    QCOMPARE(pb_play_options_init(&play, sizeof play), PB_OK);
+    const std::vector<std::uint64_t> seeds{1, 2, 3};
+    const std::size_t columns = pb_column_count(PB_OUTCOMES);
+    std::vector<double> outcomes(3 * columns), again(3 * columns);
+    const auto played = [&](std::vector<double>& out) {
+      return pb_rollouts_play(rollouts, &play, robots.data(), robots.size(), game.data(),
+                              game.size(), seeds.data(), seeds.size(), out.data(), out.size());
+    };
+    QCOMPARE(played(outcomes), PB_OK);
+    QCOMPARE(QByteArray(pb_column_name(PB_OUTCOMES, 3)), QByteArray("goals_left"));
+    for (std::size_t i = 0; i < 3; ++i) {
+      QCOMPARE(outcomes[i * columns], static_cast<double>(seeds[i]));
+      QCOMPARE(outcomes[i * columns + 3], 1.0);
+    }
+    // NaN is what the scenario begins with.
+    std::ranges::fill(robots, std::nan(""));
+    QCOMPARE(played(again), PB_OK);
+    QCOMPARE(again, outcomes);
+
+    game[10] = 9.0;  // a state that there is not
+    QCOMPARE(played(again), PB_INVALID_ARGUMENT);
+    QVERIFY(QByteArray(pb_last_error()).contains("state"));
+    game[10] = 3.0;
+    again.pop_back();
+    QCOMPARE(played(again), PB_INVALID_ARGUMENT);
+    robots.pop_back();
+    QCOMPARE(played(outcomes), PB_INVALID_ARGUMENT);
+    QCOMPARE(pb_rollouts_destroy(rollouts), PB_OK);
+    QCOMPARE(pb_rollouts_destroy(rollouts), PB_STALE_HANDLE);
+    QCOMPARE(pb_rollouts_robots(rollouts, &count), PB_STALE_HANDLE);
+    options.tick_rate = 17.0;
+    QCOMPARE(pb_rollouts_create(&options, &rollouts), PB_INVALID_ARGUMENT);
+    QVERIFY(rollouts == nullptr);
+    options.size = 3;
+    QCOMPARE(pb_rollouts_create(&options, &rollouts), PB_INVALID_ARGUMENT);
   }
 
   void theTruthIsTheScenarios() {

@@ -156,7 +156,7 @@ class TestDrawings : public QObject {
             frames.back().drawings);
   }
 
-  // What docs/DRAWINGS.md shows is what runs here.
+  // What docs/drawings.md shows is what runs here.
   void theGuideShowsThesePrograms_data() {
     QTest::addColumn<QString>("file");
     QTest::addColumn<QString>("language");
@@ -168,11 +168,12 @@ class TestDrawings : public QObject {
   void theGuideShowsThesePrograms() {
     QFETCH(QString, file);
     QFETCH(QString, language);
-    QFile guide(PITCHBOARD_SOURCE_DIR "/docs/DRAWINGS.md");
+    QFile guide(PITCHBOARD_SOURCE_DIR "/docs/drawings.md");
     QFile program(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/" + file);
     QVERIFY(guide.open(QIODevice::ReadOnly) && program.open(QIODevice::ReadOnly));
     const QByteArray text = program.readAll();
-    QVERIFY(guide.readAll().contains("```" + language.toUtf8() + "\n" + text + "```\n"));
+    QVERIFY(
+        guide.readAll().contains("```" + (language + " " + file).toUtf8() + "\n" + text + "```\n"));
   }
 
   // A program that the match starts finds the way by its environment.

@@ -45,7 +45,7 @@ Result<void> playInto(ExperimentFolder& folder, const Experiment& experiment,
 }
 
 bool same(const RunResult& a, const RunResult& b) {
-  return a.number == b.number && a.seed == b.seed && a.endedBy == b.endedBy && a.hash == b.hash &&
+  return a.number == b.number && a.seed == b.seed && a.match == b.match && a.hash == b.hash &&
          a.ticks == b.ticks && a.paths == b.paths &&
          std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
                     [](double x, double y) { return x == y || (x != x && y != y); });
@@ -64,6 +64,7 @@ class TestExperiment : public QObject {
   void stuckRobotsEndTheRun();
   void goalsAreCountedForTheTeam();
   void recordedRunEndsInTheSameState();
+  void aRunThatEndsDifferentlyIsMarked();
   void separateProcessesEndInTheSameState();
   void aSituationStartsInAnyState_data();
   void aSituationStartsInAnyState();
@@ -183,7 +184,7 @@ void TestExperiment::stuckRobotsEndTheRun() {
   auto player = RunPlayer::create(e, {});
   const auto result = player->play(1);
   QVERIFY(result.has_value());
-  QCOMPARE(result->endedBy, std::string("stuck"));
+  QCOMPARE(result->match.endedBy, std::string("stuck"));
   QCOMPARE(result->ticks, std::uint64_t{120});
 }
 
@@ -198,7 +199,7 @@ void TestExperiment::goalsAreCountedForTheTeam() {
     auto player = RunPlayer::create(e, {});
     const auto result = player->play(1);
     QVERIFY(result.has_value());
-    QCOMPARE(result->endedBy, std::string(end));
+    QCOMPARE(result->match.endedBy, std::string(end));
   }
 }
 
@@ -211,6 +212,36 @@ void TestExperiment::recordedRunEndsInTheSameState() {
   QVERIFY2(recorded.has_value(), recorded ? "" : recorded.error().text().c_str());
   QVERIFY(same(*played, *recorded));
   QVERIFY(QFileInfo(dir.filePath("run.mcap")).size() > 1000);
+}
+
+void TestExperiment::aRunThatEndsDifferentlyIsMarked() {
+  const QTemporaryDir dir;
+  const Experiment e = experimentFrom(shortMatch);
+  const std::string out = dir.filePath("out").toStdString(), session = sessionPath(out, 6);
+  {
+    auto folder = ExperimentFolder::begin(out, e, false);
+    QVERIFY(playInto(*folder, e, numbers(1, 8), 1).has_value());
+  }
+  QVERIFY(recordAgain(out, e, 6, session, {}).has_value());
+  QCOMPARE(summarize(e, *resultsOf(out, e)).conditions[1].unrepeatable, std::size_t{0});
+  // As if the match had depended on something else.
+  auto lines = readFile(out + '/' + runsFile, 1 << 20).value();
+  char hash[24];
+  std::snprintf(hash, sizeof hash, "0x%016llx",
+                static_cast<unsigned long long>(resultOf(out, e, 6)->hash));
+  QVERIFY(writeFile(out + '/' + runsFile, replaced(lines, hash, "0x0123456789abcdef"),
+                    IfExists::Replace)
+              .has_value());
+  std::filesystem::remove(session);
+  const auto again = recordAgain(out, e, 6, session, {});
+  QCOMPARE(again.error().code, ErrorCode::Conflict);
+  QVERIFY(!resultOf(out, e, 6)->match.repeatable && resultOf(out, e, 5)->match.repeatable);
+  const auto files = filesIn(out);
+  QVERIFY(files.at("runs.csv").find(",0x0123456789abcdef,0,") != std::string::npos);
+  QVERIFY(files.at("summary.json").find("\"not_repeatable\": 1") != std::string::npos);
+  QVERIFY(files.at("report.md").find("Not repeatable") != std::string::npos);
+  std::filesystem::remove(session);
+  QVERIFY(recordAgain(out, e, 6, session, {}).has_value());  // nobody expects it any more
 }
 
 void TestExperiment::separateProcessesEndInTheSameState() {

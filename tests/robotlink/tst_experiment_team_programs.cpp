@@ -77,7 +77,7 @@ class TestExperimentTeamPrograms : public QObject {
  private slots:
   void eachRunHasItsProgramAndItsPaceIsReported();
   void aProgramThatDoesNotRunIsNamed();
-  void insideTheyAreRefused();
+  void theyPlayBesideInlineRobots();
   void referenceProcessesGiveTheSameFilesHoweverTheyWerePlayed();
 };
 
@@ -85,7 +85,7 @@ void TestExperimentTeamPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
   const Rig rig(QStringLiteral("naive_robot.py"));
   const auto e = rig.experiment();
   QVERIFY2(e.has_value(), e ? "" : e.error().text().c_str());
-  QVERIFY(e->teamPrograms);
+  QVERIFY(e->conditions[0].teamPrograms && e->hasTeamPrograms());
   const std::string out = rig.path("out");
   auto folder = ExperimentFolder::begin(out, *e, false);
   QVERIFY2(folder.has_value(), folder ? "" : folder.error().text().c_str());
@@ -148,15 +148,41 @@ void TestExperimentTeamPrograms::aProgramThatDoesNotRunIsNamed() {
   QVERIFY2(said.contains(QStringLiteral("no_such_program.py")), qPrintable(said));
 }
 
-void TestExperimentTeamPrograms::insideTheyAreRefused() {
+/// Conditions differ in who plays: one of ours inside, the team's program beside an inline robot.
+void TestExperimentTeamPrograms::theyPlayBesideInlineRobots() {
   const Rig rig(QStringLiteral("naive_robot.py"));
   std::string inside = rig.json();
-  const std::string separate = "\"processes\": \"separate\",";
-  inside.erase(inside.find(separate), separate.size());
+  const auto change = [&inside](const std::string& what, const std::string& by) {
+    inside.replace(inside.find(what), what.size(), by);
+  };
+  change("\"processes\": \"separate\",", "");
+  change("\"}],\n",
+         R"("}, {"team": "red", "number": 1, "x": 0.8, "y": 0, "behaviour": "naive"}],
+)");
+  change(
+      R"([{"name": "plays", "set": {}}, {"name": "stands", "set": {"writes[0].value": 1}}])",
+      R"([{"name": "plays", "set": {}}, {"name": "ours", "set": {"robots[B1].runtime": "reference"}}])");
+  inside.erase(inside.find("\"assertions\""));
+  inside.erase(inside.rfind(','));
+  inside += '}';
   const auto e = experimentFromJson(inside, "test.json");
-  QVERIFY(!e);
-  QVERIFY2(e.error().text().find("add \"processes\": \"separate\"") != std::string::npos,
-           e.error().text().c_str());
+  QVERIFY2(e.has_value(), e ? "" : e.error().text().c_str());
+  QVERIFY(e->conditions[0].teamPrograms);
+  QVERIFY(!e->conditions[1].teamPrograms);
+  auto player = RunPlayer::create(*e, settingsFor({}));
+  const auto both = player->play(1), ours = player->play(3);
+  QVERIFY2(both.has_value(), both ? "" : both.error().text().c_str());
+  QVERIFY2(ours.has_value(), ours ? "" : ours.error().text().c_str());
+  const auto metrics = metricsOf(*e);
+  const auto value = [&](const RunResult& result, const char* name) {
+    const auto found = std::ranges::find(metrics, name, &MetricInfo::name);
+    return result.values[static_cast<std::size_t>(found - metrics.begin())];
+  };
+  QVERIFY(value(*both, "walked_m_B1") > 0.05);  // the program
+  QVERIFY(value(*both, "walked_m_R1") > 0.05);  // inside
+  QVERIFY(!both->match.repeatable && ours->match.repeatable);
+  QVERIFY(value(*both, "times_real_time") > 0.0);
+  QVERIFY(std::isnan(value(*ours, "times_real_time")));
 }
 
 void TestExperimentTeamPrograms::referenceProcessesGiveTheSameFilesHoweverTheyWerePlayed() {

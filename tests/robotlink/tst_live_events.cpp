@@ -79,9 +79,27 @@ class TestLiveEvents : public QObject {
     QCOMPARE(told[0].time, 7.5);
     QCOMPARE(told[0].robot, red(3));
     QCOMPARE(told[0].name, std::string("R3"));
-    QCOMPARE(sentenceOf(told[0]), std::string("R3 is not heard any more"));
+    QCOMPARE(sentenceOf(told[0]), std::string("R3 went offline"));
     s.frame.robots[0].link->timedOut = false;
     QCOMPARE(kindsOf(s.at(8.0)), (Kinds{Kind::RobotBack}));
+  }
+
+  void aRobotThatLosesTheBallSaysSoOnce() {
+    Stage s;
+    s.robot(3).ball.emplace();
+    (void)s.at(1.0);
+    s.frame.robots[0].ball.reset();
+    QVERIFY(s.at(2.9).empty());
+    const auto lost = s.at(3.0);
+    QCOMPARE(kindsOf(lost), (Kinds{Kind::BallLost}));
+    QCOMPARE(sentenceOf(lost[0]), std::string("B3 lost the ball: not seen for 2 s"));
+    QVERIFY(s.at(9.0).empty());
+    s.frame.robots[0].ball.emplace();
+    QCOMPARE(kindsOf(s.at(9.1)), (Kinds{Kind::BallSeen}));
+    // One that is offline says nothing of the ball.
+    s.frame.robots[0].ball.reset();
+    s.frame.robots[0].link->timedOut = true;
+    QCOMPARE(kindsOf(s.at(20.0)), (Kinds{Kind::RobotOffline}));
   }
 
   void aRobotThatWasForgottenIsHeardAnew() {
@@ -255,7 +273,7 @@ class TestLiveEvents : public QObject {
     network.ports[1].problem.clear();
     told = events.comparePorts(network, 3.0);
     QCOMPARE(kindsOf(told), (Kinds{Kind::PortBack}));
-    QCOMPARE(sentenceOf(told[0]), std::string("port 1242 is received now"));
+    QCOMPARE(sentenceOf(told[0]), std::string("port 1242 is open now"));
   }
 
   void afterClearEverythingIsNewAgain() {

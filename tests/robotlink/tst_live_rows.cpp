@@ -3,8 +3,8 @@
 
 #include <QtTest>
 
-#include <base/actions.h>
 #include <robotlink/live/live_rows.h>
+#include <simcore/world/action_codes.h>
 #include <telemetry/series/derived_curve.h>
 #include <telemetry/series/series_store.h>
 
@@ -66,7 +66,7 @@ class TestLiveRows : public QObject {
     QCOMPARE(rig.latest("Robot 3", "VOLTAGE"), 124.0);
     const GroupInfo& info = view->info();
     QCOMPARE(info.columns[1].unit, std::string("cm"));
-    QCOMPARE(info.columns[1].category, std::string("Localization"));
+    QCOMPARE(info.columns[1].category, std::string("Belief"));
     QVERIFY(info.columns[7].kind == ColumnKind::Flag);
     QVERIFY(info.columns[12].kind == ColumnKind::Enumeration);
     QCOMPARE(info.columns[12].labels.at(8), pitchboard::actionWords(8));

@@ -187,10 +187,10 @@ class TestLiveTeams : public QObject {
       rows.take(datagram, monitor.decoded(), monitor.decoder(), monitor.used());
     };
     say(1.0);
-    options.team.teams[0].colour = TeamColor::Yellow;
+    options.team.teams[0].colour = "yellow";
     rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), {});
     say(2.0);
-    options.team.teams[0].colour = TeamColor::Blue;
+    options.team.teams[0].colour = "blue";
     rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), {});
     say(3.0);
     const auto count = [&store](const char* name) {

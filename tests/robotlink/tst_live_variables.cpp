@@ -13,6 +13,7 @@
 #include <telemetry/series/series_store.h>
 #include <telemetry/wire/text_protocol.h>
 
+#include "../support/guide_programs.h"
 #include "../support/segment_keys.h"
 #include "../support/test_socket.h"
 #include "../support/udp_relay.h"
@@ -83,7 +84,7 @@ class Studio {
   static LiveOptions optionsOfTest() {
     LiveOptions made = freeOptions(4);
     made.variablesPortBase = made.refereePort;
-    made.team.teams.emplace_back().colour = TeamColor::Blue;
+    made.team.teams.emplace_back().colour = "blue";
     return made;
   }
 
@@ -267,12 +268,48 @@ class TestLiveVariables : public QObject {
     QCOMPARE(watch.take().frame->robots.size(), std::size_t(22));
   }
 
+  // The programs that docs show for teams that send from their own code.
+  void teamsSendFromTheirOwnPrograms_data() {
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<QStringList>("command");
+    QTest::newRow("Python") << "pb2_robot.py"
+                            << QStringList{"python3",
+                                           PITCHBOARD_SOURCE_DIR "/tests/end_to_end/pb2_robot.py"};
+    QTest::newRow("C++") << "pb2_robot.cpp"
+                         << QStringList{QCoreApplication::applicationDirPath() + "/pb2_robot"};
+  }
+  void teamsSendFromTheirOwnPrograms() {
+    QFETCH(QString, file);
+    QFETCH(QStringList, command);
+    QCOMPARE(whyNotShown(file, 15), QString());
+    const Studio studio;
+    QProcess sender;
+    sender.start(command[0],
+                 command.mid(1) + QStringList{"3", "127.0.0.1", QString::number(studio.port(3))});
+    double volts = 0.0, yaw = 0.0;
+    QTRY_VERIFY_WITH_TIMEOUT(
+        studio.latest("B3", "VOLTAGE", volts) && studio.latest("B3", "IMU_EULER_Z", yaw), 30'000);
+    QCOMPARE(volts, 148.0);
+    QCOMPARE(yaw, 0.5);
+    const SentStatus sent = studio.sent();
+    QVERIFY(sent.variables == 2 && sent.unknown.empty());
+    QVERIFY(sent.link.lost == 0 && sent.link.duplicates == 0 && sent.restarts == 0);
+    // Both types are those of the published map.
+    const auto view = studio.store->view(*studio.store->findGroup("B3"));
+    for (const telemetry::ColumnInfo& column : view->info().columns) {
+      if (column.name == "VOLTAGE") QCOMPARE(column.type, telemetry::ColumnType::Int32);
+      if (column.name == "IMU_EULER_Z") QCOMPARE(column.type, telemetry::ColumnType::Float32);
+    }
+    sender.kill();
+    QVERIFY(sender.waitForFinished());
+  }
+
  private:
   int m_key = 0, m_number = 0;
 };
 
-}  // namespace tst_live_variables
+PITCHBOARD_TEST(TestLiveVariables)
 
-QTEST_GUILESS_MAIN(tst_live_variables::TestLiveVariables)
+}  // namespace tst_live_variables
 
 #include "tst_live_variables.moc"

@@ -2,8 +2,10 @@
 // Events as values: their table, how a simulated match makes them, and how files keep them.
 #include <QTemporaryDir>
 #include <QtTest>
+#include <cmath>
 #include <set>
 
+#include <robotlink/frame/ball_sight.h>
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/session/session_events.h>
@@ -85,7 +87,7 @@ class TestMatchEvents : public QObject {
   }
 
   void theDocumentNamesEveryKind() {
-    QFile file(QStringLiteral(PITCHBOARD_SOURCE_DIR "/docs/SESSIONS.md"));
+    QFile file(QStringLiteral(PITCHBOARD_SOURCE_DIR "/docs/sessions.md"));
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QString text = QString::fromUtf8(file.readAll());
     for (std::size_t i = 0; i < matchEventKindCount; ++i) {
@@ -108,6 +110,10 @@ class TestMatchEvents : public QObject {
       raw.insert(raw.end(), match.simulation().events().begin(), match.simulation().events().end());
       match.takeEvents(all);
     }
+    // What the robot sees is no event of the simulation.
+    std::erase_if(all, [](const MatchEvent& event) {
+      return event.kind == Kind::BallLost || event.kind == Kind::BallSeen;
+    });
     QCOMPARE(all.size(), raw.size() + 2);  // the beginning and the end
     QVERIFY(find(all, Kind::Kick));
     for (std::size_t i = 0; i < raw.size(); ++i) {
@@ -123,6 +129,54 @@ class TestMatchEvents : public QObject {
     QCOMPARE(all.back().detail, std::string("duration"));
     QCOMPARE(all.back().time, 60.0);
     QVERIFY(taken(match).empty());
+  }
+
+  void aBallThatIsOutOfSightForAMomentIsNotLost() {
+    BallSight sight;
+    QVERIFY(!sight.look(true, 0.0));
+    for (int i = 1; i <= 90; ++i) QVERIFY(!sight.look(i % 10 == 0, 0.1 * i));
+    QVERIFY(!sight.look(false, 10.9));
+    QVERIFY(sight.look(false, 11.0) == Kind::BallLost);
+    QVERIFY(!sight.look(false, 30.0));
+    QVERIFY(sight.look(true, 30.1) == Kind::BallSeen);
+    QVERIFY(!sight.look(false, 30.2));
+    BallSight blind;
+    for (int i = 0; i < 100; ++i) QVERIFY(!blind.look(false, 0.1 * i));
+    QVERIFY(blind.look(true, 10.0) == Kind::BallSeen);
+  }
+
+  void aRobotOfAMatchLosesTheBallAndSeesIt() {
+    auto match = SimulatedMatch::create(loadScenario("one-robot").value(), {}).value();
+    const sim::Simulation& world = match.simulation();
+    const auto play = [&match](int ticks) {
+      for (int i = 0; i < ticks; ++i) match.tick();
+      std::vector<MatchEvent> sight = taken(match);
+      std::erase_if(sight, [](const MatchEvent& event) {
+        return event.kind != Kind::BallLost && event.kind != Kind::BallSeen;
+      });
+      return sight;
+    };
+    const auto ahead = [&world] {
+      const Pose pose = world.snapshot().robots[0].pose;
+      return Point{pose.position.x + std::cos(pose.yaw), pose.position.y + std::sin(pose.yaw)};
+    };
+    QVERIFY(match.simulation().placeBall(ahead()));
+    QVERIFY(play(60).empty());
+    // Farther away than it can see.
+    const bool isLeft = world.snapshot().robots[0].pose.position.x < 0.0;
+    QVERIFY(match.simulation().placeBall({isLeft ? 4.0 : -4.0, 2.5}));
+    QVERIFY(play(60).empty());
+    const auto lost = play(120);
+    QCOMPARE(lost.size(), std::size_t{1});
+    QCOMPARE(sentenceOf(lost[0]), std::string("B1 lost the ball: not seen for 2 s"));
+    QVERIFY(lost[0].robot == blue(1) && lost[0].time >= 3.0 && lost[0].time < 3.5);
+    std::vector<MatchEvent> seen;
+    for (int tries = 0; tries < 20 && seen.empty(); ++tries) {
+      QVERIFY(match.simulation().placeBall(ahead()));
+      seen = play(30);
+    }
+    QCOMPARE(seen.size(), std::size_t{1});
+    QCOMPARE(seen[0].kind, Kind::BallSeen);
   }
 
   void aStoppedClockIsToldBetweenTicks() {

@@ -164,13 +164,14 @@ class TestMatchPackets : public QObject {
     const auto received = [&] {
       const auto bytes = telemetry::encodeReferee(refereePacket(world, 1)).value();
       const auto packet = telemetry::decodeReferee(std::string_view(bytes)).value();
-      return RefereeOrders().take(std::get<telemetry::RefereeState>(packet), 12,
-                                  world.game->teams[1].slotOf(shirt));
+      const auto order = RefereeOrders().take(std::get<telemetry::RefereeState>(packet), 12,
+                                              world.game->teams[1].slotOf(shirt));
+      return order ? order->word : -1;
     };
     const auto call = [&](const sim::RefereeCall& one) {
       QVERIFY(match.simulation().call(one));
       play(match, 0.6);
-      QCOMPARE(received().value_or(-1), word());
+      QCOMPARE(received(), word());
     };
     QCOMPARE(world.game->teams[1].number, 12);
     call({.kind = sim::CallKind::State, .state = sim::PlayState::Ready});

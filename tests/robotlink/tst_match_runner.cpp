@@ -4,8 +4,10 @@
 #include <QFile>
 #include <QTemporaryDir>
 #include <QtTest>
+#include <atomic>
 #include <thread>
 
+#include <robotlink/blackboard/system_v.h>
 #include <robotlink/match/match_runner.h>
 #include <robotlink/match/pacer.h>
 
@@ -116,6 +118,52 @@ class TestMatchRunner : public QObject {
     QTRY_COMPARE(runner->latest()->snapshot.ball, (Point{1, 1}));
   }
 
+  void newsAreToldOnceUntilSomebodyAsks() {
+    auto runner = start(builtIn("one-robot"), true);
+    QVERIFY(runner->waitUntilStill(10s));
+    (void)runner->latest();
+    std::atomic<int> told = 0;
+    runner->setNews([&told] { ++told; });
+    const auto change = [&] { runner->execute([](SimulatedMatch&) { return Changed::Yes; }); };
+    const std::uint64_t before = runner->latest()->serial;
+    change();
+    change();
+    QTRY_VERIFY(runner->latest()->serial > before);
+    QTRY_VERIFY(told >= 1);
+    runner->setNews({});
+    change();  // waits for a call that is under way
+    const int then = told;
+    change();
+    runner->stepOnce();
+    QVERIFY(runner->waitUntilStill(10s));
+    QCOMPARE(told, then);
+  }
+
+  // Its blackboards are shared: what others write to them is seen, and nothing else is told.
+  void aPausedMatchIsSilentUntilSomethingChanges() {
+    MatchOptions options;
+    options.systemV = true;
+    options.keyBase = testKeyBase();
+    auto runner = MatchRunner::start(builtIn("one-robot"), options, true).value();
+    QVERIFY(runner->waitUntilStill(10s));
+    QElapsedTimer rested;
+    rested.start();
+    std::uint64_t serial = 0;
+    const auto rests = [&] {
+      if (const auto frame = runner->latest(serial)) {
+        serial = frame->serial;
+        rested.start();
+      }
+      return rested.elapsed() > 700;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(rests(), 30'000);
+    Blackboard board =
+        SystemVSegments::open(*runner->latest()->robots.front().boardKey, AttachMode::AttachOnly)
+            .value();
+    board.write(VariableCatalog::published().intVar("DECISION_ACTION_A").value(), 3);
+    QTRY_COMPARE(runner->latest()->robots.front().decided.value_or(0), 3);
+  }
+
   void aFinishedMatchStandsStill() {
     Scenario scenario = builtIn("one-robot");
     scenario.stop.duration = 2.0;
@@ -203,8 +251,8 @@ class TestMatchRunner : public QObject {
   void standingStillCostsNothing() {
     auto runner = start(builtIn("match-3v3"), true);
     QVERIFY(runner->waitUntilStill(10s));
-    // Its thread sleeps in the kernel until somebody wakes it: a wait on a futex (argument 3 is the
-    // time limit) without a limit.
+    // Its thread sleeps in the kernel until somebody wakes it: a wait on descriptors (argument 2 is
+    // the time limit) without a limit.
     pid_t thread = 0;
     runner->read([&thread](const SimulatedMatch&) { thread = gettid(); });
     QFile call(QStringLiteral("/proc/self/task/%1/syscall").arg(thread));
@@ -212,7 +260,7 @@ class TestMatchRunner : public QObject {
     const auto waitsForEver = [&call] {
       call.seek(0);
       const QList<QByteArray> words = call.readAll().split(' ');
-      return words.size() > 4 && words[0] == QByteArray::number(SYS_futex) && words[4] == "0x0";
+      return words.size() > 4 && words[0] == QByteArray::number(SYS_ppoll) && words[3] == "0x0";
     };
     QTRY_VERIFY(waitsForEver());
   }

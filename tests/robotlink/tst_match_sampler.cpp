@@ -11,13 +11,13 @@
 #include <tuple>
 #include <vector>
 
-#include <base/actions.h>
 #include <base/angles.h>
 #include <resources/resources.h>
 #include <robotlink/blackboard/variable_meanings.h>
 #include <robotlink/live/board_columns.h>
 #include <robotlink/match/match_runner.h>
 #include <robotlink/session/match_sampler.h>
+#include <simcore/world/action_codes.h>
 #include <telemetry/series/series_store.h>
 
 namespace tst_match_sampler {
@@ -235,7 +235,12 @@ class TestMatchSampler : public QObject {
     QCOMPARE(rig.column("B1", "VISION_BALL_DIST").unit, std::string("cm"));
     QCOMPARE(rig.column("B1", "VISION_BALL_DIST").category, std::string("Vision"));
     QCOMPARE(rig.column("B1", "IMU_EULER_Z").unit, std::string("rad"));
-    QCOMPARE(rig.column("B1", "LOCALIZATION_RBT01_X").category, std::string("Localization"));
+    // The belief is one group, whoever wrote it.
+    for (const char* name : {"LOCALIZATION_X", "LOCALIZATION_Y", "LOCALIZATION_THETA",
+                             "LOCALIZATION_RBT01_X", "BELIEF_X", "BELIEF_YAW"}) {
+      QCOMPARE(rig.column("B1", name).category, std::string("Belief"));
+    }
+    QCOMPARE(rig.column("B1", "LOCALIZATION_RBT02_X").category, std::string("Localization"));
     QCOMPARE(rig.column("B1", "VOLTAGE").unit, std::string("0.1 V"));
     QVERIFY(rig.column("B1", "VISION_WORKING").kind == ColumnKind::Flag);
     QCOMPARE(rig.column("B1", "VISION_WORKING").category, std::string("Processes"));

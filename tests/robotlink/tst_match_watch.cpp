@@ -139,6 +139,26 @@ class TestMatchWatch : public QObject {
     QCOMPARE(game.watch.supportersClose(), 0.25);
   }
 
+  void whatNoRulesKnowIsCounted() {
+    using S = sim::PlayState;
+    Game game;
+    game.play(0.1);
+    const auto change = [&](S next) {
+      game.world.game->state = next;
+      game.play(0.1, {{sim::EventKind::PlayStateChanged, game.world.tick, RobotId{}, int(next)}});
+      return game.watch.illegalTransitions();
+    };
+    for (const S next : {S::Ready, S::Set, S::Playing, S::Finished, S::Initial, S::Ready}) {
+      QCOMPARE(change(next), 0);
+    }
+    QCOMPARE(change(S::Playing), 1);  // without SET
+    QCOMPARE(change(S::Finished), 1);
+    QCOMPARE(change(S::Set), 2);
+    game.world.game->phase = sim::GamePhase::ShootOut;
+    QCOMPARE(change(S::Finished), 2);
+    QCOMPARE(change(S::Set), 2);
+  }
+
   void removalsAreCountedByCause() {
     Game game;
     const auto remove = [&](sim::PenaltyKind kind) {

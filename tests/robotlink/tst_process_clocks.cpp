@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The clocks and waits of real programs follow the match, and who cannot follow is named.
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <QTemporaryDir>
 #include <QtTest>
 #include <ctime>
@@ -230,7 +233,7 @@ class TestProcessClocks : public QObject {
     QTest::newRow("x1") << 4 << Speeds{{1.0, on}} << true;
     QTest::newRow("x8") << 16 << Speeds{{8.0, on}} << true;
     QTest::newRow("a change of speed") << 8 << Speeds{{8.0, 0.3}, {1.0, 1.0}, {4.0, on}} << true;
-    // Not in the moment in which an interval ends (docs/ROBOTS.md, Time).
+    // Not in the moment in which an interval ends (docs/robot-programs.md, Time).
     QTest::newRow("a pause of 5 s") << 8 << Speeds{{4.0, 0.85}, {0.0, 5.0}, {2.0, on}} << true;
     QTest::newRow("real time, without the studio's clock") << 4 << Speeds{{1.0, on}} << false;
   }
@@ -305,6 +308,38 @@ class TestProcessClocks : public QObject {
     }
   }
 
+  // Expirations that a program has not read yet outlast a pause and a change of speed.
+  void aTimersExpirationsAreAllCounted() {
+    ManagedProcess process = python({"-u", "-c", R"(import ctypes, os, time
+libc = ctypes.CDLL(None)
+timer = libc.timerfd_create(1, 0)
+begin = time.monotonic()
+libc.timerfd_settime(timer, 0, ctypes.byref((ctypes.c_long * 4)(1, 0, 1, 0)), None)
+print("armed")
+for seconds in (5.5, 0.1, 2.5):
+    time.sleep(seconds)
+    count = int.from_bytes(os.read(timer, 8), "little")
+    print(count, int(time.monotonic() - begin))
+)"});
+    m_manager->setTime(0.0, 2.0, SteadyClock::now());
+    const int id = add(process);
+    QTRY_VERIFY((look(), !m_lines.empty()));
+    QTest::qWait(1200);
+    m_manager->setPaused(true, SteadyClock::now());
+    QTest::qWait(700);
+    m_manager->setPaused(false, SteadyClock::now());
+    QTRY_VERIFY((look(), status(id).state == ProcessState::Ended));
+    look();
+    QCOMPARE(m_lines.size(), std::size_t{4});
+    int all = 0;
+    for (std::size_t i = 1; i < m_lines.size(); ++i) {
+      int count = 0, passed = 0;
+      QCOMPARE(std::sscanf(m_lines[i].c_str(), "%d %d", &count, &passed), 2);
+      all += count;
+      QCOMPARE(all, passed);
+    }
+  }
+
   // A match that is slower than it was asked to be takes the program's clock with it.
   void theClockIsSteeredToTheMatch() {
     const auto clock = ProgramClock::create();
@@ -340,6 +375,25 @@ class TestProcessClocks : public QObject {
     QCOMPARE(m_realTime.front().detail, std::string(whyRealTime(ProcessClock::RealNotLoaded)));
     QCOMPARE(status(id).clock, ProcessClock::RealNotLoaded);
     QCOMPARE(status(id).achieved, 1.0);
+  }
+
+  // The dynamic linker loads nothing of ours into a program that runs with other rights.
+  void aSetuidProgramIsNamedWithTheReason() {
+    if (::geteuid() != 0) QSKIP("only root can make a program of another user");
+    const QTemporaryDir dir;
+    const QByteArray program = dir.filePath("sleep").toUtf8();
+    QVERIFY(QFile::copy("/bin/sleep", QString::fromUtf8(program)));
+    constexpr uid_t nobody = 65534;
+    QVERIFY(::chmod(qPrintable(dir.path()), 0755) == 0);
+    QVERIFY(::chown(program.constData(), nobody, nobody) == 0);
+    QVERIFY(::chmod(program.constData(), 04755) == 0);
+    ManagedProcess process = python({});
+    process.spec.command = {program.toStdString(), "600"};
+    m_manager->setTime(0.0, 8.0, SteadyClock::now());
+    const int id = add(process);
+    QTRY_VERIFY((look(), !m_realTime.empty()));
+    QCOMPARE(m_realTime.front().detail, std::string(whyRealTime(ProcessClock::RealNotLoaded)));
+    QCOMPARE(status(id).clock, ProcessClock::RealNotLoaded);
   }
 };
 

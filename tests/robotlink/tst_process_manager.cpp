@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The manager with real processes: those that die, hang, fork, flood, refuse to end.
+#include <poll.h>
 #include <unistd.h>
 #include <QProcess>
 #include <QTemporaryDir>
@@ -95,6 +96,25 @@ class TestProcessManager : public QObject {
     QCOMPARE(died->lastWords, std::string("ouch"));
     QCOMPARE(died->restartIn, 0.02);
     QVERIFY(status(id).restarts >= 1);
+  }
+
+  // Who waits for it need not ask.
+  void itSaysWhenAProcessHasSomethingToTell() {
+    const auto tells = [this] {
+      pollfd waited{m_manager->descriptor(), POLLIN, 0};
+      return ::poll(&waited, 1, 0) == 1;
+    };
+    const int id =
+        add(shell("echo here; read nothing < /dev/null; exec sleep 1000", RestartPolicy::Never));
+    QTRY_VERIFY(tells());
+    QTRY_VERIFY(wrote("here"));
+    look();
+    QVERIFY(!tells());
+    m_manager->kill(id);
+    QTRY_VERIFY(tells());
+    QTRY_COMPARE(count(Kind::Died), 1);
+    look();
+    QVERIFY(!tells());
   }
 
   void restartPolicies_data() {

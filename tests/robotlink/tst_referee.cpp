@@ -226,7 +226,7 @@ class TestReferee : public QObject {
   }
 
   void theTableOfTransitions() {
-    // REFEREE.md section 1: everything else is refused and changes nothing.
+    // Everything else is refused and changes nothing.
     const auto reach = [](Game& g, PlayState state) {
       if (state == PlayState::Initial) return;
       QVERIFY(g.state(PlayState::Ready));
@@ -585,6 +585,103 @@ class TestReferee : public QObject {
     game.runTo(31);
     QCOMPARE(nearest.penalty, sim::PenaltyKind::None);
     QCOMPARE(other.penalty, sim::PenaltyKind::LocalStuck);
+  }
+
+  // At the whistle, in the other half: removed, but not while it comes back from a penalty.
+  void whoComesBackMayStandAnywhere() {
+    for (const bool comesBack : {false, true}) {
+      Game game("humanoid-2014", true);
+      sim::GameStart start;
+      start.state = PlayState::Ready;
+      if (comesBack) {
+        start.robots[RobotId{2}] = {
+            .penalty = sim::PenaltyKind::Pushing, .left = 20.0, .outside = true};
+      }
+      QVERIFY(game.simulation->placeRobot(RobotId{2}, {{1.5, 2.0}, 0.0}));
+      QVERIFY(game.simulation->startGame(start));
+      game.runTo(31);
+      QCOMPARE(game.game().state, PlayState::Set);
+      QCOMPARE(game.game().teams[0].players[1].penalty, sim::PenaltyKind::None);
+      game.runTo(36);
+      QCOMPARE(game.game().state, PlayState::Playing);
+      QCOMPARE(game.game().teams[0].players[1].penalty,
+               comesBack ? sim::PenaltyKind::None : sim::PenaltyKind::IllegalPosition);
+    }
+  }
+
+  void aBallIsStuckWhileRobotsAreAtIt() {
+    Game game("humanoid-soccer-2026", true);
+    sim::GameStart start;
+    start.state = PlayState::Playing;
+    start.clock = 300;
+    QVERIFY(game.simulation->placeBall({-1, 0}));
+    QVERIFY(game.simulation->placeRobot(RobotId{3}, {{-1, -0.9}, 0}));  // cares for it from afar
+    QVERIFY(game.simulation->startGame(start));
+    const sim::GamePlayer& nearest = game.game().teams[0].players[1];
+    game.runTo(15);
+    QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-1, 0.4}, 0}));
+    game.runTo(24.8);  // ten seconds begin when somebody comes
+    QCOMPARE(nearest.penalty, sim::PenaltyKind::None);
+    game.runTo(25.2);
+    QCOMPARE(nearest.penalty, sim::PenaltyKind::LocalStuck);
+  }
+
+  void pushing_data() {
+    QTest::addColumn<QString>("rules");
+    QTest::addColumn<int>("action");
+    QTest::addColumn<double>("fromBall");
+    QTest::addColumn<double>("seconds");  // until it is called; 0: never
+    QTest::addColumn<bool>("removed");
+    QTest::addColumn<SetPlay>("kick");
+    constexpr int walks = 1, turns = 2, kicks = 4, sidlesOff = 6;
+    constexpr double away = 1.0, near = 0.4;
+    const auto row = [](const char* name, const char* rules, int action, double from,
+                        double seconds, bool removed, SetPlay kick) {
+      QTest::newRow(name) << rules << action << from << seconds << removed << kick;
+    };
+    row("2021", "humanoid-2021", walks, away, 1, true, SetPlay::None);
+    row("2021, at the ball", "humanoid-2021", walks, near, 1, false, SetPlay::DirectFreeKick);
+    row("2014", "humanoid-2014", walks, away, 4, true, SetPlay::None);
+    row("2014, at the ball", "humanoid-2014", walks, near, 4, true, SetPlay::None);
+    row("2026", "humanoid-soccer-2026", walks, away, 5, true, SetPlay::None);
+    row("2026, at the ball", "humanoid-soccer-2026", walks, near, 5, false,
+        SetPlay::DirectFreeKick);
+    row("turns", "humanoid-2021", turns, away, 0, false, SetPlay::None);
+    row("kicks", "humanoid-2021", kicks, away, 0, false, SetPlay::None);
+    row("sidles off", "humanoid-2021", sidlesOff, away, 0, false, SetPlay::None);
+  }
+  void pushing() {
+    QFETCH(QString, rules);
+    QFETCH(int, action);
+    QFETCH(double, fromBall);
+    QFETCH(double, seconds);
+    QFETCH(bool, removed);
+    QFETCH(SetPlay, kick);
+    Game game(rules.toLatin1().constData(), true);
+    sim::GameStart start;
+    start.state = PlayState::Playing;
+    start.clock = 300;
+    QVERIFY(game.simulation->startGame(start));
+    const sim::GamePlayer& one = game.game().teams[0].players[1];
+    // Blue 2 walks right into red 2 (robot 5), which stands between it and the ball.
+    const double x = 0.0;
+    const double touching = 2.0 * sim::robotRadius(game.simulation->state(), 0) + 0.005;
+    game.commands[1].actionA = action;
+    const auto isCalled = [&] {
+      return one.penalty != sim::PenaltyKind::None || !game.game().ballFree();
+    };
+    double called = 0.0;
+    while (game.now() < 8.0 && called == 0.0) {
+      QVERIFY(game.simulation->placeRobot(RobotId{2}, {{x, 0.0}, 0.0}));
+      QVERIFY(game.simulation->placeRobot(RobotId{5}, {{x + touching, 0.0}, 3.14159}));
+      QVERIFY(game.simulation->placeBall({x + touching + fromBall, 0.0}));
+      game.tick();
+      if (isCalled()) called = game.now();
+    }
+    QVERIFY2(std::abs(called - seconds) < 0.6, qPrintable(QString::number(called)));
+    QCOMPARE(one.penalty == sim::PenaltyKind::Pushing, removed);
+    QCOMPARE(game.game().restart.kind, kick);
+    if (kick != SetPlay::None) QCOMPARE(game.game().restart.team, 1);
   }
 
   void readyEndsWhenAllStand() {

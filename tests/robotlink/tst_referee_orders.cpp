@@ -19,7 +19,8 @@ telemetry::RefereeState recorded(const char* name) {
 
 /// Of a robot that has just been started.
 std::optional<int> wordOf(const telemetry::RefereeState& state, int team, int player) {
-  return link::RefereeOrders().take(state, team, player);
+  const auto order = link::RefereeOrders().take(state, team, player);
+  return order ? std::optional(order->word) : std::nullopt;
 }
 
 /// A packet of the Humanoid League, 688 bytes, of teams 1 and 2.
@@ -95,7 +96,7 @@ class TestRefereeOrders : public QObject {
 
   void anotherTeamsMatchSaysNothing() { QVERIFY(!wordOf(recorded("v11hl592_PLAYING"), 97, 1)); }
 
-  // REFEREE.md section 8: team 1 has had the kick-off, team 2 takes a throw-in.
+  // Team 1 has had the kick-off, team 2 takes a throw-in.
   void aSetPlayIsItsTakersUntilTheBallIsFree() {
     constexpr int throwIn = 9, overtime = 2;
     for (const int phase : {0, overtime}) {
@@ -115,8 +116,15 @@ class TestRefereeOrders : public QObject {
           {humanoid(3, 1, phase, 10), link::refereeSet, link::refereePlay}};
       link::RefereeOrders takers, others;
       for (const Step& step : steps) {
-        QCOMPARE(takers.take(step.packet, 2, 1).value_or(-1), step.takers);
-        QCOMPARE(others.take(step.packet, 1, 1).value_or(-1), step.others);
+        const auto take = takers.take(step.packet, 2, 1), wait = others.take(step.packet, 1, 1);
+        QVERIFY(take && wait);
+        QCOMPARE(take->word, step.takers);
+        QCOMPARE(wait->word, step.others);
+        const bool given = step.packet.secState == throwIn;
+        QCOMPARE(take->setPlay, given ? sim::SetPlay::ThrowIn : sim::SetPlay::None);
+        QCOMPARE(wait->setPlay, take->setPlay);
+        QCOMPARE(take->setPlayIsOurs, given);
+        QVERIFY(!wait->setPlayIsOurs);
       }
     }
   }

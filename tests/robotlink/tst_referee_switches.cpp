@@ -50,11 +50,16 @@ bool penalise(Game& game, int robot) {
 void pushes(Game& game, double toBall) {
   game.runTo(80);
   const double radius = sim::robotRadius(game.simulation->state(), 0);
-  QVERIFY(game.simulation->placeRobot(RobotId{5}, {{0.5, 1.0}, 0.0}));
-  QVERIFY(game.simulation->placeRobot(RobotId{2}, {{0.5 - 2 * radius - 0.005, 1.0}, 0.0}));
-  QVERIFY(game.simulation->placeBall({0.5 + toBall, 1.0}));
-  game.commands[1].actionA = 11;  // the gait, which goes nowhere
-  game.runTo(83);
+  game.commands[1].actionA = 1;
+  while (game.now() < 83.0 && game.game().ballFree() &&
+         game.game().teams[0].players[1].penalty == sim::PenaltyKind::None) {
+    // Where the one does not give way.
+    QVERIFY(game.simulation->placeRobot(RobotId{5}, {{0.5, 1.0}, 0.0}));
+    QVERIFY(game.simulation->placeRobot(RobotId{2}, {{0.5 - 2 * radius - 0.005, 1.0}, 0.0}));
+    QVERIFY(game.simulation->placeBall({0.5 + toBall, 1.0}));
+    game.tick();
+  }
+  game.commands[1].actionA = 0;
 }
 
 void rollsOut(Game& game, int robot, const Point& from, const Velocity& velocity) {

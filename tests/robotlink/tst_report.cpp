@@ -64,6 +64,43 @@ class TestReport : public QObject {
     QCOMPARE(*m_statistics.teams[1].score, m_end.score.right);
   }
 
+  void teamsAreNamedWithTheirGoalsByHalf() {
+    const Scenario scenario =
+        scenarioFromJson(R"({"version": 1, "noise": "none", "field": "kid-2020",
+          "referee": {"rules": "humanoid-2021", "half_time": 5, "break_time": 1, "before_match": 1},
+          "teams": [{"colour": "blue", "number": 12, "name": "RoboFEI"}],
+          "score": {"left": 0, "right": 4}, "ball": {"x": 0, "y": 0},
+          "robots": [{"team": "blue", "number": 1, "x": -3, "y": 2, "behaviour": "none"},
+                     {"team": "red", "number": 1, "x": 3, "y": 2, "behaviour": "none"}]})",
+                         "test")
+            .value();
+    auto match = SimulatedMatch::create(scenario, {}).value();
+    telemetry::SeriesStore store;
+    MatchSampler sampler(std::shared_ptr<telemetry::RowSink>(std::shared_ptr<void>(), &store));
+    while (!match.finished()) {
+      match.tick();
+      sampler.ticked(match, {});
+    }
+    const double end = match.simulation().snapshot().time;
+    ReportContent content;
+    content.statistics = statisticsOf(store, {0.0, end});
+    const auto& teams = content.statistics.teams;
+    QCOMPARE(teams.size(), std::size_t{2});
+    const MatchResult result = match.result();
+    for (std::size_t i = 0; i < teams.size(); ++i) {
+      QCOMPARE(teams[i].team, result.teams[i].colour);
+      QCOMPARE(teams[i].name, result.teams[i].name);
+      QCOMPARE(teams[i].number, result.teams[i].number);
+      QCOMPARE(teams[i].score, std::optional(result.teams[i].score));
+      QCOMPARE(teams[i].byHalf, result.teams[i].byHalf);
+    }
+    QCOMPARE(teams[0].name, std::string("RoboFEI"));
+    QCOMPARE(teams[1].byHalf, (std::vector<int>{4, 0}));
+    const std::string page = reportHtml(content);
+    QVERIFY(page.find("blue, team 12 · by half 0 + 0") != std::string::npos);
+    QVERIFY(page.find("· by half 4 + 0") != std::string::npos);
+  }
+
   void beliefErrorsAreQuantiles() {
     const auto& robot = m_statistics.robots.front();
     const auto series = m_store.find(robot.name, "BELIEF_ERROR");
@@ -175,7 +212,7 @@ class TestReport : public QObject {
          {"0:05.0", "B1 localization died: signal 11 (Segmentation fault)",
           "its last words: &lt;oh&gt;", "0:05.5", "B1 localization started again", "0:20.0",
           "B1 localization stopped responding: no cycle done for 5 s", "0:40.0",
-          "B1 localization is not started any more"}) {
+          "B1 localization is no longer restarted"}) {
       const auto at = rest.indexOf(told);
       QVERIFY2(at >= 0, qPrintable(QString(told) + " not after the one before in " + rest));
       rest = rest.mid(at);

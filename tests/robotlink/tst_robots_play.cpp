@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The reference robots in the simulated match, in lock-step: localization in closed loop, and
-// soccer. A fast part of what the experiment soccer-4v4 measures (docs/PERFORMANCE.md).
+// soccer. A fast part of what the experiment soccer-4v4 measures (docs/performance.md).
 #include <QtTest>
 
 #include <numbers>

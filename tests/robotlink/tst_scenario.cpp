@@ -372,7 +372,7 @@ class TestScenario : public QObject {
   }
 
   void everyKeyIsDocumented() {
-    QFile file(QString(PITCHBOARD_SOURCE_DIR) + "/docs/SCENARIOS.md");
+    QFile file(QString(PITCHBOARD_SOURCE_DIR) + "/docs/scenarios.md");
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QByteArray text = file.readAll();
     Scenario all;  // every key differs from its default, so that the writer names it

@@ -31,7 +31,7 @@ constexpr const char* message = " 450 300 0 9.5 80 10 1 1 1 1 1 8 0.1 189 OUT";
 
 LiveOptions blueTeam() {
   LiveOptions options;
-  options.team.teams.emplace_back().colour = TeamColor::Blue;
+  options.team.teams.emplace_back().colour = "blue";
   return options;
 }
 
@@ -597,8 +597,8 @@ class TestSentBoards : public QObject {
   }
 };
 
-}  // namespace tst_sent_boards
+PITCHBOARD_TEST(TestSentBoards)
 
-QTEST_GUILESS_MAIN(tst_sent_boards::TestSentBoards)
+}  // namespace tst_sent_boards
 
 #include "tst_sent_boards.moc"

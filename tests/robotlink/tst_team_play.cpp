@@ -7,12 +7,14 @@
 #include <random>
 
 #include <robotlink/cognition/process_registry.h>
+#include <robotlink/cognition/soccer_player.h>
 #include <robotlink/models/robot_models.h>
 #include <simcore/world/published_frame.h>
 
 #include "planning/target.h"
 #include "soccer/kick_choice.h"
 #include "soccer/roles.h"
+#include "soccer/soccer_board.h"
 
 namespace tst_team_play {
 
@@ -75,7 +77,10 @@ struct Robot {
                     static_cast<float>((pose.yaw - direction(pose.position, *seen)) * 180 / pi));
       }
       now += 0.1;
-      world.update(board, {now});
+      SoccerInput input;
+      soccer.read(board, world, input);
+      world.update(input, now);
+      soccer.lookFor(board, world.looksForOpponents());
     }
   }
   WorldModel model() {
@@ -95,12 +100,14 @@ struct Robot {
       now += 0.1;
       decision->step(board, {now});
     }
-    return static_cast<Intention>(board.read(team.intention));
+    return told();
   }
+  Intention told() const { return static_cast<Intention>(board.read(team.intention)); }
 
   Blackboard board = Blackboard::onHeap();
   RobotVariables variables{VariableCatalog::extended()};
   TeamVariables team;
+  SoccerBoard soccer;
   Pose pose;
   std::optional<Point> seen;
   double now = 0.0;
@@ -338,6 +345,46 @@ class TestTeamPlay : public QObject {
     // Of two places either.
     QVERIFY(std::abs(target->pose.position.x - place.x) < 0.02);
     QVERIFY(std::abs(std::abs(target->pose.position.y) - place.y) < 0.02);
+  }
+
+  /// A SoccerPlayer decides as the processes decision and planning do from the same blackboard.
+  void playersWithoutABlackboardDecideAlike() {
+    const Pose poses[] = {{{-1, 0.3}, 0.2}, {{1.5, -1}, 2.5}, {{-4, 0.5}, -0.4}, {{0.5, 0}, 0.1}};
+    const Point balls[] = {{0.8, 0}, {-2.5, 0.7}};
+    for (const char* behaviour : {"striker", "supporter", "keeper"}) {
+      for (const Pose& pose : poses) {
+        for (const Point& ball : balls) {
+          Robot robot;
+          robot.stand(pose);
+          robot.see(ball);
+          robot.mate(0, {-1, 2}, Intention::Support);
+          ProcessOptions options;
+          options.behaviour = behaviour;
+          options.facesLeft = false;
+          options.field = kidField();
+          options.model = loadRobotModel("kid-size").value();
+          const auto decision = findProcess("decision")->make(options).value();
+          const auto planning = findProcess("planning")->make(options).value();
+          auto player =
+              SoccerPlayer::create({options.field, options.model, {behaviour, {}}, false}).value();
+          WorldModel world(kidField(), options.model, {}, false);
+          for (int cycle = 0; cycle < 30; ++cycle) {
+            robot.now += SoccerPlayer::period;
+            SoccerInput input;
+            robot.soccer.read(robot.board, world, input);
+            world.update(input, robot.now);
+            const PlayerDecision decided = player.step(input, robot.now);
+            decision->step(robot.board, {robot.now});
+            planning->step(robot.board, {robot.now});
+            QCOMPARE(decided.act.action, robot.board.read(robot.variables.decisionActionA));
+            QCOMPARE(decided.intention, robot.told());
+            QCOMPARE(decided.looksForOpponents,
+                     robot.board.read(robot.variables.decisionActionVision) == 2);
+            robot.board.write(robot.variables.controlAction, decided.act.action);
+          }
+        }
+      }
+    }
   }
 };
 

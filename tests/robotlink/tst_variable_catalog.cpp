@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QFile>
+#include <QRegularExpression>
 #include <QtTest>
 #include <random>
 
 #include <robotlink/blackboard/variable_catalog.h>
+#include <robotlink/blackboard/variable_meanings.h>
+#include <simcore/world/action_codes.h>
 
 namespace tst_variable_catalog {
 
@@ -32,6 +35,94 @@ QString summary(const VariableCatalog& catalog) {
                  .arg(v.index)
                  .arg(QString::fromStdString(v.name));
   return items.join(", ");
+}
+
+// "VISION_OPP01_DIST" as text and number: {"VISION_OPP#_DIST", 1}; number -1 if there is none.
+std::pair<QString, int> numberedName(const QString& name) {
+  static const QRegularExpression number(QStringLiteral("\\d+"));
+  const auto found = number.match(name);
+  if (!found.hasMatch()) return {name, -1};
+  return {QString(name).replace(found.capturedStart(), found.capturedLength(), "#"),
+          found.captured().toInt()};
+}
+
+QString unitOrCodes(const telemetry::ColumnInfo& column) {
+  if (column.kind == telemetry::ColumnKind::Flag) return "0 or 1";
+  if (column.labels == actionLabels()) return "[actions](#actions)";
+  QStringList codes;
+  for (const auto& [code, text] : column.labels)
+    codes << QString("%1 %2").arg(code).arg(QString::fromStdString(text));
+  return codes.isEmpty() ? QString::fromStdString(column.unit) : codes.join(", ");
+}
+
+// A row for each variable; those that are numbered through share one.
+QString variablesTable(const VariableCatalog& catalog) {
+  const VariableMeanings& meanings = VariableMeanings::published();
+  struct Row {
+    QString first, last, type, unit, text;
+    int from, to, step;
+  };
+  std::vector<Row> rows;
+  for (const Variable& v : catalog.variables()) {
+    telemetry::ColumnInfo column;
+    column.name = v.name;
+    meanings.describe(column);
+    const QString name = QString::fromStdString(v.name), unit = unitOrCodes(column);
+    const std::string_view said = meanings.description(v.name);
+    const QString text = QString::fromUtf8(said.data(), qsizetype(said.size()));
+    const QString type = v.type == VariableType::Int ? "int" : "float";
+    const auto [skeleton, number] = numberedName(name);
+    const auto series = std::ranges::find_if(rows, [&](const Row& row) {
+      const auto [otherSkeleton, otherNumber] = numberedName(row.last);
+      return number > 0 && row.type == type && otherSkeleton == skeleton &&
+             otherNumber + 1 == number && row.unit == unit && row.text == text &&
+             (row.step == 0 || row.to + row.step == v.index);
+    });
+    if (series == rows.end()) {
+      rows.push_back({name, name, type, unit, text, v.index, v.index, 0});
+    } else {
+      series->step = v.index - series->to;
+      series->last = name;
+      series->to = v.index;
+    }
+  }
+  QString table = "| variable | type | index | unit or codes | meaning |\n|---|---|---|---|---|\n";
+  for (const Row& row : rows) {
+    QString names = "`" + row.first + "`", places = QString::number(row.from);
+    if (row.first != row.last) {
+      names += " to `" + row.last + "`";
+      places += QString(" to %1").arg(row.to);
+      if (row.step > 1) places += QString(", every %1").arg(row.step == 2 ? "2nd" : "other");
+    }
+    table +=
+        QString("| %1 | %2 | %3 | %4 | %5 |\n").arg(names, row.type, places, row.unit, row.text);
+  }
+  return table;
+}
+
+QString extensionTable() {
+  const VariableCatalog& extended = VariableCatalog::extended();
+  QStringList ints, floats;
+  for (const Variable& v : extended.variables()) {
+    if (VariableCatalog::published().find(v.name)) continue;
+    (v.type == VariableType::Int ? ints : floats)
+        << QString("\"%1\": %2").arg(QString::fromStdString(v.name)).arg(v.index);
+  }
+  const auto only = VariableCatalog::fromJson(QString("{\"int\": {%1}, \"float\": {%2}}")
+                                                  .arg(ints.join(", "), floats.join(", "))
+                                                  .toStdString(),
+                                              "extension");
+  return only ? variablesTable(*only) : QString();
+}
+
+QString actionsTable() {
+  QString text = "| code | action |\n|---|---|\n";
+  for (const ActionInfo& action : knownActions) {
+    text += QString("| %1 | %2 |\n")
+                .arg(action.code)
+                .arg(QString::fromUtf8(action.words.data(), qsizetype(action.words.size())));
+  }
+  return text;
 }
 
 }  // namespace
@@ -167,6 +258,37 @@ class TestVariableCatalog : public QObject {
     QVERIFY(!catalog);
     const QString message = QString::fromStdString(catalog.error().text());
     QVERIFY2(message.startsWith(start) && message.contains(contains), qPrintable(message));
+  }
+
+  void everyVariableIsDescribed() {
+    for (const Variable& v : VariableCatalog::extended().variables())
+      QVERIFY2(!VariableMeanings::published().description(v.name).empty(), v.name.c_str());
+  }
+
+  // PITCHBOARD_WRITE_DOCS=1 puts the tables into the document instead.
+  void theDocumentHasEveryVariableAndCode() {
+    QFile file(QStringLiteral(PITCHBOARD_SOURCE_DIR "/docs/blackboard.md"));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QString text = QString::fromUtf8(file.readAll());
+    file.close();
+    QString right = text;
+    for (const auto& [name, table] :
+         {std::pair<QString, QString>{"variables", variablesTable(VariableCatalog::published())},
+          {"extension", extensionTable()},
+          {"actions", actionsTable()}}) {
+      const QString mark = "<!-- " + name + " -->\n";
+      const auto begin = right.indexOf(mark);
+      QVERIFY2(begin >= 0, qPrintable(name));
+      const auto end = right.indexOf("<!-- end -->", begin);
+      QVERIFY2(end >= 0, qPrintable(name));
+      right.replace(begin, end - begin, mark + table);
+    }
+    if (qEnvironmentVariableIsSet("PITCHBOARD_WRITE_DOCS")) {
+      QVERIFY(file.open(QIODevice::WriteOnly));
+      file.write(right.toUtf8());
+      return;
+    }
+    QVERIFY2(text == right, "run PITCHBOARD_WRITE_DOCS=1 tst_variable_catalog");
   }
 
   void mutatedFilesNeverCrash() {

@@ -132,7 +132,7 @@ class TestParameters : public QObject {
 
   // PITCHBOARD_WRITE_DOCS=1 puts the tables into the document instead.
   void theDocumentHasTheTables() {
-    QFile file(QString(PITCHBOARD_SOURCE_DIR) + "/docs/SCENARIOS.md");
+    QFile file(QString(PITCHBOARD_SOURCE_DIR) + "/docs/scenarios.md");
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QString text = QString::fromUtf8(file.readAll());
     file.close();

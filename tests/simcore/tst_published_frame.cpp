@@ -17,7 +17,7 @@ class TestPublishedFrame : public QObject {
   Q_OBJECT
  private slots:
   void placesWorkedOutByHand_data() {
-    // Window cm and degrees, y down (SYSTEM.md section 4), beside the studio's metres, y up.
+    // Window cm and degrees, y down (system.md section 4), beside the studio's metres, y up.
     QTest::addColumn<double>("windowX");
     QTest::addColumn<double>("windowY");
     QTest::addColumn<double>("windowDegrees");
@@ -55,7 +55,7 @@ class TestPublishedFrame : public QObject {
   }
 
   void speedsOfThePublishedTable_data() {
-    // SYSTEM.md section 3, turned into m/s and degrees per second at 60 frames/s by hand.
+    // system.md section 3, turned into m/s and degrees per second at 60 frames/s by hand.
     QTest::addColumn<int>("code");
     QTest::addColumn<double>("forward");
     QTest::addColumn<double>("left");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of a referee's rules names every number and switch once, and docs/REFEREE.md shows it.
+// The table of a referee's rules names every number and switch once, and docs/referee.md shows it.
 #include <QFile>
 #include <QtTest>
 
@@ -82,7 +82,7 @@ class TestRefereeParameters : public QObject {
 
   // PITCHBOARD_WRITE_DOCS=1 puts the tables into the document instead.
   void theDocumentHasTheTables() {
-    QFile file(QString(PITCHBOARD_SOURCE_DIR) + "/docs/REFEREE.md");
+    QFile file(QString(PITCHBOARD_SOURCE_DIR) + "/docs/referee.md");
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QString text = QString::fromUtf8(file.readAll());
     file.close();

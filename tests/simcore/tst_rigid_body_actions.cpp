@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QtTest>
 
+#include <simcore/world/action_codes.h>
+
 #include "rigid_body_rig.h"
 
 namespace tst_rigid_body_actions {
@@ -12,7 +14,7 @@ class TestRigidBodyActions : public QObject {
 
  private slots:
   void steadySpeed_data() {
-    // SYSTEM.md section 3 by hand: 0.30 cm per frame · 60 frames/s = 0.18 m/s; 0.30° · 60 = 18°/s.
+    // system.md section 3 by hand: 0.30 cm per frame · 60 frames/s = 0.18 m/s; 0.30° · 60 = 18°/s.
     QTest::addColumn<int>("action");
     QTest::addColumn<int>("b");
     QTest::addColumn<double>("forward");
@@ -225,6 +227,13 @@ class TestRigidBodyActions : public QObject {
     QVERIFY(!snapshot.robots[0].fallen);
     (void)r.simulation.placeHead({1}, 1.0 + pi);  // beyond the limit of the neck
     QVERIFY(std::abs(std::abs(r.robot().headYaw) - 135 * degree) < 1e-9);
+  }
+
+  void actionsHaveWords() {
+    QCOMPARE(actionWords(0), std::string("stop"));
+    QCOMPARE(actionWords(22), std::string("kick left, weak"));
+    QCOMPARE(actionWords(23), std::string("action 23"));
+    QCOMPARE(actionWords(-1), std::string("action -1"));
   }
 };
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QtTest>
 
+#include <simcore/world/field.h>
+#include <simcore/world/parameters.h>
+
 #include "rigid_body_rig.h"
 
 namespace tst_rigid_body_ball {
@@ -73,6 +76,25 @@ class TestRigidBodyBall : public QObject {
     QVERIFY2(std::abs(r.ball().position.x + 4 - told) < 0.01,
              qPrintable(QString("%1 for %2").arg(r.ball().position.x + 4).arg(told)));
     QCOMPARE(rollingDistance(settings.field.surface, 0.0), 0.0);
+  }
+
+  // The surface is the field's alone: noise changes what robots see and do, not how a ball rolls.
+  void noiseDoesNotChangeTheRoll() {
+    const auto rollsTo = [](const NoiseParameters& noise) {
+      SimulationSettings settings;
+      settings.field = fieldByName("kid-2020").value();
+      settings.noise = noise;
+      Rig r(settings);
+      r.add({{-4, -2}, 0});
+      r.placeBall(-2, 0, 1.5, 0.2);
+      r.run(8.0);
+      return r.ball().position;
+    };
+    NoiseParameters all;
+    for (const auto& parameter : noiseParameters) all.*parameter.member = 0.1;
+    QVERIFY(!(all == NoiseParameters{}));
+    QVERIFY(rollsTo(all) == rollsTo({}));
+    QVERIFY(rollsTo({}).x > 1.0);
   }
 
   void frictionLimits_data() {

@@ -24,6 +24,8 @@ inline QString line(double time, const QString& kind, int robot, const QString& 
 inline QStringList linesOf(const std::vector<pitchboard::link::MatchEvent>& events) {
   QStringList lines;
   for (const auto& event : events) {
+    using Kind = pitchboard::link::MatchEventKind;
+    if (event.kind == Kind::BallSeen || event.kind == Kind::BallLost) continue;  // left out there
     const std::string kind(pitchboard::link::info(event.kind).name);
     const std::string side(event.side ? pitchboard::link::sideName(*event.side) : "");
     lines << line(event.time, QString::fromStdString(kind), event.robot.number,
@@ -67,10 +69,12 @@ inline QStringList reported(const QString& html) {
 inline QStringList expectedRows(const std::vector<pitchboard::link::MatchEvent>& events) {
   QStringList rows, kicks;
   for (const auto& event : events) {
+    using Kind = pitchboard::link::MatchEventKind;
+    if (event.kind == Kind::BallSeen || event.kind == Kind::BallLost) continue;  // left out there
     const std::string kind(pitchboard::link::info(event.kind).name);
     const QString words =
         QString::fromStdString(sentenceOf(event)).toHtmlEscaped().replace("'", "&#39;");
-    (event.kind == pitchboard::link::MatchEventKind::Kick ? kicks : rows)
+    (event.kind == Kind::Kick ? kicks : rows)
         << QStringList{QString::fromStdString(kind), QString::fromStdString(event.name), words}
                .join('|');
   }

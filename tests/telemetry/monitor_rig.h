@@ -3,7 +3,6 @@
 
 // Messages of robots as the monitor of a team takes them.
 
-#include <base/actions.h>
 #include <telemetry/wire/team_monitor.h>
 
 namespace monitor_rig {

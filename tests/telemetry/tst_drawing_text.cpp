@@ -29,7 +29,7 @@ std::size_t layersOf(const DrawingStore& store, double time) {
 class TestDrawingText : public QObject {
   Q_OBJECT
  private slots:
-  // Every number worked out by hand from docs/DRAWINGS.md.
+  // Every number worked out by hand from docs/drawings.md.
   void readsWhatTheGuideSays() {
     const auto drawing = parseDrawing(
         "PBD1 3 12\r\n"

@@ -48,7 +48,7 @@ class TestProfile : public QObject {
     const auto old = parseProfile(text, "old");
     QVERIFY2(old, old ? "" : old.error().text().c_str());
     QVERIFY(*old == publishedProfile());
-    QCOMPARE(old->fields[1].category, std::string("Localization"));
+    QCOMPARE(old->fields[1].category, std::string("Belief"));
   }
 
   void mistakesAreNamed_data() {

@@ -3,7 +3,6 @@
 
 #include <QtTest>
 
-#include <base/actions.h>
 #include <telemetry/wire/team_monitor.h>
 
 #include "monitor_rig.h"

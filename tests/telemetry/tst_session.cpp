@@ -248,7 +248,8 @@ class TestSession : public QObject, private NewSessions {
     const std::string path = newPath();
     {
       auto file = McapWriter::create(path);
-      // The check is a CRC-32 over keys and values, each with its final zero (docs/SESSIONS.md).
+      // The check is a CRC-32 over keys and values, each with its final zero
+      // (docs/file-formats.md).
       QVERIFY(file->metadata(
           "pitchboard",
           {{"format", "9"}, {"start_ns", "5000000000"}, {"new", "x"}, {"check", "3914321931"}}));

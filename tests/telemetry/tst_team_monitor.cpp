@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include <base/actions.h>
 #include <telemetry/wire/team_monitor.h>
 
 #include "monitor_rig.h"
@@ -291,13 +290,6 @@ class TestTeamMonitor : public QObject {
     QCOMPARE(robot.name(15), std::string("TEMPERATURE"));
     QCOMPARE(robot.values[15], 77.0);
     QCOMPARE(robot.messages, std::uint64_t(2));
-  }
-
-  void actionsInWords() {
-    QCOMPARE(pitchboard::actionWords(0), std::string("stop"));
-    QCOMPARE(pitchboard::actionWords(22), std::string("kick left, weak"));
-    QCOMPARE(pitchboard::actionWords(23), std::string("action 23"));
-    QCOMPARE(pitchboard::actionWords(-1), std::string("action -1"));
   }
 };
 

@@ -4,8 +4,10 @@
 // Robots and a referee on 127.0.0.1 for tests of Live: real sockets, ports of this process only.
 
 #include <QDir>
+#include <QElapsedTimer>
 #include <QFile>
 #include <QStringList>
+#include <algorithm>
 #include <string>
 
 #include <robotlink/live/live_watch.h>
@@ -67,6 +69,36 @@ class Robot {
   TestSocket m_socket;
   std::uint16_t m_port;
   int m_number;
+};
+
+/// Leaves `options` ports for variables of four robots.
+inline void receiveVariables(pitchboard::link::LiveOptions& options) {
+  options.robots = 4;
+  options.variablesPortBase = options.portBase + options.robots;
+}
+
+/// What sends a robot's variables, as pitchboard-agent does.
+class Agent {
+ public:
+  Agent(const pitchboard::link::LiveOptions& options, int number)
+      : m_port(static_cast<std::uint16_t>(options.variablesPortBase + number)), m_number(number) {
+    m_clock.start();
+  }
+  /// `fields`: "VOLTAGE=148 IMU_EULER_Z=0.5", a sample later than the last one.
+  bool send(const std::string& fields) {
+    m_time_ms = std::max<std::int64_t>(m_time_ms + 1, m_clock.elapsed());
+    return m_socket.send(m_port, "PB2 " + std::to_string(m_number) + " " +
+                                     std::to_string(m_sequence++) + " " +
+                                     std::to_string(m_time_ms) + " " + fields + " OUT");
+  }
+
+ private:
+  TestSocket m_socket;
+  std::uint16_t m_port;
+  int m_number;
+  unsigned m_sequence = 0;
+  std::int64_t m_time_ms = 0;
+  QElapsedTimer m_clock;
 };
 
 /// A recorded packet of tests/data/gamecontroller.

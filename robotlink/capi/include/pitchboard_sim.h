@@ -2,7 +2,7 @@
 #pragma once
 
 // The simulator as a library with a plain C interface, for learning and for other languages: many
-// worlds of one scenario, stepped together, read and written as arrays (docs/LEARNING.md has a
+// worlds of one scenario, stepped together, read and written as arrays (docs/learning.md has a
 // worked example). Handles are opaque; what was destroyed or never made is noticed and refused. Any
 // thread may call; calls with the same handle wait for one another, and the text of an error
 // belongs to the thread. Metres, seconds, radians in the field's frame (x to the right goal, y up);
@@ -23,7 +23,7 @@ extern "C" {
 
 /** Grows when functions, columns or members are added. What is there stays as it is; a change that
  *  would break a program changes the library's name (libpitchboard_sim.so.1). */
-#define PB_API_VERSION 1
+#define PB_API_VERSION 2
 
 /** In place of a world: all of them. */
 #define PB_ALL (-1)
@@ -46,6 +46,7 @@ typedef enum pb_status {
 
 typedef struct pb_worlds pb_worlds;
 typedef struct pb_snapshot pb_snapshot;
+typedef struct pb_rollouts pb_rollouts;
 
 /** How worlds are made. Fill it with pb_options_init() first: it sets `size`, by which later
  *  versions tell what the caller knows. */
@@ -77,7 +78,11 @@ typedef enum pb_array {
                         written, or not stepped since the beginning or a snapshot */
   PB_ROBOTS = 1,   /**< [worlds][robots][columns]: the truth */
   PB_GAME = 2,     /**< [worlds][columns]: ball, clock, score, whether the scenario is over */
-  PB_COMMANDS = 3  /**< for pb_column_...() only: the columns of pb_write_commands() */
+  PB_COMMANDS = 3, /**< for pb_column_...() only: the columns of pb_write_commands() */
+  /* Of rollouts, for pb_column_...() only. */
+  PB_BELIEF_ROBOTS = 4, /**< [robots][columns]: where they are believed to stand, and how surely */
+  PB_BELIEF_GAME = 5,   /**< [columns]: ball, score, time, set play */
+  PB_OUTCOMES = 6       /**< [seeds][columns]: what became of each rollout */
 } pb_array;
 
 /** Of the library that is running; compare with PB_API_VERSION. */
@@ -145,6 +150,60 @@ PB_API pb_status pb_take_snapshot(pb_worlds* worlds, int32_t world, pb_snapshot*
 PB_API pb_status pb_restore(pb_worlds* worlds, int32_t world, const pb_snapshot* snapshot);
 /** Null is fine. */
 PB_API pb_status pb_destroy_snapshot(pb_snapshot* snapshot);
+
+/* Many worlds in one call: `which` has the numbers of `count` different worlds. Nothing is changed
+ * when one of them is not there. */
+/** Each begins anew with its seed. */
+PB_API pb_status pb_reset_some(pb_worlds* worlds, const int32_t* which, const uint64_t* seeds,
+                               size_t count);
+/** All have the state of the snapshot and go on with the noise of their own seeds. */
+PB_API pb_status pb_restore_seeded(pb_worlds* worlds, const int32_t* which, const uint64_t* seeds,
+                                   size_t count, const pb_snapshot* snapshot);
+/** double [count][3]: x, y, yaw of a robot */
+PB_API pb_status pb_place_robots(pb_worlds* worlds, const int32_t* which, size_t count,
+                                 int32_t robot, const double* poses);
+/** double [count][4]: x, y and velocity */
+PB_API pb_status pb_place_balls(pb_worlds* worlds, const int32_t* which, size_t count,
+                                const double* balls);
+
+/* Rollouts: from a belief many short games, thousands of times faster than real time
+ * (docs/rollouts.md). */
+
+/** Fill it with pb_rollout_options_init() first. */
+typedef struct pb_rollout_options {
+  size_t size;
+  const char* scenario; /**< who plays where: built-in name or path of a file; null: "match" */
+  const char* text;     /**< a scenario as JSON, in place of a name; null: none */
+  const char* noise;    /**< a preset; null: the scenario's */
+  int32_t threads;      /**< 1 to 256; results do not depend on it */
+  double tick_rate;     /**< per second: 20 as usual, a multiple of 10 up to 120 */
+} pb_rollout_options;
+
+/** How long they play. Fill it with pb_play_options_init() first. */
+typedef struct pb_play_options {
+  size_t size;
+  double seconds; /**< 10 as usual; a rollout ends before with a goal or with the ball out */
+  double look;    /**< s: "look_x" and "look_y" are the ball's then; 5 as usual */
+  int32_t go_on;  /**< 1: a goal or the ball out does not end it */
+} pb_play_options;
+
+PB_API pb_status pb_rollout_options_init(pb_rollout_options* options, size_t size);
+PB_API pb_status pb_play_options_init(pb_play_options* options, size_t size);
+PB_API pb_status pb_rollouts_create(const pb_rollout_options* options, pb_rollouts** rollouts);
+/** Waits for calls under way; null is fine. */
+PB_API pb_status pb_rollouts_destroy(pb_rollouts* rollouts);
+/** Robots, in the order of the scenario. */
+PB_API pb_status pb_rollouts_robots(pb_rollouts* rollouts, int32_t* robots);
+/** The beginning of the scenario as a belief, to be changed: PB_BELIEF_ROBOTS and PB_BELIEF_GAME.
+ */
+PB_API pb_status pb_rollouts_beginning(pb_rollouts* rollouts, double* robots, size_t robot_count,
+                                       double* game, size_t game_count);
+/** One rollout for each seed; the same seed is the same noise. NaN in a belief is what the scenario
+ *  begins with. `..._count`: of doubles. */
+PB_API pb_status pb_rollouts_play(pb_rollouts* rollouts, const pb_play_options* options,
+                                  const double* robots, size_t robot_count, const double* game,
+                                  size_t game_count, const uint64_t* seeds, size_t seed_count,
+                                  double* outcomes, size_t outcome_count);
 
 #ifdef __cplusplus
 }

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <base/try.h>
+#include <robotlink/capi/rollout_rows.h>
 #include <robotlink/capi/worlds.h>
 
 using namespace pitchboard;
@@ -68,9 +69,21 @@ struct LockedWorlds {
   Worlds worlds;
 };
 
+struct LockedRollouts {
+  LockedRollouts(rollout::Rollouts made, rollout::Belief belief)
+      : rollouts(std::move(made)), beginning(std::move(belief)) {}
+  std::mutex mutex;
+  rollout::Rollouts rollouts;
+  const rollout::Belief beginning;
+};
+
 // Never destroyed: a program may call from an atexit handler.
 auto& worldHandles() {
   static auto* handles = new Handles<LockedWorlds, pb_worlds>;
+  return *handles;
+}
+auto& rolloutHandles() {
+  static auto* handles = new Handles<LockedRollouts, pb_rollouts>;
   return *handles;
 }
 auto& snapshotHandles() {
@@ -142,6 +155,21 @@ pb_status withWorlds(const pb_worlds* handle, const Use& use) {
   });
 }
 
+/// The same of rollouts: use(LockedRollouts&).
+template <class Use>
+pb_status withRollouts(const pb_rollouts* handle, const Use& use) {
+  return guarded([&] {
+    if (handle == nullptr) return missing("rollouts");
+    const auto found = rolloutHandles().find(handle);
+    if (!found) {
+      return told(PB_STALE_HANDLE,
+                  "these rollouts are not there: they were destroyed, or never created");
+    }
+    const std::lock_guard lock(found->mutex);
+    return told(use(*found));
+  });
+}
+
 /// The caller's array; a null is an empty one, whose size is then refused.
 template <class Value>
 std::span<Value> spanOf(Value* values, std::size_t count) {
@@ -159,21 +187,42 @@ std::optional<WorldArray> arrayOf(std::int32_t array) {
 
 std::span<const WorldColumn> columns(std::int32_t array) {
   if (array == PB_COMMANDS) return commandColumns();
+  if (array == PB_BELIEF_ROBOTS) return beliefRobotColumns();
+  if (array == PB_BELIEF_GAME) return beliefGameColumns();
+  if (array == PB_OUTCOMES) return outcomeColumns();
   const auto known = arrayOf(array);
   return known ? columnsOf(*known) : std::span<const WorldColumn>();
 }
 
-Result<Scenario> scenarioOf(const pb_options& options) {
-  if (options.scenario && options.text) {
+Result<Scenario> scenarioOf(const char* name, const char* json, const char* usual) {
+  if (name && json) {
     return failure(ErrorCode::InvalidArgument,
                    "a scenario has a name or a text; set the other of the two to null");
   }
-  auto scenario = options.text ? scenarioFromJson(options.text, "scenario")
-                               : loadScenario(options.scenario ? options.scenario : "one-robot");
-  if (!scenario) return scenario;
-  const auto text = [](const char* given) { return std::string(given ? given : ""); };
-  return changed(std::move(*scenario),
-                 {{}, text(options.noise), text(options.physics), options.duration});
+  return json ? scenarioFromJson(json, "scenario") : loadScenario(name ? name : usual);
+}
+
+std::string textOf(const char* given) {
+  return given ? given : "";
+}
+
+Result<Scenario> scenarioOf(const pb_options& options) {
+  Scenario scenario = TRY(scenarioOf(options.scenario, options.text, "one-robot"));
+  return changed(std::move(scenario),
+                 {{}, textOf(options.noise), textOf(options.physics), options.duration});
+}
+
+/// Of an options struct that carries its own size.
+template <class Options>
+pb_status initialized(Options* options, size_t size, const Options& usual, const char* name) {
+  if (options == nullptr) return missing("options");
+  if (size != sizeof(Options)) {
+    return told(PB_INVALID_ARGUMENT,
+                std::string("size must be sizeof(") + name + ") of this version's header");
+  }
+  *options = usual;
+  options->size = size;
+  return told(PB_OK, "");
 }
 
 // Variables as numbers: ints by their index, floats behind them.
@@ -225,15 +274,10 @@ const char* pb_column_words(std::int32_t array, size_t column) {
 }
 
 pb_status pb_options_init(pb_options* options, size_t size) {
-  if (options == nullptr) return missing("options");
-  if (size != sizeof(pb_options)) {
-    return told(PB_INVALID_ARGUMENT, "size must be sizeof(pb_options) of this version's header");
-  }
-  *options = {};
-  options->size = size;
-  options->worlds = 1;
-  options->threads = 1;
-  return told(PB_OK, "");
+  pb_options usual{};
+  usual.worlds = 1;
+  usual.threads = 1;
+  return initialized(options, size, usual, "pb_options");
 }
 
 pb_status pb_create(const pb_options* options, pb_worlds** worlds) {
@@ -394,5 +438,127 @@ pb_status pb_destroy_snapshot(pb_snapshot* snapshot) {
   return guarded([&] {
     if (snapshot == nullptr || snapshotHandles().remove(snapshot)) return told(PB_OK, "");
     return told(PB_STALE_HANDLE, "this snapshot was destroyed before");
+  });
+}
+
+pb_status pb_reset_some(pb_worlds* worlds, const std::int32_t* which, const std::uint64_t* seeds,
+                        size_t count) {
+  return withWorlds(worlds,
+                    [&](Worlds& w) { return w.reset(spanOf(which, count), spanOf(seeds, count)); });
+}
+
+pb_status pb_restore_seeded(pb_worlds* worlds, const std::int32_t* which,
+                            const std::uint64_t* seeds, size_t count, const pb_snapshot* snapshot) {
+  return guarded([&] {
+    if (snapshot == nullptr) return missing("snapshot");
+    const auto found = snapshotHandles().find(snapshot);
+    if (!found) return told(PB_STALE_HANDLE, "this snapshot was destroyed, or never taken");
+    return withWorlds(worlds, [&](Worlds& w) {
+      return w.restore(spanOf(which, count), spanOf(seeds, count), *found);
+    });
+  });
+}
+
+pb_status pb_place_robots(pb_worlds* worlds, const std::int32_t* which, size_t count,
+                          std::int32_t robot, const double* poses) {
+  return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
+    if (poses == nullptr) return refusal("poses must not be null");
+    std::vector<Pose> places;
+    for (size_t i = 0; i < count; ++i) {
+      places.push_back({{poses[3 * i], poses[3 * i + 1]}, poses[3 * i + 2]});
+    }
+    return w.placeRobots(spanOf(which, count), RobotId{robot}, places);
+  });
+}
+
+pb_status pb_place_balls(pb_worlds* worlds, const std::int32_t* which, size_t count,
+                         const double* balls) {
+  return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
+    if (balls == nullptr) return refusal("balls must not be null");
+    std::vector<Point> places;
+    std::vector<Velocity> velocities;
+    for (size_t i = 0; i < count; ++i) {
+      places.push_back({balls[4 * i], balls[4 * i + 1]});
+      velocities.push_back({balls[4 * i + 2], balls[4 * i + 3]});
+    }
+    return w.placeBalls(spanOf(which, count), places, velocities);
+  });
+}
+
+pb_status pb_rollout_options_init(pb_rollout_options* options, size_t size) {
+  pb_rollout_options usual{};
+  usual.threads = 1;
+  usual.tick_rate = rollout::Setup{}.tickRate;
+  return initialized(options, size, usual, "pb_rollout_options");
+}
+
+pb_status pb_play_options_init(pb_play_options* options, size_t size) {
+  pb_play_options usual{};
+  usual.seconds = rollout::PlayOptions{}.seconds;
+  usual.look = rollout::PlayOptions{}.look;
+  return initialized(options, size, usual, "pb_play_options");
+}
+
+pb_status pb_rollouts_create(const pb_rollout_options* options, pb_rollouts** rollouts) {
+  return guarded([&] {
+    if (rollouts == nullptr) return missing("rollouts");
+    *rollouts = nullptr;
+    if (options == nullptr) return missing("options");
+    if (options->size != sizeof(pb_rollout_options)) {
+      return told(PB_INVALID_ARGUMENT,
+                  "these options were not filled by pb_rollout_options_init()");
+    }
+    const auto made = [&]() -> Result<std::shared_ptr<LockedRollouts>> {
+      Scenario scenario = TRY(scenarioOf(options->scenario, options->text, "match"));
+      scenario = TRY(changed(std::move(scenario), {{}, textOf(options->noise), {}, 0.0}));
+      RolloutStart start = rolloutStartOf(scenario, options->tick_rate);
+      auto all = TRY(rollout::Rollouts::create(start.setup, {options->threads, 1}));
+      return std::make_shared<LockedRollouts>(std::move(all), std::move(start.belief));
+    }();
+    if (!made) return told(tl::unexpected(made.error()));
+    *rollouts = rolloutHandles().add(*made);
+    return told(PB_OK, "");
+  });
+}
+
+pb_status pb_rollouts_destroy(pb_rollouts* rollouts) {
+  return guarded([&] {
+    if (rollouts == nullptr) return told(PB_OK, "");
+    const auto removed = rolloutHandles().remove(rollouts);
+    if (!removed) return told(PB_STALE_HANDLE, "these rollouts were destroyed before");
+    const std::lock_guard waited(removed->mutex);
+    return told(PB_OK, "");
+  });
+}
+
+pb_status pb_rollouts_robots(pb_rollouts* rollouts, std::int32_t* robots) {
+  return withRollouts(rollouts, [&](LockedRollouts& r) -> Result<void> {
+    if (robots == nullptr) return refusal("robots must not be null");
+    *robots = static_cast<std::int32_t>(r.rollouts.players());
+    return {};
+  });
+}
+
+pb_status pb_rollouts_beginning(pb_rollouts* rollouts, double* robots, size_t robot_count,
+                                double* game, size_t game_count) {
+  return withRollouts(rollouts, [&](LockedRollouts& r) {
+    return writeBelief(r.beginning, spanOf(robots, robot_count), spanOf(game, game_count));
+  });
+}
+
+pb_status pb_rollouts_play(pb_rollouts* rollouts, const pb_play_options* options,
+                           const double* robots, size_t robot_count, const double* game,
+                           size_t game_count, const std::uint64_t* seeds, size_t seed_count,
+                           double* outcomes, size_t outcome_count) {
+  return withRollouts(rollouts, [&](LockedRollouts& r) -> Result<void> {
+    if (options == nullptr) return refusal("options must not be null");
+    if (options->size != sizeof(pb_play_options)) {
+      return refusal("these options were not filled by pb_play_options_init()");
+    }
+    const auto belief =
+        TRY(readBelief(r.beginning, spanOf(robots, robot_count), spanOf(game, game_count)));
+    return r.rollouts.play(belief, spanOf(seeds, seed_count),
+                           {options->seconds, options->look, options->go_on != 0},
+                           spanOf(outcomes, outcome_count));
   });
 }

@@ -114,6 +114,17 @@ struct Worlds::Parts {
     return failure(ErrorCode::NotFound,
                    "there is no robot " + std::to_string(robot.value) + " on the field");
   }
+  /// All of them are there, and there are as many of the others.
+  Result<void> checkWorlds(std::span<const int> which, std::size_t others) const {
+    if (which.size() != others) {
+      return failure(ErrorCode::InvalidArgument, "there must be one value for each of the " +
+                                                     std::to_string(which.size()) + " worlds");
+    }
+    for (const int world : which) {
+      TRY(checkWorld(world == all ? -2 : world));
+    }
+    return {};
+  }
   /// Calls change(world, its index) for one or all, until one fails.
   template <class Change>
   Result<void> changeEach(int world, const Change& change) {
@@ -198,6 +209,14 @@ Result<void> Worlds::reset(int world, std::uint64_t seed) {
     one = TRY(m_parts->make(own));
     return {};
   });
+}
+
+Result<void> Worlds::reset(std::span<const int> worlds, std::span<const std::uint64_t> seeds) {
+  TRY(m_parts->checkWorlds(worlds, seeds.size()));
+  for (std::size_t i = 0; i < worlds.size(); ++i) {
+    TRY(reset(worlds[i], seeds[i]));
+  }
+  return {};
 }
 
 Result<void> Worlds::step(int ticks) {
@@ -361,6 +380,25 @@ Result<void> Worlds::placeBall(int world, const Point& place, const Velocity& ve
   });
 }
 
+Result<void> Worlds::placeRobots(std::span<const int> worlds, RobotId robot,
+                                 std::span<const Pose> poses) {
+  TRY(m_parts->checkWorlds(worlds, poses.size()));
+  for (std::size_t i = 0; i < worlds.size(); ++i) {
+    TRY(placeRobot(worlds[i], robot, poses[i]));
+  }
+  return {};
+}
+
+Result<void> Worlds::placeBalls(std::span<const int> worlds, std::span<const Point> places,
+                                std::span<const Velocity> velocities) {
+  TRY(m_parts->checkWorlds(worlds, places.size()));
+  TRY(m_parts->checkWorlds(worlds, velocities.size()));
+  for (std::size_t i = 0; i < worlds.size(); ++i) {
+    TRY(placeBall(worlds[i], places[i], velocities[i]));
+  }
+  return {};
+}
+
 Result<WorldSnapshot> Worlds::snapshot(int world) const {
   TRY(m_parts->checkWorld(world));
   if (world == all) {
@@ -372,6 +410,17 @@ Result<WorldSnapshot> Worlds::snapshot(int world) const {
 Result<void> Worlds::restore(int world, const WorldSnapshot& snapshot) {
   return m_parts->changeEach(
       world, [&](World& one, std::size_t /*index*/) { return one.restore(snapshot); });
+}
+
+Result<void> Worlds::restore(std::span<const int> worlds, std::span<const std::uint64_t> seeds,
+                             const WorldSnapshot& snapshot) {
+  TRY(m_parts->checkWorlds(worlds, seeds.size()));
+  WorldSnapshot seeded = snapshot;
+  for (std::size_t i = 0; i < worlds.size(); ++i) {
+    seeded.moment.state.settings.seed = seeds[i];
+    TRY(restore(worlds[i], seeded));
+  }
+  return {};
 }
 
 Result<Variable> worldVariable(std::string_view name) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 namespace pitchboard::link {
 namespace {
@@ -46,14 +47,41 @@ bool crosses(const Obstacle& o, const Point& a, const Point& b) {
   return distance({a.x + t * dx, a.y + t * dy}, o.centre) < o.radius;
 }
 
-}  // namespace
+/// One search, in memory that the next one uses again.
+class PathSearch {
+ public:
+  Path plan(const Point& start, const Point& target, std::span<const Obstacle> obstacles,
+            double halfLength, double halfWidth);
 
-bool PathPlanner::within(const Point& p) const {
+ private:
+  struct Node {
+    Point point;
+    double cost;
+    int parent;
+    bool open, closed;
+  };
+  bool within(const Point& p) const;
+  int firstHit(const Point& from, const Point& to) const;
+  void activate(std::size_t obstacle);
+  Point freeTarget(const Point& target, const Point& start, bool& free) const;
+  bool search();
+  void addPoints(Path& path);
+
+  double m_halfLength = 0.0, m_halfWidth = 0.0;
+  std::vector<Obstacle> m_obstacles;
+  std::vector<char> m_active;
+  std::vector<Node> m_nodes;  // 0 start, 1 target, then corners
+  std::vector<int> m_hit;     // obstacles that stood in the way of the last search
+  std::vector<int> m_way;     // nodes of the path, the last first
+  int m_end = 1;              // node where the last search ended
+};
+
+bool PathSearch::within(const Point& p) const {
   return std::abs(p.x) <= m_halfLength && std::abs(p.y) <= m_halfWidth;
 }
 
 /// The obstacle nearest to `from` that the segment crosses, or -1.
-int PathPlanner::firstHit(const Point& from, const Point& to) const {
+int PathSearch::firstHit(const Point& from, const Point& to) const {
   int hit = -1;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < m_obstacles.size(); ++i) {
@@ -67,7 +95,7 @@ int PathPlanner::firstHit(const Point& from, const Point& to) const {
   return hit;
 }
 
-void PathPlanner::activate(std::size_t obstacle) {
+void PathSearch::activate(std::size_t obstacle) {
   if (m_active[obstacle]) return;
   m_active[obstacle] = 1;
   const Obstacle& o = m_obstacles[obstacle];
@@ -87,7 +115,7 @@ void PathPlanner::activate(std::size_t obstacle) {
   }
 }
 
-Point PathPlanner::freeTarget(const Point& target, const Point& start, bool& free) const {
+Point PathSearch::freeTarget(const Point& target, const Point& start, bool& free) const {
   Point p = target;
   // Leaving one obstacle may lead into its neighbour; a few rounds settle all but hopeless cases.
   for (std::size_t round = 0; round <= m_obstacles.size() && round < 8; ++round) {
@@ -108,7 +136,7 @@ Point PathPlanner::freeTarget(const Point& target, const Point& start, bool& fre
 }
 
 /// A* over the present corners. Notes the obstacles that stood in the way.
-bool PathPlanner::search(std::vector<int>& hit) {
+bool PathSearch::search() {
   for (Node& node : m_nodes) node = {node.point, 0.0, -1, false, false};
   m_nodes[0].open = true;
   const Point target = m_nodes[1].point;
@@ -143,7 +171,7 @@ bool PathPlanner::search(std::vector<int>& hit) {
       if (other.open && other.cost <= cost) continue;
       const int blocker = firstHit(node.point, other.point);
       if (blocker >= 0) {
-        hit.push_back(blocker);
+        m_hit.push_back(blocker);
         continue;
       }
       other.cost = cost;
@@ -155,8 +183,10 @@ bool PathPlanner::search(std::vector<int>& hit) {
   return false;
 }
 
-Path PathPlanner::plan(const Point& start, const Point& target,
-                       std::span<const Obstacle> obstacles) {
+Path PathSearch::plan(const Point& start, const Point& target, std::span<const Obstacle> obstacles,
+                      double halfLength, double halfWidth) {
+  m_halfLength = halfLength;
+  m_halfWidth = halfWidth;
   Path path;
   if (!finite(start) || !finite(target)) return path;
   m_obstacles.clear();
@@ -170,35 +200,50 @@ Path PathPlanner::plan(const Point& start, const Point& target,
   m_nodes.push_back({start, 0.0, -1, false, false});
   m_nodes.push_back({freeTarget(target, start, path.targetFree), 0.0, -1, false, false});
 
-  std::vector<int> hit;
   for (;;) {
-    hit.clear();
-    path.complete = search(hit);
+    m_hit.clear();
+    path.complete = search();
     if (path.complete) {
       // Corners of obstacles beside this path cannot make it shorter: it is free, and every edge
       // that was dropped for a blocked one leads round an obstacle that has corners already.
       const bool allActive = std::ranges::all_of(
-          hit, [&](int i) { return m_active[static_cast<std::size_t>(i)] != 0; });
+          m_hit, [&](int i) { return m_active[static_cast<std::size_t>(i)] != 0; });
       if (allActive) break;
     }
     const std::size_t before = m_nodes.size();
     bool news = false;
-    for (const int i : hit) {
+    for (const int i : m_hit) {
       news = news || !m_active[static_cast<std::size_t>(i)];
       activate(static_cast<std::size_t>(i));
     }
     if (!news || (m_nodes.size() == before && path.complete)) break;
   }
 
-  for (int i = m_end; i >= 0; i = m_nodes[static_cast<std::size_t>(i)].parent) {
-    path.points.push_back(m_nodes[static_cast<std::size_t>(i)].point);
-  }
-  std::ranges::reverse(path.points);
-  if (path.points.size() == 1) path.points.push_back(path.points.front());
-  for (std::size_t i = 1; i < path.points.size(); ++i) {
-    path.length += distance(path.points[i - 1], path.points[i]);
-  }
+  addPoints(path);
   return path;
+}
+
+void PathSearch::addPoints(Path& path) {
+  m_way.clear();
+  for (int i = m_end; i >= 0; i = m_nodes[static_cast<std::size_t>(i)].parent) {
+    m_way.push_back(i);
+  }
+  Point last = m_nodes[static_cast<std::size_t>(m_way.back())].point;
+  if (m_way.size() == 1) path.points.push_back(last);
+  for (std::size_t i = m_way.size(); i-- > 0;) {
+    const Point& point = m_nodes[static_cast<std::size_t>(m_way[i])].point;
+    path.length += distance(last, point);
+    if (!path.points.full()) path.points.push_back(point);
+    last = point;
+  }
+}
+
+}  // namespace
+
+Path PathPlanner::plan(const Point& start, const Point& target,
+                       std::span<const Obstacle> obstacles) const {
+  static thread_local PathSearch search;
+  return search.plan(start, target, obstacles, m_halfLength, m_halfWidth);
 }
 
 }  // namespace pitchboard::link

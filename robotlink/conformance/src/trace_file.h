@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A recorded trace of the published simulator as values: see docs/CONFORMANCE.md. Units are those
+// A recorded trace of the published simulator as values: see docs/conformance.md. Units are those
 // of the file: window centimetres, degrees.
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include <base/ids.h>
 #include <base/result.h>
+#include <simcore/world/team_color.h>
 
 namespace pitchboard::link {
 

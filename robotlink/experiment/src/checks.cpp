@@ -4,18 +4,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include <base/lined_json.h>
 #include <base/try.h>
 #include <robotlink/experiment/statistics.h>
 #include <robotlink/report/quantile.h>
 
+#include "numbers.h"
+
 namespace pitchboard::link {
 namespace {
 
-constexpr std::array<std::string_view, 15> statistics{"mean", "median", "sd",  "min", "max",
-                                                      "n",    "p01",    "p05", "p10", "p25",
-                                                      "p50",  "p75",    "p90", "p95", "p99"};
+constexpr std::array<std::string_view, 17> statistics{
+    "low95", "high95", "mean", "median", "sd",  "min", "max", "n",  "p01",
+    "p05",   "p10",    "p25",  "p50",    "p75", "p90", "p95", "p99"};
 constexpr std::string_view rateEnd = "_rate";
 
 bool isLetter(char c) {
@@ -137,7 +141,40 @@ bool Check::holds(std::span<const double> values) {
   return known && std::isfinite(value) && value != 0.0;
 }
 
-double statisticOf(std::string_view statistic, std::span<const double> sorted) {
+bool isInterval(std::string_view statistic) {
+  return statistic == "low95" || statistic == "high95";
+}
+
+CheckedAssertion checkedBy(
+    const std::string& text, const std::string& condition, std::span<const MetricInfo> metrics,
+    const std::function<std::vector<double>(std::size_t metric, bool forInterval)>& valuesOf) {
+  CheckedAssertion out{condition, text, false, {}};
+  auto check = Check::parse(text, Check::Over::Condition, metrics);
+  if (!check) {
+    out.values = check.error().message;
+    return out;
+  }
+  std::vector<double> values;
+  for (const Check::Name& one : check->names()) {
+    const bool forInterval = isInterval(one.statistic);
+    values.push_back(
+        statisticOf(one.statistic, valuesOf(one.metric, forInterval), metrics[one.metric].rate));
+    out.values += (out.values.empty() ? "" : ", ") + one.written + " = " + number(values.back());
+  }
+  out.holds = check->holds(values);
+  return out;
+}
+
+double statisticOf(std::string_view statistic, std::span<const double> values, bool rate) {
+  if (isInterval(statistic)) {
+    const auto interval = rate ? intervalOfRate(momentsOf(values)) : intervalOfMean(values);
+    if (!interval) return std::numeric_limits<double>::quiet_NaN();
+    return statistic == "low95" ? interval->low : interval->high;
+  }
+  std::vector<double> sorted;
+  std::ranges::copy_if(values, std::back_inserter(sorted),
+                       [](double value) { return std::isfinite(value); });
+  std::ranges::sort(sorted);
   if (statistic == "n") return static_cast<double>(sorted.size());
   if (statistic == "mean") return momentsOf(sorted).mean;
   if (statistic == "sd") return momentsOf(sorted).deviation;

@@ -4,12 +4,14 @@
 // Expressions over metrics: what a good run is ("goal && time_s < 60"), and what must hold of a
 // condition ("goal_rate >= 0.5", "p95(belief_error_m) < 0.3"). One object for one thread.
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <base/result.h>
+#include <robotlink/experiment/experiment_summary.h>
 #include <robotlink/experiment/run_result.h>
 #include <telemetry/expression/expression.h>
 
@@ -40,7 +42,16 @@ class Check {
   std::vector<Name> m_names;
 };
 
-/// "mean", "p95", ... of the finite values; NaN where there are none. `sorted` and finite.
-double statisticOf(std::string_view statistic, std::span<const double> sorted);
+/// "low95" and "high95", the ends of the interval of the mean.
+bool isInterval(std::string_view statistic);
+/// "mean", "p95", "low95", ... of the finite values; NaN where there are none. `rate`: they are 0
+/// or 1.
+double statisticOf(std::string_view statistic, std::span<const double> values, bool rate = false);
+
+/// An assertion over what `valuesOf` gives of a metric: the values of all runs, or (for intervals)
+/// what the bootstrap draws.
+CheckedAssertion checkedBy(
+    const std::string& text, const std::string& condition, std::span<const MetricInfo> metrics,
+    const std::function<std::vector<double>(std::size_t metric, bool forInterval)>& valuesOf);
 
 }  // namespace pitchboard::link

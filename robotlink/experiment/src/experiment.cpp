@@ -13,6 +13,7 @@
 
 #include "checks.h"
 #include "experiment_reader.h"
+#include "tournament_parts.h"
 
 namespace pitchboard::link {
 namespace {
@@ -125,11 +126,10 @@ bool hasRobot(const Scenario& scenario, std::string_view name) {
 
 /// Who plays decides how runs are played, and which figures they have.
 void findTeamPrograms(Experiment& e, const JsonObject& root) {
-  for (const Condition& condition : e.conditions) {
-    const auto own = usesTeamPrograms(condition.scenario, e.separateProcesses,
-                                      "add \"processes\": \"separate\"");
+  for (Condition& condition : e.conditions) {
+    const auto own = usesTeamPrograms(condition.scenario);
     if (!own) return root.fail("scenario", "runtime: " + own.error().text());
-    e.teamPrograms = e.teamPrograms || *own;
+    condition.teamPrograms = *own;
   }
 }
 
@@ -193,6 +193,13 @@ void checkWhole(const Experiment& e, const JsonObject& root) {
       root.fail("assertions", "there is no condition " + assertion.condition);
     }
   }
+  const std::vector<MetricInfo> ofTeams = tournamentMetrics();
+  for (const TeamAssertion& one :
+       e.tournament ? e.tournament->assertions : std::vector<TeamAssertion>{}) {
+    if (const auto check = Check::parse(one.text, Check::Over::Condition, ofTeams); !check) {
+      root.fail("assertions", one.text + ": " + check.error().message);
+    }
+  }
   for (const std::size_t number : e.recorded) {
     if (number > e.allRuns()) {
       root.fail("record", "there are only " + std::to_string(e.allRuns()) + " runs");
@@ -248,21 +255,38 @@ Result<Experiment> experimentFromJson(std::string_view text, std::string_view so
   if (!root) return tl::unexpected(report.error());
   Experiment e;
   ConditionParts parts;
-  ExperimentReader(*root, report, folder).read(e, parts);
-  if (!report.failed()) {
-    if (changes.runs) e.runs = *changes.runs;
-    if (changes.seed) e.seed = *changes.seed;
-    if (makeConditions(e, parts, report)) checkRandom(e, report);
+  ExperimentReader reader(*root, report, folder);
+  reader.read(e, parts);
+  const JsonObject object(report, *root, "");
+  if (changes.seed) e.seed = *changes.seed;
+  if (changes.runs) e.runs = *changes.runs;
+  std::size_t matches = reader.matches();
+  if (e.tournament && !report.failed()) {
+    if (changes.runs) matches = *changes.runs * (e.tournament->swapSides ? 2 : 1);
+    matches = changes.matches.value_or(matches);
+    addMatches(e, parts, matches, object, report);
   }
-  if (!report.failed()) findTeamPrograms(e, JsonObject(report, *root, ""));
-  if (!report.failed()) checkWhole(e, JsonObject(report, *root, ""));
+  makeWhole(e, parts, object, report);
   if (report.failed()) return tl::unexpected(report.error());
+  if (e.tournament) playToTheWhistle(e, root->find("stop") != nullptr || parts.stop.duration);
   Json whole = jsonOf(*root);
   whole["scenario"] = parts.scenario;
-  whole["runs"] = e.runs;
+  whole[e.tournament ? "matches" : "runs"] = e.tournament ? matches : e.runs;
   whole["seed"] = e.seed;
+  for (std::size_t i = 0; e.tournament && i < e.tournament->teams.size(); ++i) {
+    const std::string& runtime = e.tournament->teams[i].runtime;
+    if (!runtime.empty()) whole["teams"][i]["runtime"] = runtime;
+  }
   e.text = whole.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
   return e;
+}
+
+bool makeWhole(Experiment& e, const ConditionParts& parts, const JsonObject& root,
+               JsonReport& report) {
+  if (!report.failed() && makeConditions(e, parts, report)) checkRandom(e, report);
+  if (!report.failed()) findTeamPrograms(e, root);
+  if (!report.failed()) checkWhole(e, root);
+  return !report.failed();
 }
 
 bool isRecorded(const Experiment& experiment, std::size_t number, bool success) {

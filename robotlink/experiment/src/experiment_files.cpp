@@ -72,10 +72,54 @@ void addComparison(Json& out, const Comparison& one) {
   out["welch"] = welchJson(one.welch);
 }
 
+Json totalsJson(const MatchTotals& totals) {
+  return {{"played", totals.played()},
+          {"won", totals.won},
+          {"drawn", totals.drawn},
+          {"lost", totals.lost},
+          {"goals", totals.goals},
+          {"goals_against", totals.goalsAgainst},
+          {"goal_difference", known(totals.difference)},
+          {"goal_difference_95", intervalJson(totals.difference95)},
+          {"points", totals.points()}};
+}
+
+Json tournamentJson(const TournamentTable& table) {
+  Json teams = Json::array(), pairs = Json::array(), wrong = Json::array();
+  for (const auto& [name, totals] : table.teams) {
+    teams.push_back({{"name", name}});
+    teams.back().update(totalsJson(totals));
+  }
+  for (const auto& [first, second, totals] : table.pairings) {
+    pairs.push_back({{"name", first}, {"opponent", second}});
+    pairs.back().update(totalsJson(totals));
+  }
+  for (const auto& [number, what] : table.wrong) {
+    wrong.push_back({{"run", number}, {"what", what}});
+  }
+  return {{"teams", std::move(teams)}, {"pairs", std::move(pairs)}, {"wrong", std::move(wrong)}};
+}
+
+/// ",RoboFEI,Red,2,1,1:0 1:1": the experiment's team first.
+std::string teamsOfLine(const Experiment& experiment, const MatchResult& match) {
+  const bool second = match.teams[1].colour == experiment.team;
+  const TeamResult& ours = match.teams[second ? 1 : 0];
+  const TeamResult& theirs = match.teams[second ? 0 : 1];
+  std::string halves;
+  for (std::size_t i = 0; i < std::min(ours.byHalf.size(), theirs.byHalf.size()); ++i) {
+    halves += (i == 0 ? "" : " ") + std::to_string(ours.byHalf[i]) + ':' +
+              std::to_string(theirs.byHalf[i]);
+  }
+  return ',' + csvField(titleOf(ours)) + ',' + csvField(titleOf(theirs)) + ',' +
+         std::to_string(ours.score) + ',' + std::to_string(theirs.score) + ',' + halves;
+}
+
 }  // namespace
 
 std::string csvHead(const std::vector<MetricInfo>& metrics) {
-  std::string out = "run,condition,index,seed,ended_by,ticks,state_hash";
+  std::string out =
+      "run,condition,index,seed,ended_by,ticks,state_hash,repeatable,team,opponent,score,"
+      "opponent_score,score_by_half";
   for (const MetricInfo& metric : metrics) out += ',' + metric.name;
   return out + '\n';
 }
@@ -87,7 +131,8 @@ std::string csvLine(const Experiment& experiment, const RunResult& result) {
   std::string out = std::to_string(result.number) + ',' +
                     csvField(experiment.conditions[place.condition].name) + ',' +
                     std::to_string(place.index + 1) + ',' + std::to_string(result.seed) + ',' +
-                    result.endedBy + ',' + std::to_string(result.ticks) + ',' + hash;
+                    result.match.endedBy + ',' + std::to_string(result.ticks) + ',' + hash + ',' +
+                    (result.match.repeatable ? "1" : "0") + teamsOfLine(experiment, result.match);
   for (const double value : result.values) {
     out += ',';
     if (std::isfinite(value)) out += shortest(value);
@@ -107,6 +152,7 @@ std::string summaryJson(const Experiment& experiment, const ExperimentSummary& s
     for (const auto& [end, count] : condition.ends) ends[end] = count;
     conditions.push_back({{"name", condition.name},
                           {"runs", condition.runs},
+                          {"not_repeatable", condition.unrepeatable},
                           {"ended_by", std::move(ends)},
                           {"metrics", std::move(metrics)}});
   }
@@ -142,15 +188,16 @@ std::string summaryJson(const Experiment& experiment, const ExperimentSummary& s
                           {"holds", one.holds},
                           {"values", one.values}});
   }
-  const Json out{{"experiment", experiment.name},
-                 {"title", experiment.title},
-                 {"runs_per_condition", experiment.runs},
-                 {"seed", experiment.seed},
-                 {"holds", summary.holds()},
-                 {"conditions", std::move(conditions)},
-                 {"differences", std::move(differences)},
-                 {"comparisons", std::move(comparisons)},
-                 {"assertions", std::move(assertions)}};
+  Json out{{"experiment", experiment.name},
+           {"title", experiment.title},
+           {"runs_per_condition", experiment.runs},
+           {"seed", experiment.seed},
+           {"holds", summary.holds()},
+           {"conditions", std::move(conditions)},
+           {"differences", std::move(differences)},
+           {"comparisons", std::move(comparisons)},
+           {"assertions", std::move(assertions)}};
+  if (summary.tournament) out["tournament"] = tournamentJson(*summary.tournament);
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

@@ -218,7 +218,8 @@ Result<void> ExperimentFolder::writeReports() const {
   for (const auto& [name, text] : texts) {
     TRY(writeFile(file(name), text, IfExists::Replace));
   }
-  return {};
+  if (!summary.tournament) return {};
+  return writeFile(file("table.csv"), tableCsv(*summary.tournament), IfExists::Replace);
 }
 
 Result<void> ExperimentFolder::finish() {
@@ -253,6 +254,21 @@ Result<RunResult> resultOf(const std::string& folder, const Experiment& experime
                    folder);
   }
   return *found;
+}
+
+Result<void> markUnrepeatable(const std::string& path, const Experiment& experiment,
+                              std::size_t number) {
+  auto folder = TRY(ExperimentFolder::begin(path, experiment, true));
+  const std::string name = folder.file(runsFile);
+  auto target = TRY(FileTarget::at(name, IfExists::Replace));
+  auto marked = TRY(target.open());
+  TRY(eachResult(name, experiment, [&](RunResult result, const auto&) {
+    if (result.number == number) result.match.repeatable = false;
+    return marked.write(lineOf(result));
+  }));
+  TRY(marked.close());
+  TRY(target.commit());
+  return folder.finish();
 }
 
 Result<ExperimentFolder> mergeFolders(const std::vector<std::string>& parts,

@@ -31,17 +31,26 @@ bool isMetricName(std::string_view name) {
          name.find_first_not_of(std::string(letters) + "0123456789") == std::string_view::npos;
 }
 
+/// An experiment has no teams, and says what a tournament knows by itself.
+std::span<const std::string_view> keysOf(const JsonNode& root) {
+  constexpr static std::array<std::string_view, 25> experiment{
+      "version", "name",       "title",  "description", "scenario",
+      "set",     "grid",       "random", "runs",        "common_random_numbers",
+      "seed",    "conditions", "team",   "starts",      "placed",
+      "stop",    "metrics",    "sample", "success",     "compare",
+      "record",  "assertions", "paths",  "processes",   "speed"};
+  constexpr static std::array<std::string_view, 22> tournament{
+      "version", "name",   "title", "description", "scenario",   "set",       "random", "seed",
+      "starts",  "placed", "stop",  "metrics",     "sample",     "record",    "paths",  "processes",
+      "speed",   "teams",  "pairs", "matches",     "swap_sides", "assertions"};
+  if (root.find("teams")) return tournament;
+  return experiment;
+}
+
 }  // namespace
 
 ExperimentReader::ExperimentReader(const JsonNode& root, JsonReport& report, std::string folder)
-    : m_report(report),
-      m_root(report, root, "",
-             {"version", "name",       "title",  "description", "scenario",
-              "set",     "grid",       "random", "runs",        "common_random_numbers",
-              "seed",    "conditions", "team",   "starts",      "placed",
-              "stop",    "metrics",    "sample", "success",     "compare",
-              "record",  "assertions", "paths",  "processes",   "speed"}),
-      m_folder(std::move(folder)) {}
+    : m_report(report), m_root(report, root, "", keysOf(root)), m_folder(std::move(folder)) {}
 
 void ExperimentReader::read(Experiment& e, ConditionParts& parts) {
   m_root.require("version");
@@ -77,8 +86,12 @@ void ExperimentReader::read(Experiment& e, ConditionParts& parts) {
   readStop(e, parts.stop);
   readMetrics(e);
   readGiven(e);
-  readAssertions(e);
   readRecord(e);
+  if (m_root.find("teams")) {
+    readTournament(e);
+  } else {
+    readAssertions(e);
+  }
   if (m_report.failed()) return;
   if (team) {
     e.team = teamColors[*team].color;

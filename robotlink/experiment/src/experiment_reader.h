@@ -35,6 +35,8 @@ class ExperimentReader {
   ExperimentReader(const JsonNode& root, JsonReport& report, std::string folder);
   /// Everything but conditions. The first error is in the report.
   void read(Experiment& experiment, ConditionParts& parts);
+  /// `matches`: of each pairing of a tournament; 0: it is none.
+  std::size_t matches() const { return m_matches; }
 
  private:
   void readScenario(ConditionParts& parts);
@@ -46,12 +48,19 @@ class ExperimentReader {
   void readGiven(Experiment& experiment);
   void readAssertions(Experiment& experiment);
   void readRecord(Experiment& experiment);
+  void readTournament(Experiment& experiment);
+  void readTeam(const JsonNode& node, std::size_t index, Tournament& tournament);
+  void readPairings(Tournament& tournament);
+  void readTeamAssertions(Tournament& tournament);
+  std::optional<std::size_t> teamNamed(const JsonObject& object, std::string_view key,
+                                       const Tournament& tournament) const;
   std::vector<PlacedByHand> placedOf(const JsonObject& object);
   std::vector<ScenarioSetting> settingsOf(const JsonNode& node, const std::string& path);
 
   JsonReport& m_report;
   JsonObject m_root;
   std::string m_folder;
+  std::size_t m_matches = 0;
 };
 
 }  // namespace pitchboard::link

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -34,11 +35,9 @@ std::string conditionText(const Experiment& e) {
          (e.commonSeeds && e.conditions.size() > 1
               ? "; the same seeds in every condition (common random numbers)."
               : ".") +
-         (e.teamPrograms
-              ? " A team's own programs play: at most " + number(e.speed) +
-                    " times as fast as real time, slower when they cannot keep up; their "
-                    "runs do not repeat."
-              : "");
+         (e.hasTeamPrograms() ? " A team's own programs play: at most " + number(e.speed) +
+                                    " times as fast as real time, slower when they cannot keep up."
+                              : "");
 }
 
 Table endsTable(const ExperimentSummary& s) {
@@ -50,12 +49,21 @@ Table endsTable(const ExperimentSummary& s) {
     }
   }
   for (const std::string& end : ends) table.head.push_back(endWords(end));
+  const bool some = std::ranges::any_of(
+      s.conditions, [](const ConditionSummary& one) { return one.unrepeatable > 0; });
+  if (some) {
+    table.head.emplace_back("Not repeatable");
+    table.note =
+        "A run is not repeatable if a team's program played that the match does not wait for, or "
+        "that did not finish a cycle in time, or if it ended differently when it was played again.";
+  }
   for (const ConditionSummary& condition : s.conditions) {
     std::vector<std::string> row{condition.name, std::to_string(condition.runs)};
     for (const std::string& end : ends) {
       const auto found = condition.ends.find(end);
       row.push_back(std::to_string(found == condition.ends.end() ? 0 : found->second));
     }
+    if (some) row.push_back(std::to_string(condition.unrepeatable));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -161,10 +169,68 @@ Table assertionsTable(const ExperimentSummary& s) {
   return table;
 }
 
+std::vector<std::string> totalsCells(const MatchTotals& totals) {
+  const auto& range = totals.difference95;
+  return {std::to_string(totals.played()),
+          std::to_string(totals.won),
+          std::to_string(totals.drawn),
+          std::to_string(totals.lost),
+          std::to_string(totals.goals) + " : " + std::to_string(totals.goalsAgainst),
+          number(totals.difference),
+          range ? '[' + number(range->low) + ", " + number(range->high) + ']' : "–",
+          std::to_string(totals.points())};
+}
+
+constexpr std::array totalsHead{"Played", "Won",        "Drawn", "Lost",
+                                "Goals",  "Difference", "95 %",  "Points"};
+
+Table teamsTable(const ExperimentSummary& s) {
+  Table table{"Table",
+              "Difference: goals of a match minus goals against, the mean and its 95 % interval by "
+              "the bootstrap; the two matches that have one seed and swapped sides are drawn "
+              "together. Three points for a match won, one for a draw.",
+              {"Team"},
+              {},
+              1};
+  table.head.insert(table.head.end(), totalsHead.begin(), totalsHead.end());
+  for (const auto& [name, totals] :
+       s.tournament ? s.tournament->teams : std::vector<TournamentTable::OfTeam>{}) {
+    std::vector<std::string> row{name};
+    std::ranges::move(totalsCells(totals), std::back_inserter(row));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// With two teams the table says it.
+Table pairingsTable(const ExperimentSummary& s) {
+  Table table{"Who against whom", "", {"Team", "Against"}, {}, 2};
+  table.head.insert(table.head.end(), totalsHead.begin(), totalsHead.end());
+  if (!s.tournament || s.tournament->pairings.size() < 2) return table;
+  for (const auto& [first, second, totals] : s.tournament->pairings) {
+    std::vector<std::string> row{first, second};
+    std::ranges::move(totalsCells(totals), std::back_inserter(row));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table wrongTable(const ExperimentSummary& s) {
+  Table table{"Matches in which something went wrong", "", {"Run", "What"}, {}, 2};
+  for (const auto& [number, what] :
+       s.tournament ? s.tournament->wrong : std::vector<TournamentTable::WrongMatch>{}) {
+    table.rows.push_back({std::to_string(number), what});
+  }
+  return table;
+}
+
 std::vector<Table> tablesOf(const Experiment& e, const ExperimentSummary& s) {
   const std::vector<std::size_t> metrics = tellingMetrics(s);
-  std::vector<Table> all{assertionsTable(s), comparisonsTable(e, s), endsTable(s),
-                         metricsTable(s, metrics), differencesTable(e, s, metrics)};
+  std::vector<Table> all{teamsTable(s),           pairingsTable(s),       wrongTable(s),
+                         assertionsTable(s),      comparisonsTable(e, s), endsTable(s),
+                         metricsTable(s, metrics)};
+  // Of a tournament, conditions are matches of different teams.
+  if (!s.tournament) all.push_back(differencesTable(e, s, metrics));
   std::erase_if(all, [](const Table& table) { return table.rows.empty(); });
   return all;
 }
@@ -323,13 +389,16 @@ std::string experimentReportHtml(const Experiment& e, const ResultTable& results
     fields += pathsHtml(e, results.conditions[c], c, s.conditions[c].name);
   }
   const std::vector<Table> tables = tablesOf(e, s);
+  const auto leads = [](const Table& table) {
+    return table.title == "Assertions" || table.title == "Table" ||
+           table.title == "Who against whom";
+  };
   for (const Table& table : tables) {
-    if (table.title == "Assertions") out += tableHtml(table);
+    if (leads(table)) out += tableHtml(table);
   }
-  if (!fields.empty())
-    out += "<h2>Ways on the field</h2>\n<div class=\"fields\">" + fields + "</div>\n";
+  if (!fields.empty()) out += "<h2>Trajectories</h2>\n<div class=\"fields\">" + fields + "</div>\n";
   for (const Table& table : tables) {
-    if (table.title != "Assertions") out += tableHtml(table);
+    if (!leads(table)) out += tableHtml(table);
   }
   return out + distributionsHtml(results, s) + "</main></body></html>\n";
 }

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "checks.h"
-#include "numbers.h"
+#include "tournament_parts.h"
 
 namespace pitchboard::link {
 namespace {
@@ -18,26 +18,10 @@ std::size_t metricIndex(const std::vector<MetricInfo>& metrics, const std::strin
   return static_cast<std::size_t>(found - metrics.begin());
 }
 
-CheckedAssertion checked(const Assertion& assertion, const ResultTable& table,
-                         std::size_t condition, const std::string& name) {
-  CheckedAssertion out{name, assertion.text, false, {}};
-  auto check = Check::parse(assertion.text, Check::Over::Condition, table.metrics);
-  if (!check) {
-    out.values = check.error().message;
-    return out;
-  }
-  std::vector<double> values;
-  for (const Check::Name& one : check->names()) {
-    std::vector<double> sorted;
-    for (const double value : table.conditions[condition].columns[one.metric]) {
-      if (std::isfinite(value)) sorted.push_back(value);
-    }
-    std::ranges::sort(sorted);
-    values.push_back(statisticOf(one.statistic, sorted));
-    out.values += (out.values.empty() ? "" : ", ") + one.written + " = " + number(values.back());
-  }
-  out.holds = check->holds(values);
-  return out;
+ResultTable::OfCondition::Outcome outcomeOf(const Experiment& experiment,
+                                            const MatchResult& match) {
+  const bool second = match.teams[1].colour == experiment.team;
+  return {match.teams[second ? 1 : 0].score, match.teams[second ? 0 : 1].score, match.repeatable};
 }
 
 }  // namespace
@@ -47,6 +31,7 @@ ResultTable::ResultTable(const Experiment& experiment)
   for (OfCondition& condition : conditions) {
     condition.columns.assign(metrics.size(), std::vector<double>(experiment.runs, nan));
     condition.played.assign(experiment.runs, 0);
+    condition.outcomes.resize(experiment.runs);
   }
 }
 
@@ -54,23 +39,29 @@ std::size_t ResultTable::OfCondition::count() const {
   return static_cast<std::size_t>(std::ranges::count(played, 1));
 }
 
+std::size_t ResultTable::OfCondition::countUnrepeatable() const {
+  return static_cast<std::size_t>(std::ranges::count(outcomes, false, &Outcome::repeatable));
+}
+
 void ResultTable::add(const Experiment& experiment, const RunResult& result) {
   const RunPlace place = placeOf(experiment, result.number);
   OfCondition& condition = conditions[place.condition];
   if (condition.played[place.index]) return;
   condition.played[place.index] = 1;
-  ++condition.ends[result.endedBy];
+  ++condition.ends[result.match.endedBy];
+  condition.outcomes[place.index] = outcomeOf(experiment, result.match);
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     condition.columns[i][place.index] = result.values[i];
   }
   if (result.paths.empty()) return;
   const auto after = std::ranges::find_if(
       condition.drawn, [&](const OfCondition::Drawn& one) { return one.number > result.number; });
-  condition.drawn.insert(after, {result.number, result.endedBy, result.paths});
+  condition.drawn.insert(after, {result.number, result.match.endedBy, result.paths});
 }
 
 bool ExperimentSummary::holds() const {
-  return std::ranges::all_of(assertions, [](const CheckedAssertion& one) { return one.holds; });
+  return (!tournament || tournament->wrong.empty()) &&
+         std::ranges::all_of(assertions, [](const CheckedAssertion& one) { return one.holds; });
 }
 
 ExperimentSummary summarize(const Experiment& experiment, const ResultTable& table) {
@@ -78,7 +69,8 @@ ExperimentSummary summarize(const Experiment& experiment, const ResultTable& tab
   out.metrics = table.metrics;
   for (std::size_t c = 0; c < experiment.conditions.size(); ++c) {
     const ResultTable::OfCondition& rows = table.conditions[c];
-    ConditionSummary condition{experiment.conditions[c].name, rows.count(), rows.ends, {}};
+    ConditionSummary condition{
+        experiment.conditions[c].name, rows.count(), rows.ends, rows.countUnrepeatable(), {}};
     for (std::size_t m = 0; m < out.metrics.size(); ++m) {
       condition.metrics.push_back(summaryOf(rows.columns[m], out.metrics[m].rate));
     }
@@ -113,8 +105,14 @@ ExperimentSummary summarize(const Experiment& experiment, const ResultTable& tab
     for (std::size_t c = 0; c < out.conditions.size(); ++c) {
       const std::string& name = out.conditions[c].name;
       if (!assertion.condition.empty() && assertion.condition != name) continue;
-      out.assertions.push_back(checked(assertion, table, c, name));
+      out.assertions.push_back(
+          checkedBy(assertion.text, name, table.metrics,
+                    [&](std::size_t metric, bool) { return table.conditions[c].columns[metric]; }));
     }
+  }
+  if (experiment.tournament) {
+    out.tournament = tableOf(experiment, table);
+    out.assertions = checkedAssertions(experiment, table);
   }
   return out;
 }

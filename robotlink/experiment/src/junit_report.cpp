@@ -9,26 +9,60 @@ namespace {
 constexpr const char* head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
 constexpr const char* foot = "</testsuites>\n";
 
+/// A test suite that is being written.
+class Suite {
+ public:
+  Suite(std::string name, std::string group) : m_name(std::move(name)), m_group(std::move(group)) {}
+
+  /// `failure`: empty if the test passed.
+  void add(const std::string& name, const std::string& failure) {
+    ++m_count;
+    m_tests += "    <testcase classname=\"" + escaped(m_group) + "\" name=\"" + escaped(name) + '"';
+    if (failure.empty()) {
+      m_tests += "/>\n";
+      return;
+    }
+    ++m_failures;
+    m_tests += ">\n      <failure message=\"" + escaped(failure) + "\"/>\n    </testcase>\n";
+  }
+  std::string text() const {
+    return "  <testsuite name=\"" + escaped(m_name) + "\" tests=\"" + std::to_string(m_count) +
+           "\" failures=\"" + std::to_string(m_failures) + "\">\n" + m_tests + "  </testsuite>\n";
+  }
+
+ private:
+  std::string m_name, m_group, m_tests;
+  std::size_t m_count = 0, m_failures = 0;
+};
+
+void add(const CheckedAssertion& one, Suite& suite) {
+  suite.add(one.condition + ": " + one.text, one.holds ? "" : one.values);
+}
+
+/// A test for each assertion, and one for each match in which something went wrong.
+std::string tournamentSuite(const Experiment& experiment, const ExperimentSummary& summary) {
+  Suite suite(experiment.name, experiment.name);
+  for (const CheckedAssertion& one : summary.assertions) add(one, suite);
+  const auto& wrong = summary.tournament->wrong;
+  for (const auto& [number, what] : wrong) {
+    const RunPlace place = placeOf(experiment, number);
+    suite.add("run " + std::to_string(number) + ": " + experiment.conditions[place.condition].name +
+                  ", seed " + std::to_string(seedOf(experiment, place)),
+              what);
+  }
+  if (wrong.empty()) suite.add("nothing went wrong in a match", "");
+  return suite.text();
+}
+
 std::string suites(const Experiment& experiment, const ExperimentSummary& summary) {
+  if (summary.tournament) return tournamentSuite(experiment, summary);
   std::string out;
   for (const ConditionSummary& condition : summary.conditions) {
-    std::string tests;
-    std::size_t count = 0, failures = 0;
+    Suite suite(experiment.name + ": " + condition.name, experiment.name);
     for (const CheckedAssertion& one : summary.assertions) {
-      if (one.condition != condition.name) continue;
-      ++count;
-      tests += "    <testcase classname=\"" + escaped(experiment.name) + "\" name=\"" +
-               escaped(one.condition + ": " + one.text) + '"';
-      if (one.holds) {
-        tests += "/>\n";
-        continue;
-      }
-      ++failures;
-      tests += ">\n      <failure message=\"" + escaped(one.values) + "\"/>\n    </testcase>\n";
+      if (one.condition == condition.name) add(one, suite);
     }
-    out += "  <testsuite name=\"" + escaped(experiment.name + ": " + condition.name) +
-           "\" tests=\"" + std::to_string(count) + "\" failures=\"" + std::to_string(failures) +
-           "\">\n" + tests + "  </testsuite>\n";
+    out += suite.text();
   }
   return out;
 }

@@ -39,6 +39,24 @@ bool isGoalkeeper(const sim::WorldState& world, const sim::RobotIdentity& robot)
   return player && player->goalkeeper;
 }
 
+bool isTransition(sim::PlayState from, sim::PlayState to, sim::GamePhase phase) {
+  using S = sim::PlayState;
+  switch (to) {
+    case S::Initial:
+      return from == S::Finished || phase == sim::GamePhase::Timeout;
+    case S::Ready:
+      return from == S::Initial || from == S::Playing;
+    case S::Set:
+      return from == S::Ready ||
+             (phase == sim::GamePhase::ShootOut && (from == S::Initial || from == S::Finished));
+    case S::Playing:
+      return from == S::Set;
+    case S::Finished:
+      return from == S::Ready || from == S::Set || from == S::Playing;
+  }
+  return false;
+}
+
 }  // namespace
 
 void MatchWatch::ticked(const sim::WorldState& world, std::span<const sim::Event> events) {
@@ -49,8 +67,22 @@ void MatchWatch::ticked(const sim::WorldState& world, std::span<const sim::Event
   m_readies += ready && !m_ready;
   m_readyTicks += ready;
   m_ready = ready;
+  followStates(*world.game, events);
   followPass(world, events);
   followRemovals(world, events);
+}
+
+void MatchWatch::followStates(const sim::GameState& game, std::span<const sim::Event> events) {
+  if (!m_state) {
+    m_state = game.state;
+    return;
+  }
+  for (const sim::Event& event : events) {
+    if (event.kind != sim::EventKind::PlayStateChanged) continue;
+    const auto next = static_cast<sim::PlayState>(event.value);
+    m_illegalTransitions += !isTransition(*m_state, next, game.phase);
+    m_state = next;
+  }
 }
 
 void MatchWatch::followPass(const sim::WorldState& world, std::span<const sim::Event> events) {

@@ -46,6 +46,8 @@ class MatchWatch {
   int removedAgain() const { return m_removedAgain; }
   /// The longest time in play that a robot meant to walk and stayed within 0.1 m, s.
   double longestStuck() const { return m_longestStuck; }
+  /// Changes of the game's state that the leagues' rules do not know.
+  int illegalTransitions() const { return m_illegalTransitions; }
   /// A READY on average, s.
   double ready() const;
 
@@ -65,6 +67,7 @@ class MatchWatch {
                         : std::numeric_limits<double>::quiet_NaN();
   }
   void followPass(const sim::WorldState& world, std::span<const sim::Event> events);
+  void followStates(const sim::GameState& game, std::span<const sim::Event> events);
   void followRemovals(const sim::WorldState& world, std::span<const sim::Event> events);
   void countClose(const sim::WorldState& world, const sim::Snapshot& now);
   void watchStuck(const sim::WorldState& world, const sim::Snapshot& now);
@@ -84,6 +87,8 @@ class MatchWatch {
   std::uint64_t m_readyTicks = 0;
   int m_readies = 0;
   bool m_ready = false;
+  std::optional<sim::PlayState> m_state;
+  int m_illegalTransitions = 0;
   double m_tickRate = 60.0;
 };
 

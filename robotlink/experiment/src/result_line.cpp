@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "result_line.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cinttypes>
 #include <cmath>
@@ -13,13 +14,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr double centimetres = 100.0;
-constexpr std::size_t mostPaths = 70, mostCoordinates = 10'000;
+constexpr std::size_t mostPaths = 70, mostCoordinates = 10'000, mostHalves = 4;
+constexpr std::uint64_t mostGoals = 1'000'000;
 
 Json valueOf(double value) {
   if (!std::isfinite(value)) return nullptr;
   // Whole numbers without ".0": most of them are counts.
   if (value == std::round(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
   return value;
+}
+
+Json teamResultJson(const TeamResult& team) {
+  Json out{{"colour", info(team.colour).name}, {"side", sideName(team.side)}};
+  if (!team.name.empty()) out["name"] = team.name;
+  if (team.number) out["number"] = *team.number;
+  out["score"] = team.score;
+  if (!team.byHalf.empty()) out["by_half"] = team.byHalf;
+  return out;
 }
 
 tl::unexpected<Error> wrongLine(std::string sentence) {
@@ -52,6 +63,39 @@ bool readPaths(const Json& json, RunResult& result) {
   return true;
 }
 
+bool isCount(const Json& json) {
+  return json.is_number_unsigned() && json.get<std::uint64_t>() <= mostGoals;
+}
+
+bool readTeam(const Json& json, TeamResult& team) {
+  if (!json.is_object()) return false;
+  const auto text = [&json](const char* key) { return json.value(key, Json("")); };
+  const Json colour = text("colour"), side = text("side"), name = text("name");
+  const Json score = json.value("score", Json()), halves = json.value("by_half", Json::array());
+  if (!colour.is_string() || !side.is_string() || !name.is_string() || !isCount(score) ||
+      !halves.is_array() || halves.size() > mostHalves || !std::ranges::all_of(halves, isCount)) {
+    return false;
+  }
+  const auto known = std::ranges::find(teamColors, colour.get<std::string>(), &TeamColorInfo::name);
+  const auto defends = sideNamed(side.get<std::string>());
+  if (known == teamColors.end() || !defends) return false;
+  team.colour = known->color;
+  team.side = *defends;
+  team.name = name.get<std::string>();
+  team.score = score.get<int>();
+  for (const Json& goals : halves) team.byHalf.push_back(goals.get<int>());
+  if (const auto number = json.find("number"); number != json.end()) {
+    if (!isCount(*number)) return false;
+    team.number = number->get<int>();
+  }
+  return true;
+}
+
+bool readTeams(const Json& json, MatchResult& match) {
+  if (!json.is_array() || json.size() != match.teams.size()) return false;
+  return readTeam(json[0], match.teams[0]) && readTeam(json[1], match.teams[1]);
+}
+
 }  // namespace
 
 std::string lineOf(const RunResult& result) {
@@ -59,8 +103,16 @@ std::string lineOf(const RunResult& result) {
   std::snprintf(hash, sizeof hash, "0x%016" PRIx64, result.hash);
   Json values = Json::array();
   for (const double value : result.values) values.push_back(valueOf(value));
-  Json out{{"run", result.number},  {"seed", result.seed}, {"end", result.endedBy},
-           {"ticks", result.ticks}, {"hash", hash},        {"values", std::move(values)}};
+  Json teams = Json::array();
+  for (const TeamResult& team : result.match.teams) teams.push_back(teamResultJson(team));
+  Json out{{"run", result.number},
+           {"seed", result.seed},
+           {"end", result.match.endedBy},
+           {"ticks", result.ticks},
+           {"hash", hash},
+           {"repeatable", result.match.repeatable},
+           {"teams", std::move(teams)},
+           {"values", std::move(values)}};
   if (!result.paths.empty()) {
     Json paths = Json::array();
     for (const RunPath& path : result.paths) {
@@ -92,10 +144,16 @@ Result<RunResult> resultFromLine(std::string_view line, const Experiment& experi
   const auto number = whole("run"), seed = whole("seed"), ticks = whole("ticks");
   const auto hash = hashFrom(text("hash"));
   RunResult out;
-  out.endedBy = text("end");
-  if (!number || !seed || !ticks || !hash || out.endedBy.empty() || out.endedBy.size() > 32) {
+  out.match.endedBy = text("end");
+  if (!number || !seed || !ticks || !hash || out.match.endedBy.empty() ||
+      out.match.endedBy.size() > 32) {
     return wrongLine("has no run, seed, end, ticks or hash");
   }
+  const Json repeatable = json.value("repeatable", Json());
+  if (!repeatable.is_boolean() || !readTeams(json.value("teams", Json()), out.match)) {
+    return wrongLine("does not say how the match ended for both teams");
+  }
+  out.match.repeatable = repeatable.get<bool>();
   if (*number < 1 || *number > experiment.allRuns()) {
     return wrongLine("has run " + std::to_string(*number) + ", but the experiment has " +
                      std::to_string(experiment.allRuns()));

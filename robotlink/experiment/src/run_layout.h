@@ -48,9 +48,10 @@ enum class TeamValue : std::size_t {
   RemovalsStuck,
   RemovalsLeaving,
   LongestStuck,
+  IllegalTransitions,
   Ready
 };
-inline constexpr std::size_t teamValueCount = 35;
+inline constexpr std::size_t teamValueCount = 36;
 
 enum class RobotValue : std::size_t { Walked, Kicks, BeliefError };
 inline constexpr std::size_t robotValueCount = 3;

@@ -50,7 +50,7 @@ Result<ReducedExpression> ReducedExpression::make(const ExpressionMetric& metric
       return failure(ErrorCode::NotFound,
                      "there is no variable " + variable +
                          " in this match; groups are the robots' "
-                         "names and \"match\" (docs/PLOTS.md)",
+                         "names and \"match\" (docs/plots.md)",
                      "metrics: " + metric.name);
     }
     places.push_back(*place);
@@ -352,6 +352,8 @@ double RunMeasure::teamValue(TeamValue which, const Sums& sums) const {
       return m_watch.removalsFor(sim::PenaltyKind::Leaving);
     case TeamValue::LongestStuck:
       return m_watch.longestStuck();
+    case TeamValue::IllegalTransitions:
+      return m_watch.illegalTransitions();
     case TeamValue::Ready:
       return m_watch.ready();
   }
@@ -364,7 +366,8 @@ RunResult RunMeasure::result(const SimulatedMatch& match) {
   RunResult out;
   out.number = m_run.number;
   out.seed = match.simulation().state().settings.seed;
-  out.endedBy = m_endedBy;
+  out.match = match.result();
+  out.match.endedBy = m_endedBy;
   out.ticks = m_now.tick;
   out.hash = match.simulation().hash();
 

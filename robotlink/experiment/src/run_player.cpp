@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <mutex>
 #include <thread>
 
@@ -22,6 +23,7 @@
 namespace pitchboard::link {
 namespace {
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 using WallClock = std::chrono::steady_clock;
 constexpr auto timeBetweenLooks = std::chrono::milliseconds(50);
 constexpr std::uint64_t ticksBetweenLooks = 64;  // at the clock and at who cancels
@@ -97,7 +99,8 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   MatchOptions options;
   options.cognition = e.separateProcesses ? Cognition::Separate : Cognition::Inline;
   options.robotProgram = m_settings.robotProgram;
-  options.speed = e.teamPrograms ? e.speed : MatchPlayer::unlimitedSpeed;
+  const bool teamPrograms = e.conditions[run.condition].teamPrograms;
+  options.speed = teamPrograms ? e.speed : MatchPlayer::unlimitedSpeed;
   auto match = TRY(SimulatedMatch::create(scenario, options));
 
   const auto begin = WallClock::now();
@@ -127,7 +130,7 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   if (measure->problem()) return tl::unexpected(*measure->problem());
 
   std::optional<TeamPrograms> own;
-  if (e.teamPrograms) own.emplace(player, e.speed);
+  if (teamPrograms) own.emplace(player, e.speed);
   TRY(own ? own->begin(m_settings.cancelled) : Result<void>());
   const auto firstTick = player.currentTick();
   const auto first = WallClock::now();
@@ -137,12 +140,15 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   for (const Check::Name& name : m_success->names()) values.push_back(result.values[name.metric]);
   result.values[static_cast<std::size_t>(TeamValue::Success)] = m_success->holds(values);
   m_timesRealTime.reset();
-  if (e.separateProcesses) {
+  if (e.separateProcesses || own) {
     const double took = std::chrono::duration<double>(WallClock::now() - first).count();
     const auto ticks = static_cast<double>(player.currentTick() - firstTick);
     m_timesRealTime = ticks / rate / std::max(took, 1e-9);
   }
-  if (own) result.values.insert(result.values.end(), {*m_timesRealTime, own->keptUp()});
+  if (e.hasTeamPrograms()) {
+    result.values.push_back(own ? *m_timesRealTime : unknown);
+    result.values.push_back(own ? own->keptUp() : unknown);
+  }
   m_wall = std::chrono::duration<double>(WallClock::now() - begin).count();
   m_simulated = static_cast<double>(result.ticks) / rate;
   if (recorder) {
@@ -157,6 +163,7 @@ Result<void> RunPlayer::loop(MatchPlayer& player, const RunMeasure& measure, std
   const Experiment& e = *m_experiment;
   Hand hand(e.conditions[condition].placed, player);
   auto looked = WallClock::now();
+  const bool separate = !player.match().robots().processes().statuses().empty();
   while (measure.endedBy().empty() && !player.match().finished()) {
     TRY(hand.act());
     if (own) own->wait();
@@ -165,7 +172,7 @@ Result<void> RunPlayer::loop(MatchPlayer& player, const RunMeasure& measure, std
     if (m_settings.cancelled && *m_settings.cancelled) {
       return failure(ErrorCode::Conflict, "cancelled");
     }
-    if (own || !e.separateProcesses) continue;
+    if (own || !separate) continue;
     if (const auto now = WallClock::now(); now - looked >= timeBetweenLooks) {
       looked = now;
       player.lookAfterProcesses(now);
@@ -180,6 +187,25 @@ std::string sessionPath(const std::string& folder, std::size_t number) {
   return (std::filesystem::path(folder) / sessionsFolder / name).string();
 }
 
+Result<RunResult> recordAgain(const std::string& folder, const Experiment& experiment,
+                              std::size_t number, const std::string& path,
+                              const PlaySettings& settings) {
+  const auto before = TRY(resultOf(folder, experiment, number));
+  std::error_code ignored;
+  if (const auto parent = std::filesystem::path(path).parent_path(); !parent.empty()) {
+    std::filesystem::create_directories(parent, ignored);
+  }
+  auto player = TRY(RunPlayer::create(experiment, settings));
+  auto result = player.record(number, path, settings.program);
+  if (!result || result->hash == before.hash || !before.match.repeatable) return result;
+  TRY(markUnrepeatable(folder, experiment, number));
+  return failure(ErrorCode::Conflict,
+                 "run " + std::to_string(number) +
+                     " ended in a different state than in the results, which say now that it is not "
+                     "repeatable; were they played by another version?",
+                 path);
+}
+
 namespace {
 
 /// Runs that cannot be played again are recorded while they are played, those that are wanted when
@@ -187,7 +213,9 @@ namespace {
 Result<RunResult> playAndKeep(RunPlayer& player, const Experiment& e, std::size_t number,
                               const PlaySettings& settings) {
   const bool mayBeWanted = isRecorded(e, number, true) || isRecorded(e, number, false);
-  if (!e.teamPrograms || settings.folder.empty() || !mayBeWanted) return player.play(number);
+  if (!e.conditions[placeOf(e, number).condition].teamPrograms || settings.folder.empty() ||
+      !mayBeWanted)
+    return player.play(number);
   const std::filesystem::path path = sessionPath(settings.folder, number);
   std::error_code ignored;
   std::filesystem::create_directories(path.parent_path(), ignored);

@@ -50,6 +50,7 @@ constexpr std::array<TeamMetric, teamValueCount> teamTable{{
     {"removals_stuck", "", "Removals from a stuck ball"},
     {"removals_leaving", "", "Removals for leaving the field"},
     {"longest_stuck_s", "s", "Longest time that a robot was stuck"},
+    {"illegal_transitions", "", "Changes of state that no rules know"},
     {"ready_s", "s", "A READY"},
 }};
 static_assert(teamTable.back().name != nullptr, "every TeamValue needs its row");
@@ -102,7 +103,7 @@ std::vector<MetricInfo> metricsOf(const Experiment& experiment) {
     out.push_back({metric.name, metric.unit, metric.name, false});
   }
   // A measured time differs from run to run, which those of reference processes must not.
-  if (experiment.teamPrograms) {
+  if (experiment.hasTeamPrograms()) {
     out.push_back({"times_real_time", "", "Played, times real time", false});
     out.push_back({"own_programs_kept", "", "What own programs kept of that (1 = all)", false});
   }

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include <base/ids.h>
 #include <base/try.h>
+#include <simcore/world/team_color.h>
 
 namespace pitchboard::link {
 namespace {

@@ -26,7 +26,7 @@ std::optional<Pose> beliefOf(const RobotReader& reader, const sim::FieldSpec& fi
   return sim::published_frame::studioFromLocalization(field, {sane(*x), sane(*y), degrees});
 }
 
-/// SYSTEM.md section 7: in distance BALL_DIST, at angle THETA + BALL_ANGLE; -1 is no ball.
+/// system.md section 7: in distance BALL_DIST, at angle THETA + BALL_ANGLE; -1 is no ball.
 std::optional<SeenBall> ballSeenFrom(const Pose& origin, const RobotReader& reader,
                                      const sim::FieldSpec& field) {
   const auto distance = reader(FieldMeaning::BallDistance), angle = reader(FieldMeaning::BallAngle);

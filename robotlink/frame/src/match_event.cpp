@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include <base/actions.h>
 #include <base/duration_words.h>
 #include <robotlink/frame/match_frame.h>
+#include <simcore/world/action_codes.h>
 
 namespace pitchboard::link {
 namespace {
@@ -27,6 +27,9 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
     {Kind::GotUp, "got-up", "is up again", Shape::None, 0, false, false, ""},
     {Kind::UnknownAction, "unknown-action", "chose an unknown action, which counts as stop",
      Shape::None, 0, false, true, ""},
+    {Kind::BallSeen, "ball-seen", "sees the ball", Shape::None, 0, false, false, ""},
+    {Kind::BallLost, "ball-lost", "lost the ball: not seen for 2 s", Shape::BallLost, 0, false,
+     false, ""},
     {Kind::GameState, "referee", "", Shape::GameState, 6, true, false, "referee"},
     {Kind::MatchOver, "match-over", "the match is over", Shape::GameState, 6, true, false,
      "simulation"},
@@ -35,15 +38,15 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
     {Kind::GamePhase, "game-phase", "normal time", Shape::None, 0, false, false, "referee"},
     {Kind::PlayStopped, "play-stopped", "play is stopped", Shape::None, 0, false, false, "referee"},
     {Kind::PlayGoesOn, "play-goes-on", "play goes on", Shape::None, 0, false, false, "referee"},
-    {Kind::RefereeReceived, "referee-heard", "heard", Shape::None, 0, false, false, "referee"},
-    {Kind::RefereeOffline, "referee-silent", "not heard any more: the last state is shown",
-     Shape::None, 0, false, true, "referee"},
-    {Kind::RefereeBack, "referee-back", "is heard again", Shape::None, 0, false, false, "referee"},
-    {Kind::SecondReferee, "second-referee", "a second referee program is heard", Shape::None, 0,
+    {Kind::RefereeReceived, "referee-heard", "receiving", Shape::None, 0, false, false, "referee"},
+    {Kind::RefereeOffline, "referee-silent", "offline: the last state is kept", Shape::None, 0,
      false, true, "referee"},
-    {Kind::RobotReceived, "robot-heard", "is heard", Shape::None, 0, false, false, ""},
-    {Kind::RobotOffline, "timeout", "is not heard any more", Shape::Silent, 7, false, true, ""},
-    {Kind::RobotBack, "recovery", "is heard again", Shape::Back, 2, false, false, ""},
+    {Kind::RefereeBack, "referee-back", "is back", Shape::None, 0, false, false, "referee"},
+    {Kind::SecondReferee, "second-referee", "a second referee program is sending", Shape::None, 0,
+     false, true, "referee"},
+    {Kind::RobotReceived, "robot-heard", "is online", Shape::None, 0, false, false, ""},
+    {Kind::RobotOffline, "timeout", "went offline", Shape::Silent, 7, false, true, ""},
+    {Kind::RobotBack, "recovery", "is online again", Shape::Back, 2, false, false, ""},
     {Kind::SecondSender, "second-sender", "is also sent by another program", Shape::None, 0, false,
      true, ""},
     {Kind::BatteryLow, "battery-low", "has a low battery", Shape::Warning, 4, false, true, ""},
@@ -60,14 +63,16 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
     {Kind::ProcessDied, "process-died", "died", Shape::Died, 8, false, true, ""},
     {Kind::ProcessSilent, "process-silent", "stopped responding", Shape::Silent, 7, false, true,
      ""},
-    {Kind::ProcessGivenUp, "process-given-up", "is not started any more", Shape::Died, 8, false,
+    {Kind::ProcessGivenUp, "process-given-up", "is no longer restarted", Shape::Died, 8, false,
      true, ""},
     {Kind::ProcessRealTime, "process-real-time", "keeps real time", Shape::None, 0, false, true,
      ""},
     {Kind::ProcessNotAttached, "process-not-attached", "has not attached to its blackboard",
      Shape::Warning, 5, false, true, ""},
+    {Kind::CycleLate, "cycle-late", "did not finish its cycle in time", Shape::Silent, 7, false,
+     true, ""},
     {Kind::PortLost, "port-lost", "cannot be received", Shape::None, 0, false, true, "network"},
-    {Kind::PortBack, "port-back", "is received now", Shape::None, 0, false, false, "network"},
+    {Kind::PortBack, "port-back", "is open now", Shape::None, 0, false, false, "network"},
     {Kind::Undone, "undone", "decision undone", Shape::None, 0, false, false, "referee"},
     {Kind::Bookmark, "bookmark", "bookmark", Shape::Bookmark, 10, true, false, "studio"},
     {Kind::Other, "warning", "warning", Shape::Warning, 5, false, true, "session"},
@@ -168,7 +173,7 @@ std::string predicateOf(const MatchEvent& event) {
     case Kind::ProcessNotAttached:
       return wordsAnd(event, " ");
     case Kind::PortLost:
-      return event.detail + " It is tried again; the other ports work.";
+      return event.detail + " Trying again; the other ports work.";
     case Kind::PortBack:
       return "port " + std::to_string(event.value.value_or(0)) + ' ' +
              std::string(info(event.kind).words);

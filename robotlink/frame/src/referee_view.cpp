@@ -23,7 +23,7 @@ void describeSetPlay(const RefereeState& state, std::string& setPlay, std::strin
   }
 }
 
-/// Who takes the set play and how far it is (docs/LIVE.md, "Referee").
+/// Who takes the set play and how far it is (docs/live.md, "Referee").
 void describeTaking(const RefereeState& state, RefereeView& view) {
   constexpr int firstOfSetPlays = 4;       // of the secondary state: free kicks and what follows
   constexpr int sizeWithThreeSteps = 688;  // until 2018 there were two, counted the other way

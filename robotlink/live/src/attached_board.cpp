@@ -70,11 +70,9 @@ Result<AttachedBoard> parseAttachedBoard(std::string_view text) {
     } else if (name == "rate") {
       good = readNumber(value, board.rate);
     } else if (name == "team") {
-      for (const TeamColorInfo& known : teamColors) {
-        if (known.name != value) continue;
-        board.team = known.color;
-        good = true;
-      }
+      const auto team = teamColorNamed(value);
+      good = team.has_value();
+      board.team = team.value_or(board.team);
     }
     if (!good) {
       return tl::unexpected(

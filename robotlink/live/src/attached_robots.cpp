@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/live/attached_robots.h>
 
-#include <time.h>
-
 #include <algorithm>
 #include <chrono>
 #include <mutex>
@@ -29,18 +27,6 @@ constexpr auto lookInterval = 100ms;  // is it still the segment of this key?
 constexpr auto longestSleep = 50ms;   // so that stopping takes no longer
 constexpr auto rateWindow = 1s;
 constexpr std::size_t mostRows = 4096;  // waiting; older ones are lost, counted
-
-/// More even than a condition variable. The clock is CLOCK_MONOTONIC in the standard libraries of
-/// Linux.
-void sleepUntil(Clock::time_point until) {
-  const auto since = until.time_since_epoch();
-  const auto seconds = std::chrono::floor<std::chrono::seconds>(since);
-  timespec at{};
-  at.tv_sec = static_cast<time_t>(seconds.count());
-  at.tv_nsec = static_cast<long>(std::chrono::nanoseconds(since - seconds).count());
-  // An interrupted sleep is taken up by the caller's loop.
-  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
-}
 
 }  // namespace
 
@@ -137,7 +123,9 @@ class AttachedRobots::Reader {
         windowStart = now;
         inWindow = 0;
       }
-      sleepUntil(std::min(view ? std::min(due, nextLook) : nextLook, now + longestSleep));
+      // More even than a condition variable.
+      std::this_thread::sleep_until(
+          std::min(view ? std::min(due, nextLook) : nextLook, now + longestSleep));
       if (!view) due = Clock::now();
     }
   }

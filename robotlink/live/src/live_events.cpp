@@ -120,6 +120,9 @@ void LiveEvents::compareRobot(const RobotFrame& received, double time,
       known.lowFraction = received.battery->fraction;
     }
   }
+  if (!link.timedOut) {
+    if (const auto kind = known.ball.look(received.ball.has_value(), time)) say(*kind);
+  }
   known.address = link.sender.address;
   known.timedOut = link.timedOut;
   known.conflict = link.conflict;

@@ -70,13 +70,6 @@ RefereeView receivedView(const telemetry::RefereeTracker& tracker, const Teams& 
 
 }  // namespace
 
-std::optional<TeamColor> teamColour(std::string_view words) {
-  for (const TeamColorInfo& known : teamColors) {
-    if (known.name == words) return known.color;
-  }
-  return std::nullopt;
-}
-
 MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& team,
                      const telemetry::RefereeTracker& referee, double time) {
   MatchFrame frame;

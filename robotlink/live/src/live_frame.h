@@ -11,7 +11,4 @@ namespace pitchboard::link {
 MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& team,
                      const telemetry::RefereeTracker& referee, double time);
 
-/// "blue" to Blue; nothing for colours that robots cannot be drawn in.
-std::optional<TeamColor> teamColour(std::string_view words);
-
 }  // namespace pitchboard::link

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include <base/actions.h>
+#include <simcore/world/action_codes.h>
 #include <telemetry/series/group_order.h>
 
 namespace pitchboard::telemetry {

@@ -74,7 +74,7 @@ LiveOptions optionsFrom(const Json& json) {
   if (auto field = sim::fieldByName(lenient::text(json, "field"))) options.field = *field;
   options.ourTeam = whole<int>(json, "ourTeam");
   options.refereeVersion = whole<int>(json, "refereeVersion");
-  options.ourColour = teamColour(lenient::text(json, "ourColour"));
+  options.ourColour = teamColorNamed(lenient::text(json, "ourColour"));
   options.colourByNumber = flag(json, "colourByNumber");
   options.team.timeout = Duration(whole(json, "timeout", options.team.timeout.count()));
   options.team.duplicateWindow =

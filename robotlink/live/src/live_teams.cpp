@@ -41,7 +41,7 @@ telemetry::MonitorOptions monitorOptions(const LiveOptions& options) {
 
 Result<void> chooseOurTeam(LiveOptions& options, std::string_view text) {
   constexpr int mostNumber = 65535;
-  options.ourColour = teamColour(text);
+  options.ourColour = teamColorNamed(text);
   options.ourTeam = 0;
   if (options.ourColour) return {};
   const char* const end = text.data() + text.size();
@@ -58,7 +58,8 @@ Result<void> chooseOurTeam(LiveOptions& options, std::string_view text) {
 int ourNumber(const LiveOptions& options, const telemetry::RefereeState* referee) {
   if (options.ourTeam != 0 || !options.ourColour || referee == nullptr) return options.ourTeam;
   for (const telemetry::RefereeTeam& team : referee->teams) {
-    if (teamColour(telemetry::colourWords(team.colour)) == options.ourColour) return team.number;
+    if (teamColorNamed(telemetry::colourWords(team.colour)) == options.ourColour)
+      return team.number;
   }
   return 0;
 }
@@ -66,7 +67,7 @@ int ourNumber(const LiveOptions& options, const telemetry::RefereeState* referee
 Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee) {
   const auto toldOf = [referee](int number) -> std::optional<TeamColor> {
     const auto* team = referee != nullptr && number > 0 ? referee->team(number) : nullptr;
-    return team == nullptr ? std::nullopt : teamColour(telemetry::colourWords(team->colour));
+    return team == nullptr ? std::nullopt : teamColorNamed(telemetry::colourWords(team->colour));
   };
   const std::vector<TeamSetup>& setups = options.team.teams;
   const int chosen = ourNumber(options, referee);
@@ -74,7 +75,8 @@ Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee
   auto ours = setups.end();
   if (chosen != 0) ours = std::ranges::find(setups, chosen, &TeamSetup::number);
   if (ours == setups.end() && options.ourColour) {
-    ours = std::ranges::find(setups, options.ourColour, &TeamSetup::colour);
+    ours = std::ranges::find(setups, options.ourColour,
+                             [](const TeamSetup& setup) { return teamColorNamed(setup.colour); });
   }
   if (ours == setups.end()) ours = setups.begin();
   Teams teams(1);
@@ -82,7 +84,8 @@ Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee
   for (auto setup = setups.begin(); setup != setups.end(); ++setup) {
     const bool isOurs = setup == ours;
     const int number = setup->number > 0 || !isOurs ? setup->number : chosen;
-    teams.push_back({number, setup->name, setup->colour ? setup->colour : toldOf(number), isOurs});
+    const auto colour = teamColorNamed(setup->colour);
+    teams.push_back({number, setup->name, colour ? colour : toldOf(number), isOurs});
   }
   Team& our = *std::ranges::find(teams, true, &Team::ours);
   if (!our.colour) our.colour = options.ourColour;

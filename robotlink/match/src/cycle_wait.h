@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The word by which a team's program plays in lock-step with the match (docs/ROBOTS.md, "A program
-// that cooperates"): after each tick the match asks those that have answered so far, all at once,
-// and waits for them. Private to the module; on the match's thread.
+// The word by which a team's program plays in lock-step with the match (docs/robot-programs.md, "A
+// program that cooperates"): after each tick the match asks those that have answered so far, all at
+// once, and waits for them. Private to the module; on the match's thread.
 
 #include <chrono>
 #include <vector>

@@ -85,6 +85,7 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   out.refereeRules = state.game ? state.settings.referee->name : std::string();
   out.finishedBy = match.finishedBy();
   out.finished = !out.finishedBy.empty();
+  out.nobodyPlays = match.nobodyPlays();
   out.settings = settingsOf(state);
   fillSpeed(match, now, still, out);
 }

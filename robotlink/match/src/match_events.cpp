@@ -26,6 +26,16 @@ void MatchEvents::stepped(const sim::Simulation& simulation) {
   for (const sim::Event& event : simulation.events()) add(matchEvent(event, simulation.state()));
 }
 
+void MatchEvents::sensed(const sim::WorldState& state, std::span<const sim::Percepts> percepts,
+                         bool again) {
+  const double time = static_cast<double>(state.tick) / state.settings.tickRate;
+  for (std::size_t i = 0; i < state.robots.size(); ++i) {
+    const sim::RobotIdentity& robot = state.robots[i];
+    const auto kind = m_sight[robot.id].look(percepts[i].ball.lost == 0, time);
+    if (kind && !again) add(eventOf(*kind, time, keyOf(robot), robot.name()));
+  }
+}
+
 void MatchEvents::look(const sim::WorldState& state, std::string_view finishedBy) {
   const Game now = !finishedBy.empty()  ? Game::Over
                    : state.clockRunning ? Game::Playing
@@ -81,7 +91,7 @@ void MatchEvents::notAttached(const sim::WorldState& state, RobotId robot,
 }
 
 void MatchEvents::lateCycle(const sim::WorldState& state, RobotId robot, const std::string& why) {
-  MatchEvent event = ofProcess(MatchEventKind::ProcessSilent, state, robot, "");
+  MatchEvent event = ofProcess(MatchEventKind::CycleLate, state, robot, "");
   event.detail = why + "; the match goes on without it and is not repeatable";
   add(std::move(event));
 }

@@ -2,16 +2,18 @@
 #pragma once
 
 // Makes the events of a simulated match: those of each step, and what has changed since it last
-// looked (clock, end of the match, processes). Private to the room; used by SimulatedMatch on its
+// looked (clock, end of the match, processes). Private to the module; used by SimulatedMatch on its
 // thread.
 
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include <robotlink/frame/ball_sight.h>
 #include <robotlink/frame/match_event.h>
 #include <robotlink/processes/process_manager.h>
 #include <simcore/simulation/simulation.h>
@@ -23,6 +25,10 @@ class MatchEvents {
   MatchEvents() { m_events.reserve(mostKept); }  // ticks allocate nothing
   /// Right after a step.
   void stepped(const sim::Simulation& simulation);
+  /// The same, with what robots sensed in it, in their order; `again`: it was told of already.
+  void sensed(const sim::WorldState& state, std::span<const sim::Percepts> percepts, bool again);
+  /// After a jump to another moment, whose robots may see the ball or not.
+  void forgetSight() { m_sight.clear(); }
   /// `finishedBy`: as SimulatedMatch::finishedBy().
   void look(const sim::WorldState& state, std::string_view finishedBy);
   /// What the supervisor tells of processes.
@@ -48,6 +54,7 @@ class MatchEvents {
   std::set<std::pair<RobotId, std::string>> m_everRan;  // robot, process
   // Key and name: processes may outlive their robot.
   std::map<RobotId, std::pair<RobotKey, std::string>> m_known;
+  std::map<RobotId, BallSight> m_sight;
 };
 
 }  // namespace pitchboard::link

@@ -20,17 +20,14 @@ namespace pitchboard::link {
 
 struct SimulatedMatch::Parts {
   explicit Parts(MatchBase all)
-      : base(std::move(all)), extendedBridge(RobotVariables(base.catalog->withExtension())) {
-    const VariableCatalog& extended = base.catalog->withExtension();
-    comSetPlay = extended.intVar("COM_SET_PLAY").value_or(IntVar{-1});
-    comSetPlayOurs = extended.intVar("COM_SET_PLAY_OURS").value_or(IntVar{-1});
-  }
+      : base(std::move(all)),
+        extendedBridge(RobotVariables(base.catalog->withExtension())),
+        refereeVariables(base.catalog->withExtension()) {}
 
   void rememberBeliefs();
   Result<void> beginGame();
   void advance(bool again);
   void hearReferee(bool again = false);
-  void tellSetPlay(RobotSlot& slot, int team) const;
   void followSides();
   void followJump();
   void startAnew();
@@ -41,7 +38,7 @@ struct SimulatedMatch::Parts {
   MatchBase base;
   BlackboardBridge bridge{base.variables};
   BlackboardBridge extendedBridge;  // of robots whose decision knows the extension of the map
-  IntVar comSetPlay, comSetPlayOurs;
+  RefereeVariables refereeVariables;
   MatchEvents events;
   MatchReferee referee;
   std::unique_ptr<MatchDrawings> drawings;

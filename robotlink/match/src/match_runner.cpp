@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/match/match_runner.h>
 
+#include <poll.h>
+#include <sys/eventfd.h>
 #include <algorithm>
+#include <array>
 #include <condition_variable>
 #include <deque>
 #include <future>
@@ -10,6 +13,8 @@
 #include <stop_token>
 #include <utility>
 
+#include <base/unique_fd.h>
+#include <robotlink/match/match_drawings.h>
 #include <robotlink/match/match_player.h>
 
 #include "frame_builder.h"
@@ -20,8 +25,14 @@ namespace pitchboard::link {
 struct MatchRunner::Shared {
   static constexpr std::size_t mostQueued = 10'000;
 
+  Shared() : wakeUp(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+  /// The thread looks at what has changed.
+  void wake() const { ::eventfd_write(wakeUp.get(), 1); }
+  /// Somebody has to be told of something new; needs the lock. Call what it returns without it.
+  std::function<void()> news() { return std::exchange(told, true) ? nullptr : tell; }
+
+  UniqueFd wakeUp;
   mutable std::mutex mutex;                      // guards everything below
-  mutable std::condition_variable_any changed;   // for the thread
   mutable std::condition_variable_any stillNow;  // for waitUntilStill()
   std::deque<Command> commands;
   bool paused = false;
@@ -42,6 +53,8 @@ struct MatchRunner::Shared {
   std::deque<LogLine> log;
   std::uint64_t droppedEvents = 0;
   std::uint64_t droppedLogLines = 0;
+  std::function<void()> tell;
+  bool told = false;  // and nobody has asked since
 
   MatchPlayer* player = nullptr;  // for commands, which run on its thread
 };
@@ -52,6 +65,10 @@ using namespace std::chrono_literals;
 
 constexpr auto frameInterval = 8ms;
 constexpr auto pollInterval = 50ms;
+// A match that stands still tells by itself what happens to it, but for what others write to its
+// blackboards and draw.
+constexpr auto stillInterval = 250ms;
+constexpr auto settling = 1s;  // until nothing more is expected of its processes
 
 template <class T>
 void pushBounded(std::deque<T>& queue, T value, std::uint64_t& dropped) {
@@ -109,7 +126,9 @@ class NewEvents : public TickObserver {
   void happened(std::span<const MatchEvent> events) override {
     list.insert(list.end(), events.begin(), events.end());
   }
+  void drew(std::span<const ReceivedDrawing> /*drawings*/) override { drawn = true; }
   void logged(const LogLine& line) override { lines.push_back(line); }
+  bool drawn = false;
   std::vector<MatchEvent> list;
   std::vector<LogLine> lines;
 };
@@ -130,7 +149,10 @@ class MatchLoop {
   Clock::time_point play(Clock::time_point now);
   MatchPlayer::Played playUntil(const MatchRunner::Shared::Skip& skip, Clock::time_point now);
   void collectEvents();
-  bool refreshesWhileStill() const;
+  bool isShared() const;
+  bool startsProcesses() const;
+  bool showsOther();
+  void waitUntil(Clock::time_point wake);
 
   MatchRunner::Shared& m_shared;
   MatchPlayer m_player;
@@ -139,7 +161,11 @@ class MatchLoop {
   std::shared_ptr<FramePool> m_pool = std::make_shared<FramePool>();
   const std::shared_ptr<NewEvents> m_newEvents = std::make_shared<NewEvents>();
   Clock::time_point m_lastPublish;
-  Clock::time_point m_lastPoll;
+  Clock::time_point m_nextPoll;
+  Clock::time_point m_lastChange;  // by an order
+  std::uint64_t m_processVersion = 0;
+  std::string m_drawingProblem;
+  std::vector<std::array<std::uint32_t, Blackboard::words>> m_boards;
   std::uint64_t m_serial = 0;
   std::uint64_t m_skip = 0, m_skipUntil = 0;  // the one that goes on, and its last tick
   bool m_still = false;
@@ -157,27 +183,85 @@ void MatchLoop::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     bool publishNow = carryOutCommands();
     auto now = Clock::now();
-    if (now - m_lastPoll >= pollInterval) {
+    if (publishNow) m_lastChange = now;
+    if (now >= m_nextPoll) {
       m_player.lookAfterProcesses(now);
       collectEvents();
-      m_lastPoll = now;
-      publishNow = publishNow || refreshesWhileStill();
+      const bool shared = m_still && isShared();
+      const bool other = shared && showsOther();
+      const bool settles = shared && (now - m_lastChange < settling || startsProcesses());
+      m_nextPoll = now + (m_still && !settles ? stillInterval : pollInterval);
+      publishNow = publishNow || other || settles;
     }
     const auto wake = play(now);
-    publishNow = std::exchange(m_publishWanted, false) || publishNow;
+    if (std::exchange(m_publishWanted, false)) {
+      publishNow = true;
+      m_lastChange = now;
+      m_nextPoll = std::min(m_nextPoll, now + pollInterval);
+    }
     now = Clock::now();
     if (publishNow || (!m_still && now - m_lastPublish >= frameInterval)) publish();
-
-    std::unique_lock lock(m_shared.mutex);
-    const auto news = [this] {
-      return !m_shared.commands.empty() || m_shared.paceChanged || m_shared.singleSteps > 0;
-    };
-    if (wake == Clock::time_point::max()) {
-      m_shared.changed.wait(lock, stop, news);
-    } else if (wake > now) {
-      m_shared.changed.wait_until(lock, stop, wake, news);
-    }
+    waitUntil(wake);
   }
+}
+
+/// Or until somebody wants something, or, of a match that stands still, a process has something to
+/// tell.
+void MatchLoop::waitUntil(Clock::time_point wake) {
+  using namespace std::chrono;
+  // No descriptor was left in this process: look now and then.
+  if (!m_shared.wakeUp) wake = std::min(wake, Clock::now() + pollInterval);
+  const auto rest = duration_cast<nanoseconds>(wake - Clock::now());
+  const auto whole = duration_cast<seconds>(rest);
+  timespec time{};
+  time.tv_sec = std::max<std::int64_t>(whole.count(), 0);
+  time.tv_nsec = std::max<std::int64_t>((rest - whole).count(), 0);
+  pollfd waited[] = {{m_shared.wakeUp.get(), POLLIN, 0},
+                     {m_match.robots().processes().descriptor(), POLLIN, 0}};
+  ::ppoll(waited, m_still ? 2 : 1, wake == Clock::time_point::max() ? nullptr : &time, nullptr);
+  eventfd_t count = 0;
+  if (waited[0].revents != 0) ::eventfd_read(m_shared.wakeUp.get(), &count);
+  if (waited[1].revents != 0) m_nextPoll = {};
+}
+
+/// With other processes: its own, or those that read its blackboards.
+bool MatchLoop::isShared() const {
+  if (!m_match.robots().processes().isEmpty()) return true;
+  const auto& robots = m_match.simulation().state().robots;
+  return std::any_of(robots.begin(), robots.end(), [this](const sim::RobotIdentity& robot) {
+    const Blackboard* board = m_match.blackboard(robot.id);
+    return board && board->key() != 0;
+  });
+}
+
+bool MatchLoop::startsProcesses() const {
+  return std::ranges::any_of(m_match.robots().processes().statuses(), [](const auto& one) {
+    return one.state == ProcessState::Waiting || one.state == ProcessState::Restarting;
+  });
+}
+
+/// Whether anything that is seen of a match that stands still is not as at the last look.
+bool MatchLoop::showsOther() {
+  const std::uint64_t version = m_match.robots().processes().version();
+  bool other = std::exchange(m_processVersion, version) != version;
+  other = std::exchange(m_newEvents->drawn, false) || other;
+  if (const MatchDrawings* drawings = m_match.drawings();
+      drawings && drawings->problem() != m_drawingProblem) {
+    m_drawingProblem = drawings->problem();
+    other = true;
+  }
+  const auto& robots = m_match.simulation().state().robots;
+  m_boards.resize(robots.size());
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const Blackboard* board = m_match.blackboard(robots[i].id);
+    if (board == nullptr || board->key() == 0) continue;
+    std::array<std::uint32_t, Blackboard::words> words;
+    board->copyWords(words);
+    if (words == m_boards[i]) continue;
+    m_boards[i] = words;
+    other = true;
+  }
+  return other;
 }
 
 bool MatchLoop::carryOutCommands() {
@@ -232,7 +316,7 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
     m_publishWanted = true;
   }
   if (still) {
-    return refreshesWhileStill() ? now + pollInterval : Clock::time_point::max();
+    return isShared() ? m_nextPoll : Clock::time_point::max();
   }
   const MatchPlayer::Played played =
       skip ? playUntil(*skip, now) : m_player.play(now, runTo.value_or(MatchPlayer::noLastTick));
@@ -274,24 +358,18 @@ MatchPlayer::Played MatchLoop::playUntil(const MatchRunner::Shared::Skip& skip,
 void MatchLoop::collectEvents() {
   m_player.tellEvents();
   if (m_newEvents->list.empty() && m_newEvents->lines.empty()) return;
-  const std::lock_guard lock(m_shared.mutex);
+  std::unique_lock lock(m_shared.mutex);
   for (MatchEvent& event : m_newEvents->list) {
     pushBounded(m_shared.events, std::move(event), m_shared.droppedEvents);
   }
   for (LogLine& line : m_newEvents->lines) {
     pushBounded(m_shared.log, std::move(line), m_shared.droppedLogLines);
   }
+  const auto tell = m_shared.news();
+  lock.unlock();
+  if (tell) tell();
   m_newEvents->list.clear();
   m_newEvents->lines.clear();
-}
-
-bool MatchLoop::refreshesWhileStill() const {
-  if (!m_match.robots().processes().statuses().empty()) return true;
-  const auto& robots = m_match.simulation().state().robots;
-  return std::any_of(robots.begin(), robots.end(), [this](const sim::RobotIdentity& robot) {
-    const Blackboard* board = m_match.blackboard(robot.id);
-    return board && board->key() != 0;
-  });
 }
 
 void MatchLoop::publish() {
@@ -302,6 +380,7 @@ void MatchLoop::publish() {
   m_builder.fill(m_match, now, m_still, *frame);
   frame->serial = ++m_serial;
   std::shared_ptr<const MatchFrame> replaced = frame;
+  std::function<void()> tell;
   {
     const std::lock_guard lock(m_shared.mutex);
     frame->paused = m_shared.paused && !m_shared.runTo && !m_shared.skip;
@@ -309,7 +388,9 @@ void MatchLoop::publish() {
     frame->droppedLogLines = m_shared.droppedLogLines;
     replaced.swap(m_shared.latest);
     m_shared.settled = m_still && !m_shared.paceChanged && m_shared.singleSteps == 0;
+    tell = m_shared.news();
   }
+  if (tell) tell();
   if (m_still) m_shared.stillNow.notify_all();
 }
 
@@ -347,6 +428,7 @@ MatchRunner::MatchRunner(std::shared_ptr<Shared> shared) : m_shared(std::move(sh
 
 MatchRunner::~MatchRunner() {
   m_thread.request_stop();
+  m_shared->wake();
   if (m_thread.joinable()) m_thread.join();
   // What was not carried out any more: lets go of callers that wait in execute().
   const std::lock_guard lock(m_shared->mutex);
@@ -360,7 +442,7 @@ void MatchRunner::setPaused(bool paused) {
   m_shared->skip.reset();
   m_shared->paceChanged = true;
   m_shared->settled = false;
-  m_shared->changed.notify_all();
+  m_shared->wake();
 }
 
 void MatchRunner::stepOnce() {
@@ -370,7 +452,7 @@ void MatchRunner::stepOnce() {
   m_shared->skip.reset();
   ++m_shared->singleSteps;
   m_shared->settled = false;
-  m_shared->changed.notify_all();
+  m_shared->wake();
 }
 
 void MatchRunner::setSpeed(double timesRealTime) {
@@ -378,7 +460,7 @@ void MatchRunner::setSpeed(double timesRealTime) {
   m_shared->speed = limitedSpeed(timesRealTime);
   m_shared->paceChanged = true;
   m_shared->settled = false;
-  m_shared->changed.notify_all();
+  m_shared->wake();
 }
 
 void MatchRunner::runTo(std::uint64_t tick) {
@@ -387,7 +469,7 @@ void MatchRunner::runTo(std::uint64_t tick) {
   m_shared->skip.reset();
   m_shared->paceChanged = true;
   m_shared->settled = false;
-  m_shared->changed.notify_all();
+  m_shared->wake();
 }
 
 void MatchRunner::skip(std::function<bool(const MatchEvent&)> wanted, std::uint64_t mostTicks) {
@@ -396,7 +478,7 @@ void MatchRunner::skip(std::function<bool(const MatchEvent&)> wanted, std::uint6
   m_shared->runTo.reset();
   m_shared->paceChanged = true;
   m_shared->settled = false;
-  m_shared->changed.notify_all();
+  m_shared->wake();
 }
 
 bool MatchRunner::waitUntilStill(std::chrono::milliseconds timeout) const {
@@ -407,7 +489,7 @@ bool MatchRunner::waitUntilStill(std::chrono::milliseconds timeout) const {
 void MatchRunner::post(Command command) {
   const std::lock_guard lock(m_shared->mutex);
   m_shared->commands.push_back(std::move(command));
-  m_shared->changed.notify_all();
+  m_shared->wake();
 }
 
 void MatchRunner::execute(const Command& command) {
@@ -437,14 +519,22 @@ void MatchRunner::stopObserving(const std::shared_ptr<TickObserver>& observer) {
   read([this, &observer](const SimulatedMatch&) { m_shared->player->stopObserving(observer); });
 }
 
-std::shared_ptr<const MatchFrame> MatchRunner::latest(std::uint64_t knownSerial) const {
+void MatchRunner::setNews(std::function<void()> tell) {
   const std::lock_guard lock(m_shared->mutex);
+  m_shared->tell = std::move(tell);
+  m_shared->told = false;
+}
+
+std::shared_ptr<const MatchFrame> MatchRunner::latest(std::uint64_t knownSerial) {
+  const std::lock_guard lock(m_shared->mutex);
+  m_shared->told = false;
   const auto& frame = m_shared->latest;
   return frame && frame->serial != knownSerial ? frame : nullptr;
 }
 
 std::vector<MatchEvent> MatchRunner::takeEvents() {
   const std::lock_guard lock(m_shared->mutex);
+  m_shared->told = false;
   std::vector<MatchEvent> events(std::make_move_iterator(m_shared->events.begin()),
                                  std::make_move_iterator(m_shared->events.end()));
   m_shared->events.clear();
@@ -453,6 +543,7 @@ std::vector<MatchEvent> MatchRunner::takeEvents() {
 
 std::vector<LogLine> MatchRunner::takeLog() {
   const std::lock_guard lock(m_shared->mutex);
+  m_shared->told = false;
   std::vector<LogLine> log(std::make_move_iterator(m_shared->log.begin()),
                            std::make_move_iterator(m_shared->log.end()));
   m_shared->log.clear();

@@ -14,7 +14,7 @@ struct PenaltyRow {
   std::array<int, 5> codes;  // by PenaltyDialect
 };
 
-// The nearest that a version has. Sources: REFEREE.md, gamecontroller.md "Values".
+// The nearest that a version has. Source: docs/reference/gamecontroller.md, "Values".
 constexpr std::array<PenaltyRow, 17> penalties{{
     {Kind::BallManipulation, {1, 30, 1, 8, 9}},
     {Kind::Pushing, {2, 31, 2, 9, 10}},
@@ -34,26 +34,6 @@ constexpr std::array<PenaltyRow, 17> penalties{{
     {Kind::Substitute, {14, 14, 14, 11, 13}},
     {Kind::Manual, {15, 15, 15, 5, 6}},
 }};
-
-struct SetPlayRow {
-  sim::SetPlay play;
-  int humanoid, humanoid2017, standard, soccer;  // 0: this league does not tell it
-};
-constexpr std::array<SetPlayRow, 6> setPlays{{
-    {sim::SetPlay::DirectFreeKick, 4, 4, 2, 1},
-    {sim::SetPlay::IndirectFreeKick, 5, 5, 2, 2},
-    {sim::SetPlay::PenaltyKick, 6, 6, 5, 3},
-    {sim::SetPlay::ThrowIn, 9, 0, 4, 4},
-    {sim::SetPlay::GoalKick, 8, 0, 1, 5},
-    {sim::SetPlay::CornerKick, 7, 0, 3, 6},
-}};
-
-int codeOf(const SetPlayRow& row, League league, int version, int size) {
-  if (league == League::HumanoidSoccer) return row.soccer;
-  if (league == League::StandardPlatform) return version == 10 ? 0 : row.standard;
-  if (version < 11) return 0;
-  return size == 688 ? row.humanoid : row.humanoid2017;
-}
 
 }  // namespace
 
@@ -78,32 +58,6 @@ Kind penaltyOf(PenaltyDialect dialect, int code) {
     if (row.codes[static_cast<std::size_t>(dialect)] == code) return row.kind;
   }
   return Kind::Manual;
-}
-
-int setPlayCode(League league, int version, int size, sim::SetPlay play) {
-  for (const SetPlayRow& row : setPlays) {
-    if (row.play == play) return codeOf(row, league, version, size);
-  }
-  return 0;
-}
-
-sim::SetPlay setPlayOf(League league, int version, int size, int code) {
-  for (const SetPlayRow& row : setPlays) {
-    if (code != 0 && codeOf(row, league, version, size) == code) return row.play;
-  }
-  return sim::SetPlay::None;
-}
-
-ToldSetPlay setPlayIn(const telemetry::RefereeState& packet) {
-  const int code = packet.setPlay.value_or(packet.secState.value_or(0));
-  ToldSetPlay told;
-  told.kind = setPlayOf(packet.league, packet.version, packet.size, code);
-  if (told.kind == sim::SetPlay::None) return told;
-  // Of 2021 on the Humanoid League says whose it is beside it; others by the kick-off.
-  constexpr int sizeWithTaker = 688;
-  const bool says = packet.secStateInfo && packet.size == sizeWithTaker;
-  told.team = says ? (*packet.secStateInfo)[0] : packet.kickOffTeam;
-  return told;
 }
 
 int colourCode(TeamColor colour) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <base/try.h>
+#include <robotlink/cognition/told_set_play.h>
 #include <robotlink/frame/referee_view.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <simcore/rules/game_start.h>

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/match/robot_slots.h>
 
+#include <unistd.h>
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <set>
 
 #include <base/lined_json.h>
+#include <base/system_reason.h>
 #include <base/try.h>
 #include <robotlink/match/moment.h>
 #include <robotlink/models/robot_models.h>
@@ -92,6 +95,13 @@ double RobotSlots::silentAfter(const RobotSlot& slot) {
   double most = slot.processes.empty() ? ProfileProcess().silentAfter : 0.0;
   for (const auto& process : slot.processes) most = std::max(most, process->profile.silentAfter);
   return most;
+}
+
+bool RobotSlots::haveTeamPrograms() const {
+  return m_base.options.cognition != Cognition::Inline ||
+         std::ranges::any_of(m_slots, [](const auto& slot) {
+           return slot->board.key() != 0 && slot->runtime.hasOwn();
+         });
 }
 
 std::vector<sim::RobotIdentity> RobotSlots::ofOthers() const {
@@ -336,9 +346,12 @@ Result<RuntimeProfile> RobotSlots::runtimeFor(const std::string& behaviour,
 /// Whether other programs are to see its blackboard.
 bool RobotSlots::sharesBoard(const RobotSlot& slot) const {
   const MatchOptions& options = m_base.options;
-  return options.cognition != Cognition::Inline || options.systemV ||
-         (slot.choice.isChosen() && slot.runtime.hasOwn()) ||
+  return isSeparate(slot) || options.systemV || (slot.choice.isChosen() && slot.runtime.hasOwn()) ||
          (options.runtime.isChosen() && slot.runtime.hasOwn() && slot.behaviour != noBehaviour);
+}
+
+bool RobotSlots::isSeparate(const RobotSlot& slot) const {
+  return m_base.options.cognition != Cognition::Inline || !slot.runtime.program.empty();
 }
 
 Result<void> RobotSlots::identify() {
@@ -361,7 +374,7 @@ bool RobotSlots::wants(const RobotSlot& slot, const ProfileProcess& process) con
       // A program in place of decision may use it, too.
       return behaviour ? behaviour->usesPose || decides : decides;
     case OnlyFor::Separate:
-      return m_base.options.cognition != Cognition::Inline;
+      return isSeparate(slot);
     case OnlyFor::Target:
       return behaviour && behaviour->usesPose && slot.runtime.usesExtension();
   }
@@ -418,7 +431,7 @@ Result<void> RobotSlots::start(RobotSlot& slot, SlotProcess& process) {
     return failure(ErrorCode::NotFound, unknownName("reference process", profile.reference, known),
                    "the runtime profile " + slot.runtime.name);
   }
-  if (profile.isReference() && m_base.options.cognition == Cognition::Inline) {
+  if (profile.isReference() && !isSeparate(slot)) {
     return startInside(slot, process);
   }
   TRY(identify());
@@ -453,6 +466,11 @@ Result<void> RobotSlots::describeReference(const RobotSlot& slot, SlotProcess& p
                                            ManagedProcess& managed) {
   if (!m_turns) m_turns = TRY(MatchTurns::create());
   managed.spec.command = commandOf(slot, process.profile.reference);
+  const std::string& program = slot.runtime.program;
+  if (program.find('/') != std::string::npos && ::access(program.c_str(), X_OK) != 0) {
+    return failure(ErrorCode::NotFound, "cannot run " + program + ": " + systemReason(errno),
+                   "the runtime profile " + slot.runtime.name + ", program");
+  }
   managed.spec.inherited = m_turns->descriptor();
   managed.watch = ManagedProcess::Watch::Caller;
   // Each start has a place of its own: nothing of the process before it stands there.
@@ -563,7 +581,7 @@ std::vector<std::string> RobotSlots::commandOf(const RobotSlot& slot,
   const ProcessOptions& options = m_base.options.process;
   const sim::RobotIdentity& identity = identityOf(slot.id);
   std::vector<std::string> command{
-      m_base.options.robotProgram,
+      slot.runtime.program.empty() ? m_base.options.robotProgram : slot.runtime.program,
       process,
       "--robot",
       std::to_string(slot.id.value),

@@ -6,13 +6,13 @@
 #include <cstdio>
 
 #include <base/try.h>
+#include <robotlink/cognition/referee_orders.h>
 #include <robotlink/match/moment.h>
 #include <robotlink/scenario/moment_writes.h>
 #include <simcore/rules/game_start.h>
 #include <simcore/world/published_frame.h>
 
 #include "match_parts.h"
-#include "referee_codes.h"
 
 namespace pitchboard::link {
 
@@ -114,7 +114,7 @@ Result<void> SimulatedMatch::Parts::beginGame() {
   if (base.options.obeyReferee) {
     TRY(referee.obey(*base.options.obeyReferee, base.simulation));
     if (base.options.answerReferee) referee.answerTo(*base.options.answerReferee);
-  } else if (base.options.sendReferee || base.options.cognition != Cognition::Inline) {
+  } else if (base.options.sendReferee || slots.haveTeamPrograms()) {
     TRY(referee.sendTo(base.options.process.refereePort));
   }
   hearReferee();
@@ -131,21 +131,12 @@ void SimulatedMatch::Parts::hearReferee(bool again) {
     const int team = world.game->teamOf(robot.team);
     if (team < 0 || slots.all()[i]->runtime.hearsReferee) continue;
     const sim::GameTeam& own = world.game->teams[static_cast<std::size_t>(team)];
-    if (const auto word =
-            slots.all()[i]->orders.take(referee.packet(), own.number, own.slotOf(robot.number))) {
-      slots.all()[i]->board.write(base.variables.comReferee, *word);
-      if (slots.all()[i]->extended) tellSetPlay(*slots.all()[i], own.number);
+    RobotSlot& slot = *slots.all()[i];
+    if (const auto order =
+            slot.orders.take(referee.packet(), own.number, own.slotOf(robot.number))) {
+      refereeVariables.write(slot.board, *order, slot.extended);
     }
   }
-}
-
-/// Which set play it is, and whether it is the robot's own: of robots that know the extension of
-/// the map.
-void SimulatedMatch::Parts::tellSetPlay(RobotSlot& slot, int team) const {
-  const telemetry::RefereeState& packet = referee.packet();
-  const ToldSetPlay told = setPlayIn(packet);
-  writeIfPresent(slot.board, comSetPlay, static_cast<int>(told.kind));
-  writeIfPresent(slot.board, comSetPlayOurs, told.team == team ? 1 : 0);
 }
 
 /// Our processes of teams that have changed sides start again, told where they attack. A team's own
@@ -168,6 +159,7 @@ void SimulatedMatch::Parts::followJump() {
   base.writes.jumpTo(base.tick());
   lockStep.jump();
   goalSeen = outSeen = false;
+  events.forgetSight();
 }
 
 void SimulatedMatch::tick() {
@@ -184,6 +176,7 @@ void SimulatedMatch::tick() {
 void SimulatedMatch::Parts::advance(bool again) {
   base.simulation.step(base.commands, base.percepts);
   if (!again) events.stepped(base.simulation);
+  events.sensed(base.simulation.state(), base.percepts, again);
   for (const sim::Event& event : base.simulation.events()) {
     if (event.kind == sim::EventKind::Undone) goalSeen = false;
     goalSeen = goalSeen || event.kind == sim::EventKind::Goal;
@@ -210,6 +203,19 @@ std::string_view SimulatedMatch::finishedBy() const {
     return "duration";
   }
   return state.game && state.game->over ? "full_time" : "";
+}
+
+bool SimulatedMatch::nobodyPlays() const {
+  constexpr std::uint64_t patience_s = 5;
+  const MatchBase& base = m_parts->base;
+  const sim::WorldState& state = simulation().state();
+  if (state.game || state.robots.empty()) return false;
+  if (state.tick < patience_s * static_cast<std::uint64_t>(base.tickRate())) return false;
+  return std::ranges::none_of(state.statistics,
+                              [](const auto& one) { return one.distanceWalked > 0.0; }) &&
+         std::ranges::none_of(m_parts->slots.all(), [&base](const auto& slot) {
+           return slot->board.read(base.variables.comReferee) == refereePlay;
+         });
 }
 
 void SimulatedMatch::takeEvents(std::vector<MatchEvent>& out) {
@@ -306,6 +312,12 @@ bool SimulatedMatch::isRepeatable() const {
     return !own || (slot->cooperates && !slot->hasMissedCycle);
   };
   return std::ranges::all_of(robots().all(), repeats) && (pace().inLockStep() || !robots().turns());
+}
+
+MatchResult SimulatedMatch::result() const {
+  MatchResult out = resultOf(simulation().state(), finishedBy());
+  out.repeatable = isRepeatable();
+  return out;
 }
 
 Scenario SimulatedMatch::toScenario() const {

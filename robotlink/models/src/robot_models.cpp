@@ -48,11 +48,28 @@ void checkSources(JsonReport& report, const JsonObject& model) {
   for (const std::string_view key : keys) (void)sources.text(key, "", longestText);
 }
 
+/// How `pitchboard-cli calibrate` found the numbers (docs/calibrate.md): kept out of the model.
+void checkCalibration(JsonReport& report, const JsonObject& model) {
+  const JsonNode* node = model.find("calibration");
+  if (!node) return;
+  const JsonObject record(report, *node, model.pathOf("calibration"),
+                          {"version", "program", "sessions", "seconds", "robot", "prior", "values",
+                           "kept", "told", "left_out_s", "notes", "check"});
+  (void)record.integer("version", 1, 1, 1);
+  const JsonNode* values = record.find("values");
+  if (!values) return;
+  for (const JsonMember& member : JsonObject(report, *values, record.pathOf("values")).members()) {
+    const JsonObject value(report, member.value, record.pathOf("values") + "." + member.key,
+                           {"value", "low", "high", "samples", "of", "unit"});
+    for (const char* key : {"value", "low", "high"}) value.require(key);
+  }
+}
+
 sim::RobotModel readRobotModelObject(JsonReport& report, const JsonNode& node,
                                      const std::string& path) {
   const JsonObject object(report, node, path,
                           sim::withKeys({"name", "title", "description", "base", "kick_law",
-                                         "distance_from", "noise", "sources"},
+                                         "distance_from", "noise", "sources", "calibration"},
                                         sim::robotModelParameters));
   sim::RobotModel model;
   if (const auto base = object.choice("base", modelNames(), "robot model")) {
@@ -63,6 +80,7 @@ sim::RobotModel readRobotModelObject(JsonReport& report, const JsonNode& node,
   (void)object.text("title", "", longestText);
   (void)object.text("description", "", longestText);
   checkSources(report, object);
+  checkCalibration(report, object);
   sim::readNumbers(object, sim::robotModelParameters, model);
   const auto choose = [&](std::string_view key, const auto& known, std::string_view what,
                           std::size_t now) {

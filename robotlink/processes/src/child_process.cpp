@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/processes/child_process.h>
 
+#include <sys/epoll.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <algorithm>
@@ -39,7 +41,10 @@ std::string describe(const siginfo_t& end) {
 }  // namespace
 
 ChildProcess::ChildProcess(Spawned child, UniqueFd keeper, pid_t pid)
-    : m_child(std::move(child)), m_keeper(std::move(keeper)), m_pid(pid) {}
+    : m_child(std::move(child)),
+      m_ended(static_cast<int>(::syscall(SYS_pidfd_open, m_child.pid, 0))),
+      m_keeper(std::move(keeper)),
+      m_pid(pid) {}
 
 Result<ChildProcess> ChildProcess::start(const ChildSpec& spec, const std::string& robotProgram) {
   SpawnRequest request{spec.command, spec.directory, spec.environment};
@@ -87,6 +92,15 @@ std::optional<ChildProcess::End> ChildProcess::poll(std::vector<std::string>& li
   if (!m_partial.empty()) endLine(lines);
   if (unknown) return End{"ended, and the system did not say how", true};
   return End{describe(end), end.si_code != CLD_EXITED || end.si_status != 0};
+}
+
+bool ChildProcess::tell(int epoll, std::uint64_t id) const {
+  // Once for each time: nobody has to read the end of a pipe that stays open.
+  epoll_event news{};
+  news.events = EPOLLIN | EPOLLET;
+  news.data.u64 = id;
+  return ::epoll_ctl(epoll, EPOLL_CTL_ADD, m_child.output.get(), &news) == 0 &&
+         ::epoll_ctl(epoll, EPOLL_CTL_ADD, m_ended.get(), &news) == 0;
 }
 
 void ChildProcess::readOutput(std::vector<std::string>& lines, std::size_t limit) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/processes/process_manager.h>
 
+#include <sys/epoll.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <algorithm>
@@ -42,6 +43,9 @@ std::string inSeconds(Seconds seconds) {
   std::snprintf(text, sizeof text, "%.3g s", seconds.count());
   return text;
 }
+
+ProcessManager::ProcessManager(std::string robotProgram)
+    : m_program(std::move(robotProgram)), m_epoll(::epoll_create1(EPOLL_CLOEXEC)) {}
 
 ProcessManager::~ProcessManager() {
   stopAll();
@@ -172,7 +176,9 @@ Result<void> ProcessManager::step(Time now) {
     }
   }
   m_last = now;
+  takeTold();
   for (Entry& entry : m_entries) {
+    if (entry.tells && !entry.hasNews && now - entry.sampled < sampleInterval) continue;
     if (const auto end = poll(entry)) ended(entry, now, end->failed, end->detail, false);
   }
   const Result<void> started = startDue(now);
@@ -186,8 +192,20 @@ Result<void> ProcessManager::step(Time now) {
   return started;
 }
 
+/// Marks those that have something to tell, so that the others need not be asked.
+void ProcessManager::takeTold() {
+  epoll_event told[64];
+  for (int count = 1; count > 0;) {
+    count = ::epoll_wait(m_epoll.get(), told, static_cast<int>(std::size(told)), 0);
+    for (int i = 0; i < count; ++i) {
+      if (Entry* entry = find(static_cast<int>(told[i].data.u64))) entry->hasNews = true;
+    }
+  }
+}
+
 /// Takes what it wrote, and how it ended.
 std::optional<ChildProcess::End> ProcessManager::poll(Entry& entry) {
+  entry.hasNews = false;
   if (!entry.child) return {};
   std::vector<std::string> lines;
   const auto end = entry.child->poll(lines);
@@ -258,6 +276,7 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
     auto child = ChildProcess::start(spec, m_program);
     if (child) {
       entry.child = std::move(*child);
+      entry.tells = entry.child->tell(m_epoll.get(), static_cast<std::uint64_t>(entry.status.id));
     } else {
       outcome = tl::unexpected(child.error());
     }

@@ -33,8 +33,7 @@ std::uint64_t numberAfter(std::string_view text, std::string_view key) {
 
 std::optional<ProcessUse> processUse(pid_t pid) {
   const auto stat = readFile(folderOf(pid) + "/stat", mostBytes);
-  const auto status = readFile(folderOf(pid) + "/status", mostBytes);
-  if (!stat || !status) return {};
+  if (!stat) return {};
   // The name in brackets may hold anything, so the fields are counted from its end.
   const std::size_t bracket = stat->rfind(')');
   if (bracket == std::string::npos) return {};
@@ -42,20 +41,28 @@ std::optional<ProcessUse> processUse(pid_t pid) {
   ProcessUse use;
   std::string skipped;
   double user = 0.0, system = 0.0;
+  std::uint64_t pages = 0;
   fields >> use.state;
   for (int i = 0; i < 10; ++i) fields >> skipped;
   fields >> user >> system;
+  for (int i = 0; i < 8; ++i) fields >> skipped;
+  fields >> pages;
   use.cpuSeconds = (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
-  use.readySeconds = use.cpuSeconds;
-  if (const auto schedule = readFile(folderOf(pid) + "/schedstat", mostBytes)) {
-    constexpr double nanoseconds = 1e9;
-    std::istringstream times(*schedule);
-    double worked = 0.0, waited = 0.0;
-    if (times >> worked >> waited) use.readySeconds = (worked + waited) / nanoseconds;
-  }
-  use.memoryBytes = numberAfter(*status, "VmRSS:") * 1024;
-  use.sleeps = numberAfter(*status, "\nvoluntary_ctxt_switches:");
+  use.memoryBytes = pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
   return use;
+}
+
+std::optional<ProcessRhythm> processRhythm(pid_t pid) {
+  const auto status = readFile(folderOf(pid) + "/status", mostBytes);
+  const auto schedule = readFile(folderOf(pid) + "/schedstat", mostBytes);
+  if (!status) return {};
+  constexpr double nanoseconds = 1e9;
+  ProcessRhythm rhythm;
+  rhythm.sleeps = numberAfter(*status, "\nvoluntary_ctxt_switches:");
+  std::istringstream times(schedule.value_or(std::string()));
+  double worked = 0.0, waited = 0.0;
+  if (times >> worked >> waited) rhythm.readySeconds = (worked + waited) / nanoseconds;
+  return rhythm;
 }
 
 namespace {

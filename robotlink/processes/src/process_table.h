@@ -15,16 +15,22 @@
 namespace pitchboard::link {
 
 struct ProcessUse {
-  char state = '?';           ///< R, S, T (stopped), Z
-  double cpuSeconds = 0.0;    ///< since its start
-  double readySeconds = 0.0;  ///< in which it worked, or could have if a core had been free
+  char state = '?';         ///< R, S, T (stopped), Z
+  double cpuSeconds = 0.0;  ///< since its start
   std::uint64_t memoryBytes = 0;
-  std::uint64_t sleeps =
-      0;  ///< how often it went to sleep by itself: a periodic one does each cycle
+};
+
+/// How a program works.
+struct ProcessRhythm {
+  /// In which it worked, or could have if a core had been free; not every system tells.
+  std::optional<double> readySeconds;
+  /// How often it went to sleep by itself: a periodic one does each cycle.
+  std::uint64_t sleeps = 0;
 };
 
 /// Nothing once it is gone.
 std::optional<ProcessUse> processUse(pid_t pid);
+std::optional<ProcessRhythm> processRhythm(pid_t pid);
 
 /// It has attached to this System V segment. True where the system does not let us look.
 bool mapsSegment(pid_t pid, int shmid);

@@ -23,9 +23,9 @@ void ProcessManager::watch(Entry& entry, Time now) {
       showSign(entry, now);
     }
   } else if (process.watch == Watch::Sleeps) {
-    const auto use = processUse(entry.status.pid);
-    if (use && use->sleeps != entry.sleeps) {
-      entry.sleeps = use->sleeps;
+    const auto rhythm = processRhythm(entry.status.pid);
+    if (rhythm && rhythm->sleeps != entry.sleeps) {
+      entry.sleeps = rhythm->sleeps;
       showSign(entry, now);
     }
   }
@@ -98,15 +98,21 @@ void ProcessManager::sample(Entry& entry, Time now) {
   const auto use = processUse(entry.status.pid);
   if (!use) return;
   ProcessStatus& status = entry.status;
+  const ProcessStatus before = status;
   const double passed = Seconds(now - entry.sampled).count();
   const double own = ownSeconds(entry, now);
   if (entry.cpuSeconds > 0.0) status.cpu = (use->cpuSeconds - entry.cpuSeconds) / passed;
-  if (entry.cpuSeconds > 0.0 && status.foreign && !m_paused) {
-    measurePace(entry, *use, passed, own - entry.sampledSeconds);
+  const auto rhythm = status.foreign ? processRhythm(status.pid) : std::nullopt;
+  if (rhythm) {
+    const double ready = rhythm->readySeconds.value_or(use->cpuSeconds);
+    if (entry.cpuSeconds > 0.0 && !m_paused) {
+      measurePace(entry, rhythm->sleeps - entry.sampledSleeps,
+                  (ready - entry.readySeconds) / passed, own - entry.sampledSeconds);
+    }
+    entry.sampledSleeps = rhythm->sleeps;
+    entry.readySeconds = ready;
   }
   entry.sampledSeconds = own;
-  entry.sampledSleeps = use->sleeps;
-  entry.readySeconds = use->readySeconds;
   entry.cpuSeconds = std::max(use->cpuSeconds, 1e-9);
   entry.sampled = now;
   status.memoryBytes = use->memoryBytes;
@@ -114,7 +120,7 @@ void ProcessManager::sample(Entry& entry, Time now) {
   if (entry.process.watch != Watch::Nobody && !m_paused) {
     status.heartbeatAge = Seconds(now - entry.lastSign).count();
   }
-  changed();
+  if (status != before) changed();
   lookForLibrary(entry, now);
   // Who listens for a heartbeat, or counts sleeps, notices it by that.
   const bool listens =
@@ -123,6 +129,7 @@ void ProcessManager::sample(Entry& entry, Time now) {
     entry.stoppedSince = now;
     if (entry.process.watch == Watch::Nobody && status.state == ProcessState::Silent) {
       status.state = ProcessState::Running;
+      changed();
     }
   } else if (now - entry.stoppedSince >= entry.process.silentAfter) {
     silenced(entry, now, "stopped by a signal for " + inSeconds(entry.process.silentAfter));
@@ -132,17 +139,17 @@ void ProcessManager::sample(Entry& entry, Time now) {
 /// How many cycles a program does in a second of its own time is the same at every speed, as long
 /// as it has time to sleep. What it does at ×1 is what it has to do; at a higher speed, that is
 /// learned only while work takes next to nothing of its time. One that never sleeps is one that
-/// nobody can judge. `ownSeconds`: how far its own clocks went in these seconds.
-void ProcessManager::measurePace(Entry& entry, const ProcessUse& use, double seconds,
+/// nobody can judge. `newSleeps`, `share` (in which it worked, or waited for a core) and
+/// `ownSeconds` (how far its own clocks went) since the last look.
+void ProcessManager::measurePace(Entry& entry, std::uint64_t newSleeps, double share,
                                  double ownSeconds) {
   constexpr double busy = 0.9, idle = 0.1;
   if (ownSeconds <= 0.0) return;
   ProcessStatus& status = entry.status;
   const double speed = entry.clock ? m_speed : 1.0;
-  const auto cycles = static_cast<double>(use.sleeps - entry.sampledSleeps);
+  const auto cycles = static_cast<double>(newSleeps);
   const double rate = cycles / ownSeconds;
-  // In which it worked, or waited for a core.
-  const double share = std::clamp((use.readySeconds - entry.readySeconds) / seconds, 0.0, 1.0);
+  share = std::clamp(share, 0.0, 1.0);
   if (share < (speed <= 1.0 ? busy : idle)) {
     entry.cyclesPerSecond = entry.cyclesPerSecond > 0.0 ? (entry.cyclesPerSecond + rate) / 2 : rate;
     status.achieved = speed;
@@ -152,7 +159,7 @@ void ProcessManager::measurePace(Entry& entry, const ProcessUse& use, double sec
   } else if (share < busy) {
     status.achieved = speed * (1.0 - share);
   }
-  status.cycles += use.sleeps - entry.sampledSleeps;
+  status.cycles += newSleeps;
   if (fallsBehind(status)) {
     entry.missedCycles += std::max(0.0, entry.cyclesPerSecond * ownSeconds - cycles);
   }

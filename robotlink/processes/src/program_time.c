@@ -743,16 +743,18 @@ static nanoseconds real_duration(nanoseconds duration, double speed) {
   return real < 1.0 ? 1 : real > (double)(INT64_MAX / 2) ? INT64_MAX / 2 : (nanoseconds)real;
 }
 
-/* Sets the kernel's timer so that it fires at the deadline as the page has it now. */
+/* Sets the kernel's timer so that it fires at the deadline as the page has it now. One with a
+ * descriptor whose deadline has passed fires at once: nobody has read it, see take_expirations().
+ */
 static int set_kernel_timer(struct timer* t) {
   const double speed = rate();
   struct itimerspec real = {{0, 0}, {0, 0}};
   if (t->armed && speed > 0.0) {
     const nanoseconds now = match_time(CLOCK_MONOTONIC);
-    if (t->interval > 0 && t->deadline <= now) {
+    if (t->interval > 0 && t->deadline <= now && t->kind != UniqueFd) {
       t->deadline += ((now - t->deadline) / t->interval + 1) * t->interval;
     }
-    if (t->deadline > now || t->interval == 0) {
+    if (t->deadline > now || t->interval == 0 || t->kind == UniqueFd) {
       real.it_value = to_timespec(real_duration(t->deadline > now ? t->deadline - now : 1, speed));
     }
     if (t->interval > 0) real.it_interval = to_timespec(real_duration(t->interval, speed));
@@ -913,9 +915,12 @@ EXPORT int timer_delete(timer_t timer) {
   return REAL(timer_delete)(timer);
 }
 
+static _Atomic bool has_descriptors; /* of timers, now or before */
+
 EXPORT int timerfd_create(clockid_t clock, int flags) {
   const int fd = REAL(timerfd_create)(clock, flags);
   if (fd < 0 || !follows() || !is_shifted(clock)) return fd;
+  atomic_store(&has_descriptors, true);
   const sigset_t before = lock_timers();
   struct timer* t = make_timer(UniqueFd, NULL, fd);
   if (t != NULL) t->clock = clock;
@@ -939,6 +944,17 @@ EXPORT int timerfd_gettime(int fd, struct itimerspec* value) {
   const int result = t != NULL ? 0 : REAL(timerfd_gettime)(fd, value);
   unlock_timers(&before);
   return result;
+}
+
+/* How often it has expired in the program's time since it was read; it waits for the next time. The
+ * kernel's own count would begin anew whenever its timer is set. */
+static uint64_t take_expirations(struct timer* t) {
+  const nanoseconds now = match_time(CLOCK_MONOTONIC);
+  if (t->interval == 0) return 1;
+  const nanoseconds count = t->deadline > now ? 0 : (now - t->deadline) / t->interval + 1;
+  t->deadline += count * t->interval;
+  (void)set_kernel_timer(t);
+  return (uint64_t)count;
 }
 
 /* ---- The keeper ---------------------------------------------------------------------------------
@@ -1100,8 +1116,6 @@ AFTER_WAIT(ssize_t, recvfrom,
            (flags & MSG_DONTWAIT) == 0)
 AFTER_WAIT(ssize_t, recvmsg, (int fd, struct msghdr* message, int flags), (fd, message, flags), fd,
            SO_RCVTIMEO, POLLIN, (flags & MSG_DONTWAIT) == 0)
-AFTER_WAIT(ssize_t, read, (int fd, void* data, size_t size), (fd, data, size), fd, SO_RCVTIMEO,
-           POLLIN, true)
 AFTER_WAIT(ssize_t, readv, (int fd, const struct iovec* parts, int count), (fd, parts, count), fd,
            SO_RCVTIMEO, POLLIN, true)
 AFTER_WAIT(int, accept, (int fd, struct sockaddr* restrict from, socklen_t* restrict length),
@@ -1120,6 +1134,26 @@ AFTER_WAIT(ssize_t, sendmsg, (int fd, const struct msghdr* message, int flags),
            (fd, message, flags), fd, SO_SNDTIMEO, POLLOUT, (flags & MSG_DONTWAIT) == 0)
 AFTER_WAIT(ssize_t, write, (int fd, const void* data, size_t size), (fd, data, size), fd,
            SO_SNDTIMEO, POLLOUT, true)
+
+/* Of a timer: how often it has expired in the program's time. */
+EXPORT ssize_t read(int fd, void* data, size_t size) {
+  if (!may_go_on(fd, SO_RCVTIMEO, POLLIN)) return -1;
+  for (;;) {
+    const ssize_t result = REAL(read)(fd, data, size);
+    uint64_t count = 0;
+    if (result != (ssize_t)sizeof count || !atomic_load(&has_descriptors) || !follows()) {
+      return result;
+    }
+    const sigset_t before = lock_timers();
+    struct timer* t = find_timer(UniqueFd, NULL, fd);
+    if (t != NULL) count = take_expirations(t);
+    unlock_timers(&before);
+    if (t == NULL) return result;
+    if (count == 0) continue; /* it fired before the match became slower */
+    memcpy(data, &count, sizeof count);
+    return result;
+  }
+}
 
 /* The number may mean another file now. */
 EXPORT int close(int fd) {

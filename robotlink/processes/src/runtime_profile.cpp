@@ -49,7 +49,7 @@ class Reader {
   Reader(const JsonNode& root, JsonReport& report)
       : m_report(report),
         m_root(report, root, "",
-               {"version", "name", "title", "description", "values", "referee", "cycle",
+               {"version", "name", "title", "description", "values", "referee", "cycle", "program",
                 "processes"}) {}
 
   RuntimeProfile read() {
@@ -63,6 +63,7 @@ class Reader {
     m_profile.hearsReferee =
         m_root.choice("referee", hearers, "hearer of the referee") == std::size_t{1};
     m_profile.cycle = m_root.text("cycle", "", 200);
+    m_profile.program = m_root.text("program", "", longestText);
     m_root.require("processes");
     const auto* items = m_root.array("processes", mostProcesses);
     for (std::size_t i = 0; items && i < items->size() && !m_report.failed(); ++i) {
@@ -182,6 +183,7 @@ Result<RuntimeProfile> named(const std::string& nameOrPath) {
   const auto fromHere = [&here](std::string& path) {
     if (!path.empty() && path.front() != '/' && path.front() != '$') path = (here / path).string();
   };
+  if (profile->program.find('/') != std::string::npos) fromHere(profile->program);
   for (ProfileProcess& process : profile->processes) {
     fromHere(process.directory);
     if (!process.isReference() && process.command.front().find('/') != std::string::npos) {
@@ -231,6 +233,12 @@ Result<RuntimeProfile> loadRuntime(const RuntimeChoice& choice) {
     }
     known->second = value;
   }
+  auto expandedProgram = expanded(profile->program, profile->values);
+  if (!expandedProgram) {
+    expandedProgram.error().context = "the runtime profile " + profile->name + ", program";
+    return tl::unexpected(expandedProgram.error());
+  }
+  profile->program = std::move(*expandedProgram);
   if (choice.decision.empty()) return profile;
   ProfileProcess program;
   program.name = "decision";

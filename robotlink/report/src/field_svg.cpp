@@ -9,7 +9,7 @@
 namespace pitchboard::link {
 namespace {
 
-// docs/DESIGN_LANGUAGE.md
+// docs/design-language.md
 constexpr const char *grass = "#33453a", *border = "#2c3b32", *lines = "#c3cec6";
 
 /// Metres as centimetres of the drawing.

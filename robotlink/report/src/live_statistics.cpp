@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
-#include <robotlink/session/live_moments.h>
+#include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_events.h>
 #include <simcore/world/action.h>
 
@@ -40,6 +41,7 @@ class Walk {
     for (const RobotFrame& robot : frame.robots) {
       if (robot.link) add(frame, robot, step);
     }
+    if (frame.referee) seeScores(*frame.referee);
     m_last = frame;
   }
 
@@ -67,16 +69,25 @@ class Walk {
     // Both teams of the referee, also the one of which no robot is heard.
     for (std::size_t i = 0; m_last.referee && i < m_last.referee->teams.size(); ++i) {
       const RefereeTeamView& side = m_last.referee->teams[i];
-      const auto colour = std::ranges::find(teamColors, side.colour, &TeamColorInfo::name);
-      if (colour == teamColors.end()) continue;
-      TeamSummary& team = m_sums.team(colour->color);
+      const auto colour = teamColorNamed(side.colour);
+      if (!colour) continue;
+      TeamSummary& team = m_sums.team(*colour);
       team.score = side.score;
+      team.number = side.number;
+      team.byHalf = m_halves[side.number].goals();
       if (!side.name.empty()) team.name = side.name;
     }
     return m_sums.finish();
   }
 
  private:
+  void seeScores(const RefereeView& referee) {
+    if (referee.phase == "penalty shoot-out") return;
+    const std::size_t first = referee.phase == "overtime" ? 2 : 0;
+    for (const RefereeTeamView& team : referee.teams) {
+      m_halves[team.number].see(first + (referee.firstHalf ? 0 : 1), team.score);
+    }
+  }
   void add(const MatchFrame& frame, const RobotFrame& seen, double step) {
     const auto [entry, isNew] = m_robots.try_emplace(seen.key);
     Robot& robot = entry->second;
@@ -122,10 +133,18 @@ class Walk {
   telemetry::TimeRange m_range;
   std::map<RobotKey, Robot> m_robots;
   TeamSums m_sums;
+  std::map<int, HalfScores> m_halves;  // by the team's number
   MatchFrame m_last;
 };
 
 }  // namespace
+
+void HalfScores::see(std::size_t half, int score) {
+  if (!m_last && half > 0) return;
+  if (m_goals.size() <= half) m_goals.resize(half + 1, 0);
+  // A goal that is taken back may have been shot in an earlier half.
+  m_goals[half] += score - std::exchange(m_last, score).value_or(0);
+}
 
 std::size_t TeamSums::part(double time) const {
   const double length = m_range.end - m_range.begin;
@@ -175,15 +194,14 @@ SessionStatistics TeamSums::finish() {
 SessionStatistics liveStatistics(const telemetry::SessionReader& session,
                                  telemetry::TimeRange range) {
   Walk walk(range);
-  LiveMoments moments;
-  const SessionHistory history(session);
+  RecordedFrames frames(backdropOf(session));  // with the robots that sent variables only
   const double length = range.end - range.begin;
   const double step = std::max(shortestStep, length / mostMoments);
   const auto count = static_cast<std::uint64_t>(std::max(length, 0.0) / step);
   for (std::uint64_t i = 0; i <= count; ++i) {
     // The last one is the end itself: the score that counts may come with the last packet.
     const double time = i == count ? range.end : range.begin + step * static_cast<double>(i);
-    if (const auto frame = moments.frameAt(history, time)) walk.add(*frame, step);
+    walk.add(frames.frameAt(session, time), step);
   }
   SessionStatistics out = walk.finish(eventsOf(session));
   for (const telemetry::SessionGroup& group : session.groups()) out.rows += group.rows;

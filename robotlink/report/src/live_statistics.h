@@ -10,6 +10,19 @@
 
 namespace pitchboard::link {
 
+/// A team's goals in each half, from the scores that are seen one after another.
+class HalfScores {
+ public:
+  /// `half`: 0 and 1, in extra time 2 and 3.
+  void see(std::size_t half, int score);
+  /// Empty where the first half was not seen.
+  const std::vector<int>& goals() const { return m_goals; }
+
+ private:
+  std::vector<int> m_goals;
+  std::optional<int> m_last;
+};
+
 /// Who had the ball when, and the teams' sums over their robots.
 class TeamSums {
  public:

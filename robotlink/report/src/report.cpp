@@ -52,6 +52,16 @@ std::string titleOf(const TeamSummary& team) {
   return team.name.empty() ? capital(info(team.team).name) : escaped(team.name);
 }
 
+/// "blue, team 12 · by half 1 + 0".
+std::string teamFacts(const TeamSummary& team) {
+  std::string out(info(team.team).name);
+  if (team.number.value_or(0) > 0) out += ", team " + std::to_string(*team.number);
+  for (std::size_t i = 0; team.byHalf.size() > 1 && i < team.byHalf.size(); ++i) {
+    out += (i == 0 ? " · by half " : " + ") + std::to_string(team.byHalf[i]);
+  }
+  return out;
+}
+
 std::string badge(const RobotSummary& robot) {
   return "<span class=\"badge " + teamClass(robot.team) + "\">" + escaped(robot.name) + "</span>";
 }
@@ -81,10 +91,10 @@ std::string teams(const SessionStatistics& s) {
     out += "<div class=\"team " + teamClass(team.team) + "\">" + titleOf(team) +
            (team.name.empty() ? " team<b>" : "<b>") +
            (team.score ? std::to_string(*team.score) : "–") + "</b><span class=\"quiet\">" +
-           clockText(team.ballSeconds) + " with the ball · " + std::to_string(team.kicks) +
-           (team.kicks == 1 ? " kick" : " kicks") + " · " + std::to_string(team.falls) +
-           (team.falls == 1 ? " fall" : " falls") + " · " + fixed(team.distance, 0) +
-           " m</span></div>\n";
+           teamFacts(team) + "<br>" + clockText(team.ballSeconds) + " with the ball · " +
+           std::to_string(team.kicks) + (team.kicks == 1 ? " kick" : " kicks") + " · " +
+           std::to_string(team.falls) + (team.falls == 1 ? " fall" : " falls") + " · " +
+           fixed(team.distance, 0) + " m</span></div>\n";
   }
   return out + "</div>\n";
 }
@@ -213,7 +223,9 @@ std::string events(const ReportContent& c) {
   std::vector<const MatchEvent*> main, kicks;
   for (const auto& event : c.events) {
     if (event.time < c.statistics.range.begin || event.time > c.statistics.range.end) continue;
-    // Kicks are many; without them the list shows how the match went.
+    // Kicks are many, and who sees the ball is for the timeline: without them the list shows how
+    // the match went.
+    if (event.kind == MatchEventKind::BallSeen || event.kind == MatchEventKind::BallLost) continue;
     auto& list = event.kind == MatchEventKind::Kick ? kicks : main;
     if (list.size() < mostEvents) list.push_back(&event);
   }

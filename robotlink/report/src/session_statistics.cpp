@@ -80,6 +80,7 @@ class RowStatistics {
   };
   void settle();
   void addRobot(const RobotColumns& columns, Tally& robot, const telemetry::RowView& row);
+  void seeGame(const telemetry::RowView& row);
 
   telemetry::TimeRange m_range;
   TeamSums m_sums;
@@ -90,6 +91,23 @@ class RowStatistics {
   std::uint64_t m_rows = 0;
   std::optional<sim::Score> m_firstScore, m_lastScore;
   RowSlot m_scoreLeft, m_scoreRight;
+  struct Game {
+    explicit Game(const telemetry::GroupInfo& group)
+        : referee(findSlot(group, {"REFEREE"})),
+          half(findSlot(group, {"HALF"})),
+          phase(findSlot(group, {"GAME_PHASE"})),
+          leftTeam(findSlot(group, {"LEFT_TEAM"})),
+          numbers{findSlot(group, {"TEAM1_NUMBER"}), findSlot(group, {"TEAM2_NUMBER"})},
+          colours{findSlot(group, {"TEAM1_COLOUR"}), findSlot(group, {"TEAM2_COLOUR"})} {}
+    RowSlot referee, half, phase, leftTeam;
+    std::array<RowSlot, 2> numbers, colours;
+  };
+  std::optional<Game> m_game;  // columns
+  struct Refereed {
+    int number = 0;
+    HalfScores halves;
+  };
+  std::map<TeamColor, Refereed> m_refereed;
   std::optional<telemetry::GroupId> m_match;
 };
 
@@ -123,6 +141,23 @@ void RowStatistics::addRobot(const RobotColumns& columns, Tally& r, const teleme
   if (distance <= ballReach * centimetres && step > 0.0) m_claims.push_back({&r, distance, step});
 }
 
+void RowStatistics::seeGame(const telemetry::RowView& row) {
+  const auto phase = static_cast<sim::GamePhase>(m_game->phase.readInt(row));
+  const int half = m_game->half.readInt(row);
+  if (half < 1 || half > 2) return;
+  for (std::size_t i = 0; i < m_game->colours.size(); ++i) {
+    const int colour = m_game->colours[i].readInt(row, -1);
+    if (colour < 0 || static_cast<std::size_t>(colour) >= teamColors.size()) continue;
+    Refereed& team = m_refereed[static_cast<TeamColor>(colour)];
+    team.number = m_game->numbers[i].readInt(row);
+    if (phase != sim::GamePhase::Normal && phase != sim::GamePhase::ExtraTime) continue;
+    const bool isLeft = m_game->leftTeam.readInt(row) == static_cast<int>(i);
+    team.halves.see(
+        (phase == sim::GamePhase::ExtraTime ? 2U : 0U) + static_cast<unsigned>(half) - 1,
+        isLeft ? m_lastScore->left : m_lastScore->right);
+  }
+}
+
 void RowStatistics::add(telemetry::GroupId id, const telemetry::GroupInfo& group,
                         const telemetry::RowView& row) {
   if (row.time < m_range.begin || row.time > m_range.end) return;
@@ -147,6 +182,7 @@ void RowStatistics::add(telemetry::GroupId id, const telemetry::GroupInfo& group
       m_match = id;
       m_scoreLeft = findSlot(group, {"SCORE_LEFT"});
       m_scoreRight = findSlot(group, {"SCORE_RIGHT"});
+      m_game.emplace(group);
     }
     known = m_sources.emplace(id, Source{RobotColumns(group), robot}).first;
   }
@@ -154,6 +190,7 @@ void RowStatistics::add(telemetry::GroupId id, const telemetry::GroupInfo& group
   if (m_match == id) {
     m_lastScore = sim::Score{m_scoreLeft.readInt(row), m_scoreRight.readInt(row)};
     if (!m_firstScore) m_firstScore = m_lastScore;
+    if (m_game->referee.readOr(row, 0.0) != 0.0) seeGame(row);
   }
 }
 
@@ -183,6 +220,11 @@ SessionStatistics RowStatistics::finish() {
       team.score = r.facesLeft ? m_lastScore->right : m_lastScore->left;
       team.scored = *team.score - (r.facesLeft ? m_firstScore->right : m_firstScore->left);
     }
+  }
+  for (const auto& [colour, refereed] : m_refereed) {
+    TeamSummary& team = m_sums.team(colour);
+    team.number = refereed.number;
+    team.byHalf = refereed.halves.goals();
   }
   const bool truth = !m_robots.empty();
   SessionStatistics out = m_sums.finish();

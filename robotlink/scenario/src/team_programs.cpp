@@ -7,22 +7,16 @@
 
 namespace pitchboard::link {
 
-Result<bool> usesTeamPrograms(const Scenario& scenario, bool separate, std::string_view remedy) {
+Result<bool> usesTeamPrograms(const Scenario& scenario) {
+  bool any = false;
   for (const ScenarioRobot& robot : scenario.robots) {
     const RuntimeChoice choice = scenario.runtimeOf(robot);
     if (!choice.isChosen()) continue;
     const auto runtime = TRY(loadRuntime(choice));
-    const auto& all = runtime.processes;
-    if (std::ranges::all_of(all, [](const auto& one) { return one.isReference(); })) {
-      continue;
-    }
-    if (separate) return true;
-    return failure(ErrorCode::InvalidArgument,
-                   robot.identity.name() + " is played by a team program (" +
-                       runtimeChoiceToText(choice) + "), which only runs as a separate process; " +
-                       std::string(remedy));
+    any = any || std::ranges::any_of(runtime.processes,
+                                     [](const auto& one) { return !one.isReference(); });
   }
-  return false;
+  return any;
 }
 
 }  // namespace pitchboard::link

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include <base/actions.h>
 #include <base/angles.h>
+#include <simcore/world/action_codes.h>
 #include <simcore/world/published_frame.h>
 
 #include "game_columns.h"

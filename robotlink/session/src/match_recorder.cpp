@@ -7,13 +7,13 @@
 #include <map>
 #include <utility>
 
-#include <base/actions.h>
 #include <base/file_target.h>
 #include <base/try.h>
 #include <robotlink/session/drawing_moments.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/row_walk.h>
 #include <robotlink/session/session_events.h>
+#include <simcore/world/action_codes.h>
 
 #include "session_checkpoint.h"
 

@@ -16,6 +16,7 @@
 #include <robotlink/scenario/moment_writes.h>
 #include <simcore/world/limits.h>
 #include <simcore/world/places.h>
+#include <simcore/world/team_color.h>
 
 namespace pitchboard::link {
 namespace {

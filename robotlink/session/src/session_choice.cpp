@@ -101,10 +101,8 @@ class Choice {
     for (Json& team : *teams) {
       const auto players = team.is_object() ? team.find("players") : team.end();
       if (players == team.end() || !players->is_array()) continue;
-      const auto colour =
-          std::ranges::find(teamColors, lenient::text(team, "colourName"), &TeamColorInfo::name);
-      const std::string before =
-          colour == teamColors.end() ? std::string("Robot ") : std::string(colour->letter);
+      const auto colour = teamColorNamed(lenient::text(team, "colourName"));
+      const std::string before = colour ? std::string(info(*colour).letter) : "Robot ";
       Json kept = Json::array();
       for (const Json& player : *players) {
         const int number = player.is_object() ? lenient::whole<int>(player, "n") : 0;

@@ -12,7 +12,8 @@
 namespace pitchboard {
 namespace {
 
-constexpr std::size_t step = 256 * 1024;
+// Files of the kernel are small and read often; memory for a long file would cost more than they.
+constexpr std::size_t firstStep = 4 * 1024, longestStep = 256 * 1024;
 
 std::string sizeText(std::size_t bytes) {
   constexpr std::size_t mebi = std::size_t{1} << 20;
@@ -33,6 +34,7 @@ Result<std::string> readDescriptor(int descriptor, std::size_t mostBytes, const 
   // One byte more than allowed tells a file that is too long, however long (or endless) it is.
   while (bytes.size() <= mostBytes) {
     const std::size_t at = bytes.size();
+    const std::size_t step = std::clamp(at, firstStep, longestStep);
     bytes.resize(at + std::min(step, mostBytes + 1 - at));
     const ssize_t got = ::read(descriptor, bytes.data() + at, bytes.size() - at);
     const int error = got < 0 ? errno : 0;

@@ -2,7 +2,7 @@
 #pragma once
 
 // Angles and lengths as the published program computes them, operation for operation
-// (PUBLISHED_EXACT.md, first paragraph). Degrees unless said.
+// (published-exact.md, first paragraph). Degrees unless said.
 
 #include <cmath>
 #include <numbers>

@@ -21,7 +21,7 @@ const PublishedState& stateOf(const WorldState& world) {
   return std::get<PublishedState>(world.physics);
 }
 
-/// The published frame (PUBLISHED_EXACT.md), in the published order, always 1/60 s a tick.
+/// The published frame (published-exact.md), in the published order, always 1/60 s a tick.
 class PublishedModel : public PhysicsModel {
  public:
   void reset(WorldState& world) const override {

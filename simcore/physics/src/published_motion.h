@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Body of the `published` model: move, control and the ball (PUBLISHED_EXACT.md, sections "Move",
+// Body of the `published` model: move, control and the ball (published-exact.md, sections "Move",
 // "Control", "Ball").
 
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Eyes of the `published` model (PUBLISHED_EXACT.md, sections "Landmark vision", "Ball vision",
+// Eyes of the `published` model (published-exact.md, sections "Landmark vision", "Ball vision",
 // "Robot vision").
 
 #include <simcore/world/robot_io.h>

@@ -5,15 +5,13 @@
 #include <cmath>
 
 #include <base/repeatable_math.h>
-#include <simcore/world/limits.h>
-#include <simcore/world/published_frame.h>
+#include <simcore/world/gait_step.h>
 
 namespace pitchboard::sim::rigid {
 namespace {
 
 constexpr double margin = 0.005;      // m, so that nearly touching things count as near
 constexpr double partingSpeed = 0.5;  // m/s at which things dragged onto each other part
-constexpr double feetGrip = 4.0;      // m/s², friction of about 0.4
 
 /// Whether a place is so far from a post or net along one axis that it is farther in all.
 bool isBeside(const Obstacle& o, const Point& place, double distance) {
@@ -21,26 +19,13 @@ bool isBeside(const Obstacle& o, const Point& place, double distance) {
          place.y - o.last.y >= distance || o.first.y - place.y >= distance;
 }
 
-/// A speed of the gait after contacts changed it. Being slowed down is taken as it is; being pushed
-/// faster or backwards is resisted by the feet, which lose `grip` of it in this tick.
-double afterContact(double gait, double change, double grip) {
-  const double speed = gait + change;
-  const double own = std::clamp(speed, std::min(0.0, gait), std::max(0.0, gait));
-  const double pushed = speed - own;
-  return own + std::copysign(std::max(0.0, std::abs(pushed) - grip), pushed);
-}
-
 }  // namespace
 
 void Collisions::updateRolling(double share, double dt) {
-  if (m_rolling.share == share && m_rolling.dt == dt) return;
-  m_rolling = {share, dt, 1.0, 1.0};
-  if (share >= 1.0) return;
-  // The published ball slows, then moves: v·f/60 + v·f²/60 + ... = v·f/(60·(1 − f)). Scaled to this
-  // whole way, exponential decay gives the same place at every tick rate, and at 60 Hz each tick's.
-  m_rolling.kept = repeatable::pow(share, dt * published_frame::framesPerSecond);
-  const double way = share / ((1.0 - share) * published_frame::framesPerSecond);
-  m_rolling.mean = way * (1.0 - m_rolling.kept) / dt;
+  if (m_share == share && m_dt == dt) return;
+  m_share = share;
+  m_dt = dt;
+  m_rolling = rollingShare(share, dt);
 }
 
 std::size_t Collisions::addBody(const Tick& tick, std::size_t body) {
@@ -200,13 +185,7 @@ void Collisions::advance(Tick& tick) {
 
   RigidBall& ball = tick.state.ball;
   const double ballSpeed = length(ball.velocity.x, ball.velocity.y);
-  const double speed = std::min(ballSpeed, fastestBall);
-  // Grass takes its share evenly over the tick, or over the part in which the ball still rolls.
-  const double loss = surface.deceleration * tick.dt;
-  const double rolls = loss > speed ? speed / loss : 1.0;
-  const double mean =
-      speed > 0.0 ? (speed - 0.5 * loss * rolls) * rolls * m_rolling.mean / ballSpeed : 0.0;
-  const double left = speed > 0.0 ? std::max(0.0, speed - loss) * m_rolling.kept / ballSpeed : 0.0;
+  const auto [mean, left] = rolledOf(surface, m_rolling, ballSpeed, tick.dt);
   m_ballVelocity = {ball.velocity.x * mean, ball.velocity.y * mean};
   tick.ball = {
       ball.position,

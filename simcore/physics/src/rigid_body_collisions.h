@@ -8,6 +8,8 @@
 
 #include <vector>
 
+#include <simcore/world/ball_rolling.h>
+
 #include "rigid_body_contacts.h"
 #include "rigid_body_separation.h"
 #include "rigid_body_tick.h"
@@ -21,22 +23,14 @@ class Collisions {
   void advance(Tick& tick);
 
  private:
-  /// How a ball slows down within a tick by the share of Surface::keptPerFrame (Eq. (4) of the
-  /// paper), whatever the rate.
-  struct Rolling {
-    double share = -1.0;
-    double dt = 0.0;
-    double kept = 1.0;  ///< share of its speed that the ball has left after the tick
-    double mean = 1.0;  ///< mean speed over the tick, as a share of the speed before it
-  };
-
   void updateRolling(double share, double dt);
   void findNeighbours(const Tick& tick);
   std::size_t addBody(const Tick& tick, std::size_t body);
   void separate(const Tick& tick);
   void writeBack(Tick& tick);
 
-  Rolling m_rolling;
+  double m_share = -1.0, m_dt = 0.0;  ///< of which m_rolling is
+  RollingShare m_rolling;
   ContactSolver m_solver;
   Separation m_separation;
   Velocity m_ballVelocity;                 ///< mean over the tick, m/s

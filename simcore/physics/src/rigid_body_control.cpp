@@ -6,6 +6,7 @@
 #include <base/angles.h>
 #include <base/random.h>
 #include <simcore/world/action.h>
+#include <simcore/world/gait_step.h>
 #include <simcore/world/published_frame.h>
 
 namespace pitchboard::sim::rigid {
@@ -13,10 +14,6 @@ namespace {
 
 constexpr int getUpFromFront = 15;
 constexpr int getUpFromBack = 16;
-
-double approach(double value, double target, double most) {
-  return value < target ? std::min(value + most, target) : std::max(value - most, target);
-}
 
 void select(RigidRobot& robot, int code, int b, bool inMotion) {
   robot.action = code;

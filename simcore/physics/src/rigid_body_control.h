@@ -17,7 +17,7 @@ inline constexpr double lyingTime = 0.5;
 /// Draws the noise of all robots' motion in this tick, before the first stepControl().
 void drawMotion(Tick& tick);
 
-/// Selects the action as the published state machine does (PUBLISHED_EXACT.md "Control"), kicks,
+/// Selects the action as the published state machine does (published-exact.md "Control"), kicks,
 /// changes the speeds within the gait's acceleration and turns the robot; leaves the velocity that
 /// it asks for in its Motion. Fills percept.control.
 void stepControl(Tick& tick, std::size_t robot, const RobotCommand& command, Percepts& percept);

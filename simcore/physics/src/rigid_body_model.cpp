@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The `rigid-body` model: SYSTEM.md section 4, last paragraph. This file holds the order of a tick
+// The `rigid-body` model: system.md section 4, last paragraph. This file holds the order of a tick
 // and the edits by hand; the parts are in the rigid_body_*.cpp files beside it.
 
 #include <algorithm>

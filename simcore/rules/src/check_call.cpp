@@ -14,7 +14,7 @@ tl::unexpected<Error> refused(const std::string& text) {
   return failure(ErrorCode::Conflict, text);
 }
 
-/// The transitions of REFEREE.md section 1.
+/// Which states may follow which: every other change is refused.
 Allowed checkState(const GameState& game, const RefereeRules& rules, PlayState state) {
   const PlayState from = game.state;
   const bool shootOut = game.phase == GamePhase::ShootOut;

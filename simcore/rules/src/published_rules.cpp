@@ -12,7 +12,7 @@
 namespace pitchboard::sim {
 namespace {
 
-// In the published frame, with the published operations (PUBLISHED_EXACT.md "Ball").
+// In the published frame, with the published operations (published-exact.md "Ball").
 
 bool liesInGoal(const PublishedGeometry& g, const PublishedBall& ball, double x1, double x2) {
   const double r = g.ballRadius;

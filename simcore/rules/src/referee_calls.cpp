@@ -86,7 +86,7 @@ void RefereeTable::carryOut(const RefereeCall& call) {
   }
 }
 
-/// The transitions of REFEREE.md section 1.
+/// What the entry into each state changes.
 void RefereeTable::carryOut(PlayState state) {
   switch (state) {
     case PlayState::Initial:

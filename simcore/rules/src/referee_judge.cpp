@@ -12,15 +12,15 @@ namespace {
 
 constexpr double touchMargin = 0.012;   // m between two bodies that touch
 constexpr double contactMargin = 0.02;  // m, robots
-constexpr double pushersReach = 2.0;    // m to the ball (REFEREE.md section 7)
+constexpr double pushersReach = 2.0;    // m to the ball
 constexpr double pushersLead = 0.1;     // m that the pushed one is nearer to the ball
-constexpr double pushingSpeed = 0.05;   // m/s towards the other
+constexpr double pushingSpeed = 0.05;   // m/s towards the other, that its gait asks for
 constexpr double immunity = 2.0;        // s after a pushing was given
 constexpr double foulNearBall = 1.0;    // m: a free kick, else only removal
 constexpr double alone = 1.0;           // m
 constexpr double heap = 0.1;            // m that the ball moves in a heap of robots
 constexpr double afterHeap = 10.0;      // s more, once a robot was removed from a heap
-constexpr double longBack = 30.0;       // s after a penalty that a robot is not removed from a heap
+constexpr double longBack = 30.0;       // s of play after a penalty, on its way back
 constexpr double oneTouch = 0.2;        // s; a shorter pause is none
 constexpr double takenAway = 0.1;       // m that the ball of a set play has moved before a second
 constexpr int fewPlayers = 3;           // a team of fewer may touch the ball twice
@@ -196,11 +196,17 @@ void RefereeTable::judgeRest() {
   };
   rest(g.still, m_rules.stillDistance);
   rest(g.near, heap);
-  bool somebody = false;
-  for (std::size_t i = 0; !somebody && i < m_now.robots.size(); ++i) {
-    somebody = plays(i) && within(m_now.robots[i].pose.position, m_now.ball, alone);
+  const auto isSomebodyWithin = [this](double reach) {
+    for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
+      if (plays(i) && within(m_now.robots[i].pose.position, m_now.ball, reach)) return true;
+    }
+    return false;
+  };
+  g.aloneTicks = isSomebodyWithin(alone) ? 0 : g.aloneTicks + 1;
+  // It is stuck in a heap while robots are at it, and not while only one team may touch it.
+  if (!g.ballFree() || !isSomebodyWithin(m_rules.localStuckReach)) {
+    g.near.ticks = std::min(g.near.ticks, 0);
   }
-  g.aloneTicks = somebody ? 0 : g.aloneTicks + 1;
   if (!m_rules.dropBalls) return;
   const auto over = [this](int passed, double time) { return time > 0.0 && passed >= ticks(time); };
   if (over(g.near.ticks, m_rules.localStuckTime)) {
@@ -208,8 +214,7 @@ void RefereeTable::judgeRest() {
     double least = m_rules.localStuckReach * m_rules.localStuckReach;
     for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
       const double d = squared(m_now.robots[i].pose.position, m_now.ball);
-      const bool isBack = g.watches[i].backTicks >= 0;
-      if (!plays(i) || d > least || isBack) continue;
+      if (!plays(i) || d > least || isOnItsWayBack(i)) continue;
       least = d;
       nearest = i;
     }
@@ -282,7 +287,8 @@ void RefereeTable::judgeGoalAreas() {
   }
 }
 
-/// Touching an opponent that is nearer to the ball, and walking against it.
+/// Touching an opponent that is nearer to the ball, and walking against it. Who turns in place or
+/// kicks does not push.
 void RefereeTable::judgePushing(std::size_t robot) {
   RobotWatch& watch = m_game.watches[robot];
   if (watch.immuneTicks > 0) {
@@ -291,6 +297,11 @@ void RefereeTable::judgePushing(std::size_t robot) {
   }
   const RobotSnapshot& pusher = m_now.robots[robot];
   const double toBall = std::sqrt(squared(pusher.pose.position, m_now.ball));
+  // What its gait asks for: its body does not move when the other one stands firm.
+  constexpr int fullSpeed = 10;  // DECISION_ACTION_B
+  const GaitSpeed gait = gaitSpeed(m_world.models[robot], pusher.action, fullSpeed);
+  const auto [s, c] = repeatable::sinCos(pusher.pose.yaw);
+  const double vx = gait.forward * c - gait.left * s, vy = gait.forward * s + gait.left * c;
   bool pushes = false;
   for (std::size_t j = 0; j < m_now.robots.size() && toBall < pushersReach; ++j) {
     if (j == robot || teamOf(j) < 0 || teamOf(j) == teamOf(robot)) continue;
@@ -300,11 +311,7 @@ void RefereeTable::judgePushing(std::size_t robot) {
     const double lead = toBall - std::sqrt(squared(other, m_now.ball));
     const double dx = other.x - pusher.pose.position.x, dy = other.y - pusher.pose.position.y;
     const double d = std::sqrt(dx * dx + dy * dy);
-    // The gait that it asks for: its body does not move when the other one stands firm.
-    const auto [s, c] = repeatable::sinCos(pusher.pose.yaw);
-    const bool walksAtIt = pusher.action != 0 && d > 0.0 &&
-                           ((dx * c + dy * s) / d > 0.5 ||
-                            (pusher.velocity.x * dx + pusher.velocity.y * dy) / d > pushingSpeed);
+    const bool walksAtIt = d > 0.0 && (vx * dx + vy * dy) / d > pushingSpeed;
     pushes = pushes || (lead > pushersLead && walksAtIt);
   }
   watch.contactTicks = pushes ? watch.contactTicks + 1 : std::max(0, watch.contactTicks - 1);
@@ -373,8 +380,15 @@ bool RefereeTable::allStandReady() {
 /// At the whistle: who does not stand where it may begins beside the field.
 void RefereeTable::judgeKickOff() {
   for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
-    if (plays(i) && !mayStandThere(i)) penalise(i, PenaltyKind::IllegalPosition);
+    if (plays(i) && !isOnItsWayBack(i) && !mayStandThere(i)) {
+      penalise(i, PenaltyKind::IllegalPosition);
+    }
   }
+}
+
+/// Came back from a penalty a short time ago: it may still be where others must not be.
+bool RefereeTable::isOnItsWayBack(std::size_t robot) const {
+  return m_game.watches[robot].backTicks >= 0;
 }
 
 /// A set play goes on by its timers; who stands at the ball when it may be taken is penalised.
@@ -384,7 +398,7 @@ void RefereeTable::judgeSetPlay() {
   const auto clearBall = [this] {
     for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
       const int team = teamOf(i);
-      if (!plays(i) || team == m_game.restart.team) continue;
+      if (!plays(i) || team == m_game.restart.team || isOnItsWayBack(i)) continue;
       const bool keeper =
           player(i)->goalkeeper && -way(team) * m_now.robots[i].pose.position.x >
                                        m_field.halfLength() - std::max(0.5, m_field.goalAreaLength);

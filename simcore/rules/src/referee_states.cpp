@@ -95,7 +95,7 @@ void RefereeTable::beginPlaying() {
     m_game.restart = {Step::Executed,       SetPlay::None, m_game.kickOff, ball(), 0,
                       !m_rules.directGoals, false};
   }
-  // REFEREE.md section 4: all at SET -> PLAYING, but not who is penalised at this whistle.
+  // All at SET -> PLAYING, but not who is penalised at this whistle.
   if (m_rules.pardonsAtPlay) pardonAll(1);
 }
 

@@ -6,7 +6,7 @@
 namespace pitchboard::sim {
 namespace {
 
-// Source: SYSTEM.md section 3 and PUBLISHED_EXACT.md "Control". Products are written as published:
+// Source: system.md section 3 and published-exact.md "Control". Products are written as published:
 // step factor times step length.
 constexpr double fast = 0.015 * 20;
 constexpr double slow = 0.015 * 10;

@@ -23,7 +23,7 @@ constexpr Ball fifa1{0.07, 0.205}, fifa3{0.095, 0.31}, fifa5{0.11, 0.43};
 // for other lengths of the grass or larger balls.
 constexpr Surface grass{.deceleration = 0.30, .keptPerFrame = 1.0};
 
-// Sizes of the years' rules, from the table in docs/SCENARIOS.md; the published simulator's own
+// Sizes of the years' rules, from the table in docs/scenarios.md; the published simulator's own
 // drawing comes first. Robots have a radius of about 0.22 of the height of their class (0.5 to 0.6
 // m, 0.9 to 1.0 m, 1.3 m); the rules allow 0.275.
 const std::array<FieldSpec, 8>& fields() {

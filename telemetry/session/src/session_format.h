@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How groups, rows and messages look inside a session file (docs/SESSIONS.md). Rows are CDR (OMG,
-// little-endian, plain, version 1) by a ros2msg definition made from the columns.
+// How groups, rows and messages look inside a session file (docs/file-formats.md). Rows are CDR
+// (OMG, little-endian, plain, version 1) by a ros2msg definition made from the columns.
 
 #include <array>
 #include <limits>

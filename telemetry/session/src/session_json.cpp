@@ -96,7 +96,7 @@ const std::array<StreamInfo, sessionStreamCount> streams{{
     {"/referee", "pitchboard.Referee",
      R"({"type":"object","title":"pitchboard.Referee","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
     {"/checkpoints", "pitchboard.Checkpoint",
-     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/SESSIONS.md"}},"required":["time"]})"},
+     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/file-formats.md"}},"required":["time"]})"},
     {"/live/state", "pitchboard.LiveState",
      R"({"type":"object","title":"pitchboard.LiveState","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
 }};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How the coarse picture of a group's rows stands in a session file (docs/SESSIONS.md, Summaries).
-// Private to the library. Little-endian.
+// How the coarse picture of a group's rows stands in a session file (docs/file-formats.md,
+// Summaries). Private to the library. Little-endian.
 
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers at fixed places, and the three formats whose places depend on what stands in them
-// (docs/reference/TEAM_FORMATS.md).
+// (docs/reference/team-formats.md).
 #include <algorithm>
 #include <array>
 #include <bit>

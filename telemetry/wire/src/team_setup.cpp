@@ -25,11 +25,8 @@ constexpr std::array<std::string_view, 2> directions{"right", "left"};
 constexpr std::array<std::string_view, 8> setupKeys{"name",    "number",  "colour",  "ports",
                                                     "senders", "profile", "attacks", "robots"};
 
-std::vector<std::string_view> colourNames() {
-  std::vector<std::string_view> names;
-  for (const TeamColorInfo& colour : teamColors) names.push_back(colour.name);
-  return names;
-}
+/// Those of the GameController's colours in which robots are drawn.
+constexpr std::array<std::string_view, 5> drawnColours{"blue", "red", "black", "orange", "yellow"};
 
 void readPorts(const JsonObject& top, TeamSetup& setup) {
   const JsonNode* node = top.find("ports");
@@ -93,9 +90,8 @@ TeamSetup readSetup(JsonReport& report, const JsonObject& top) {
   TeamSetup setup;
   setup.name = top.text("name", {}, longestText);
   setup.number = top.integer("number", 0, 0, highestTeam);
-  const auto names = colourNames();
-  if (const auto colour = top.choice("colour", names, "colour of a team")) {
-    setup.colour = teamColors[*colour].color;
+  if (const auto colour = top.choice("colour", drawnColours, "colour of a team")) {
+    setup.colour = drawnColours[*colour];
   }
   readPorts(top, setup);
   readSenders(top, setup);
@@ -168,7 +164,7 @@ Result<void> saveTeamSetup(const TeamSetup& setup, const std::string& path) {
 std::string teamSetupText(const TeamSetup& setup) {
   Json json{{"name", setup.name}};
   if (setup.number > 0) json["number"] = setup.number;
-  if (setup.colour) json["colour"] = info(*setup.colour).name;
+  if (!setup.colour.empty()) json["colour"] = setup.colour;
   if (setup.firstPort > 0 && setup.firstPort == setup.lastPort) json["ports"] = setup.firstPort;
   if (setup.firstPort < setup.lastPort) json["ports"] = {setup.firstPort, setup.lastPort};
   if (!setup.senders.empty()) json["senders"] = setup.senders;

@@ -163,11 +163,11 @@ void TestExperimentsDock::playsAndShowsResults() {
   Dock dock;
   QVERIFY(dock.find<QComboBox>("experimentChoice")->count() >= 7);
   auto* noRuns = dock.find<QLabel>("experimentTableEmpty");
-  QCOMPARE(noRuns->text(), QStringLiteral("No results yet. Start plays the experiment."));
+  QCOMPARE(noRuns->text(), QStringLiteral("No results yet. Press Start to play the experiment."));
   dock.write("2", 3);
   dock.press();
   QCOMPARE(dock.start(), QStringLiteral("Cancel"));
-  QVERIFY(noRuns->text().startsWith(QStringLiteral("The runs are being played.")));
+  QVERIFY(noRuns->text().startsWith(QStringLiteral("Playing the runs.")));
   QTRY_COMPARE_WITH_TIMEOUT(dock.start(), QStringLiteral("Start"), 60000);
   QVERIFY(noRuns->isHidden());
   QVERIFY(dock.find<QLabel>("experimentDistributionEmpty")->isHidden());
@@ -177,6 +177,9 @@ void TestExperimentsDock::playsAndShowsResults() {
   QCOMPARE(runs->rowCount(), 6);
   QCOMPARE(runs->index(4, 1).data().toString(), QStringLiteral("noisy"));
   QCOMPARE(runs->index(4, 2).data().toString(), QStringLiteral("2"));
+  QCOMPARE(runs->headerData(3, Qt::Horizontal).toString(), QStringLiteral("Score"));
+  QCOMPARE(runs->index(4, 3).data().toString(), QStringLiteral("0 : 0"));
+  QCOMPARE(runs->index(4, 4).data().toString(), QStringLiteral("yes"));
   QVERIFY(dock.table("experimentMeasured")->rowCount() >= 4);
   QCOMPARE(dock.table("experimentAssertions")->index(0, 0).data().toString(),
            QStringLiteral("yes"));

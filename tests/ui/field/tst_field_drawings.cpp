@@ -113,13 +113,13 @@ class TestFieldDrawings : public QObject {
     QVERIFY(changed(now, 3.0, -2.5) && !disc(now));
     QVERIFY(toggle({"B1", "Drawings of this robot"}) && toggle({"B1", "plan"}));
     QCOMPARE(m_view->picture(size), all);
-    QVERIFY(toggle({"Only of selected robots"}));
+    QVERIFY(toggle({"Selected robots only"}));
     QCOMPARE(m_view->picture(size), without);
     m_view->select({red(1)});
     now = m_view->picture(size);
     QVERIFY(changed(now, 3.0, -2.5) && !changed(now, 3.0, -2.0));
     m_view->select({});
-    QVERIFY(toggle({"Only of selected robots"}));
+    QVERIFY(toggle({"Selected robots only"}));
     m_view->actions().layers[std::size_t(FieldLayer::Drawings)]->setChecked(false);
     QCOMPARE(m_view->picture(size), without);
     m_view->actions().layers[std::size_t(FieldLayer::Drawings)]->setChecked(true);

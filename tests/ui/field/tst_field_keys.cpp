@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every published key asks for what the published simulator's key does (SYSTEM.md section 9); and
+// Every published key asks for what the published simulator's key does (system.md section 9); and
 // what the ruler reads.
 
 #include <QTest>

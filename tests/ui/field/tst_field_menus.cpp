@@ -108,7 +108,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     QCOMPARE(m_controller->edits()->robot(RobotId{3})->behaviour, std::string("keeper"));
     QVERIFY(isChecked(pose(3).position, "Keeper"));
     QVERIFY(!isChecked(pose(3).position, "Striker"));
-    QVERIFY(trigger(pose(3).position, "None (your own process)"));
+    QVERIFY(trigger(pose(3).position, "None (team program)"));
     QTRY_COMPARE(m_controller->frame()->robots[2].behaviour, std::string(link::noBehaviour));
   }
 
@@ -160,8 +160,8 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
   void poseEditorKeepsOrPutsBack_data() {
     QTest::addColumn<int>("key");
     QTest::addColumn<int>("commands");
-    QTest::newRow("Enter keeps it") << int(Qt::Key_Return) << 1;
-    QTest::newRow("Esc puts it back") << int(Qt::Key_Escape) << 0;
+    QTest::newRow("Enter applies") << int(Qt::Key_Return) << 1;
+    QTest::newRow("Esc reverts") << int(Qt::Key_Escape) << 0;
   }
   void poseEditorKeepsOrPutsBack() {
     QFETCH(int, key);
@@ -197,7 +197,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
 
   void ballEditorSetsPlaceAndSpeed() {
     const Point before = m_controller->frame()->snapshot.ball;
-    QVERIFY(trigger(before, "Place and speed of the ball…"));
+    QVERIFY(trigger(before, "Ball position and speed…"));
     auto* speed = m_view->findChild<QDoubleSpinBox*>("speed");
     auto* heading = m_view->findChild<QDoubleSpinBox*>("heading");
     QVERIFY(speed && heading);
@@ -210,7 +210,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
 
   void ballEditorTakesACommaAndIsUndone() {
     const Point before = m_controller->frame()->snapshot.ball;
-    QVERIFY(trigger(before, "Place and speed of the ball…"));
+    QVERIFY(trigger(before, "Ball position and speed…"));
     auto* y = m_view->findChild<QDoubleSpinBox*>("y");
     QVERIFY(y);
     // With a decimal comma, by its keys.

@@ -78,7 +78,7 @@ class TestLiveSettings : public QObject {
     there.removeLast();
     chooser.show();
     chooser.showPopup();
-    QCOMPARE(chooser.currentText(), QStringLiteral("192.168.0.12 — not on this computer now"));
+    QCOMPARE(chooser.currentText(), QStringLiteral("192.168.0.12 (not on this computer now)"));
     QCOMPARE(chooser.address(), QStringLiteral("192.168.0.12"));
     chooser.hidePopup();
     there << NetworkAddress{"wlan0", "192.168.0.12"};
@@ -125,7 +125,7 @@ class TestLiveSettings : public QObject {
     QVERIFY(d.dialog->apply());
     LiveSettingsDialog again(&d.live, &d.settings, nullptr);
     QCOMPARE(again.findChild<QComboBox*>(QStringLiteral("bind"))->currentText(),
-             QStringLiteral("192.0.2.77 — not on this computer now"));
+             QStringLiteral("192.0.2.77 (not on this computer now)"));
     QVERIFY(again.apply());
     QCOMPARE(d.live.options().bind.text(), std::string("192.0.2.77"));
   }
@@ -136,13 +136,13 @@ class TestLiveSettings : public QObject {
     QTest::addColumn<QString>("said");
     QTest::newRow("address") << "bind"
                              << "localhost"
-                             << "Listen at";
+                             << "Listen on";
     QTest::newRow("sender") << "senders"
                             << "1.2.3.4/77"
-                            << "Robots only from";
+                            << "Accept robots from";
     QTest::newRow("referee's") << "refereeSenders"
                                << "1.2.3.4/77"
-                               << "Referee only from";
+                               << "Accept referee from";
     QTest::newRow("ports") << "portBase"
                            << "65530"
                            << "port";

@@ -66,7 +66,7 @@ class TestLiveStatus : public QObject {
     QVERIFY2(status.update({}, &frame, 0.0).trouble.isEmpty(),
              qPrintable(status.update({}, &frame, 0.0).trouble));
     frame.robots.pop_back();
-    QVERIFY(status.update({}, &frame, 1.0).trouble.startsWith("B3 has not been heard"));
+    QVERIFY(status.update({}, &frame, 1.0).trouble.startsWith("B3 has been offline"));
   }
 };
 

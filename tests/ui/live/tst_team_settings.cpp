@@ -152,7 +152,7 @@ class TestTeamSettings : public QObject {
              cell(1, 3) == QStringLiteral("R5 (Ours)");
     };
     QTRY_VERIFY(arrives());
-    QVERIFY(cell(0, 4).contains(QStringLiteral("no team sends from there to this port")));
+    QVERIFY(cell(0, 4).contains(QStringLiteral("no team has this sender and port")));
     QVERIFY(d.live.options().team.teams.empty());
   }
 
@@ -211,7 +211,7 @@ class TestTeamSettings : public QObject {
     click("removeField");
     QCOMPARE(editor.profile(), telemetry::publishedProfile());
     QVERIFY(!editor.saveTo(QStringLiteral("/nonexistent/folder/p.json")));
-    QVERIFY(problem->text().contains(QStringLiteral("cannot be written")));
+    QVERIFY(problem->text().contains(QStringLiteral("Could not write")));
   }
 
   void theEditorKeepsWhatItDoesNotShow() {

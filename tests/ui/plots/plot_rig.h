@@ -8,7 +8,7 @@
 #include <QMimeData>
 #include <QTest>
 
-#include <base/actions.h>
+#include <simcore/world/action_codes.h>
 #include <ui/base/theme.h>
 #include <ui/plots/plots_dock.h>
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <functional>
 
-#include <base/actions.h>
+#include <simcore/world/action_codes.h>
 #include <telemetry/series/series_store.h>
 #include <ui/base/plot_target.h>
 #include <ui/plots/plots_dock.h>

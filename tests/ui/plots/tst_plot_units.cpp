@@ -218,7 +218,7 @@ class TestPlotUnits : public QObject {
     spec.curves << variableCurve(QStringLiteral("B1/DIST")) << speed;
     PlotPane* pane = b.dock->currentPage()->insertPane(0, spec);
     b.time.setRange({0.0, 10.0});
-    chooseInPlotMenu(*b.dock, pane, QStringLiteral("Show one over the other (XY)"));
+    chooseInPlotMenu(*b.dock, pane, QStringLiteral("Show as XY plot"));
     QCOMPARE(b.dock->currentPage()->panes().size(), 2);
     const auto* xy = qobject_cast<XyPane*>(b.dock->currentPage()->panes()[1]);
     QVERIFY(xy);

@@ -258,7 +258,7 @@ class TestPlotWork : public QObject {
     b.dock->plotVariables({QStringLiteral("B1/ACTION")});
     QCOMPARE(b.dock->currentPage()->panes().size(), 2);
     const std::unique_ptr<QMenu> menu(makePlotsMenu(b.dock.get()));
-    menu_entry::called(menu->actions(), QStringLiteral("Remove all plots of the tab"))->trigger();
+    menu_entry::called(menu->actions(), QStringLiteral("Remove all plots of this tab"))->trigger();
     QVERIFY(b.dock->currentPage()->panes().isEmpty());
     b.dock->undoStack()->undo();
     QCOMPARE(b.dock->currentPage()->panes().size(), 2);
@@ -487,7 +487,7 @@ class TestPlotWork : public QObject {
     line->setText(QStringLiteral("B1.XYZQVW * 2"));
     QCOMPARE(problem->text(), QStringLiteral("B1 has no variable XYZQVW."));
     line->setText(QStringLiteral("B7.DIST"));
-    QCOMPARE(problem->text(), QStringLiteral("There is no B7 now. Did you mean B1?"));
+    QCOMPARE(problem->text(), QStringLiteral("There is no B7. Did you mean B1?"));
     line->setText(QStringLiteral("each.DIST + first.ANGLE - t"));
     QCOMPARE(problem->text(), QString());
   }

@@ -4,7 +4,7 @@
 #include <QMimeData>
 #include <QtTest>
 
-#include <base/actions.h>
+#include <simcore/world/action_codes.h>
 #include <telemetry/series/series_pages.h>
 #include <ui/base/theme.h>
 #include <ui/plots/plots_dock.h>

@@ -4,7 +4,7 @@
 #include <QMenu>
 #include <QtTest>
 
-#include <base/actions.h>
+#include <simcore/world/action_codes.h>
 #include <ui/base/theme.h>
 #include <ui/plots/plots_dock.h>
 

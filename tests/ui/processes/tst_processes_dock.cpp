@@ -22,6 +22,7 @@
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
 
+#include "../support/real_time_robot.h"
 #include "../support/segment_keys.h"
 #include "processes_model.h"
 
@@ -309,7 +310,8 @@ class TestProcessesDock : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame()->robots[0].ofOthers, 30'000);
     m_controller->setPaused(true);
     QCOMPARE(m_told.size(), 1);
-    QVERIFY2(m_told.front().startsWith(QStringLiteral("The processes of B1 were not started here")),
+    QVERIFY2(m_told.front().startsWith(
+                 QStringLiteral("The processes of B1 were not started by this match")),
              qPrintable(m_told.front()));
     m_controller->setPaused(false);
     m_controller->setSpeed(5.0);
@@ -320,12 +322,7 @@ class TestProcessesDock : public QObject {
   // At another speed than ×1 its clock is not the match's.
   void whoKeepsRealTimeIsToldWhenTheSpeedChanges() {
     const QTemporaryDir folder;
-    QFile profile(folder.filePath(QStringLiteral("own.json")));
-    QVERIFY(profile.open(QIODevice::WriteOnly));
-    profile.write(R"({"version": 1, "name": "own", "processes": [{"name": "decision",
-      "command": ["/bin/sleep", "600"], "clock": "real"}]})");
-    profile.close();
-    open(oneRobot(profile.fileName()));
+    open(oneRobot(realTimeProfile(folder)));
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
     QVERIFY(m_told.isEmpty());
     m_controller->answerSpeed(8.0, MatchController::RealTimePrograms::LeaveBehind);

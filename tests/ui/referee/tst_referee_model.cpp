@@ -52,7 +52,7 @@ class TestRefereeModel : public QObject {
     v.truth->state = "PLAYING";
     v.truth->secondsLeft = -7;
     v.truth->scores = {2, 0};
-    QCOMPARE(refereeTruthText(v), QStringLiteral("Really: PLAYING −00:07, 2 : 0, 0.0 s ago"));
+    QCOMPARE(refereeTruthText(v), QStringLiteral("True state: PLAYING −00:07, 2 : 0, 0.0 s ago"));
     QCOMPARE(refereeTeamText(v.teams[0], v.ourTeam),
              QStringLiteral("Team 12 (blue), ours: 1 goal, 2 players left"));
     QCOMPARE(refereeTeamText(v.teams[1], v.ourTeam),

@@ -308,6 +308,19 @@ class TestRefereePanel : public QObject {
     QCOMPARE(desk.state(), QString("PLAYING"));
   }
 
+  void theScoreboardTellsGoalsByHalf() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    link::MatchFrame frame = desk.frame();
+    QVERIFY(!scoreboardOf(frame).tip.contains("By half"));
+    const auto later = std::make_shared<link::RefereeDesk>(*frame.desk);
+    later->game.half = 2;
+    later->game.teams[0].byHalf = {1, 2, 0, 0};
+    later->game.teams[1].byHalf = {0, 1, 0, 0};
+    frame.desk = later;
+    QVERIFY(scoreboardOf(frame).tip.endsWith("By half: 1 : 0, 2 : 1"));
+  }
+
   void aPenaltyOfAChosenRobot() {
     Desk desk;
     QTRY_COMPARE(desk.state(), QString("INITIAL"));

@@ -175,7 +175,7 @@ class TestVideoWriter : public QObject {
                                   "cat >/dev/null; echo first >&2; echo 'it broke' >&2; exit 3")
                            << "(it broke)";
     QTest::newRow("silent") << QByteArray("exit 1") << "no reason";
-    QTest::newRow("killed") << QByteArray("kill -9 $$") << "from outside";
+    QTest::newRow("killed") << QByteArray("kill -9 $$") << "terminated";
     QTest::newRow("ends early") << QByteArray("exit 0") << "no reason";
   }
   void errorsComeInWords() {

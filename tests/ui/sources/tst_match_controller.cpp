@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Edits and transport of a real match with inline processes.
-#include <QFile>
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QUndoStack>
@@ -13,6 +12,7 @@
 #include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
 
+#include "../support/real_time_robot.h"
 #include "../support/segment_keys.h"
 
 namespace tst_match_controller {
@@ -357,19 +357,12 @@ class TestMatchController : public QObject {
   void aChangeOfSpeedAsks() {
     using Programs = MatchController::RealTimePrograms;
     const QTemporaryDir folder;
-    QFile profile(folder.filePath(QStringLiteral("own.json")));
-    QVERIFY(profile.open(QIODevice::WriteOnly));
-    profile.write(R"({"version": 1, "name": "own", "processes": [{"name": "decision",
-      "command": ["/bin/sleep", "600"], "clock": "real"}]})");
-    profile.close();
-    link::Scenario scenario = link::loadScenario("one-robot").value();
-    scenario.robots[0].runtime.profile = profile.fileName().toStdString();
     link::MatchOptions options = inside();
     options.keyBase = testKeyBase();
     options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
     MatchController c(options);
     QSignalSpy asked(&c, &MatchController::askedForSpeed);
-    c.open(scenario, false);
+    c.open(realTimeRobot(folder), false);
     const auto program = [&c] {
       const auto all =
           c.frame() ? c.frame()->robots[0].processes() : std::span<const link::ProcessSummary>();

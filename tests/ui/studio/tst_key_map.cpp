@@ -61,7 +61,7 @@ struct Keys : Studio {
   }
 };
 
-/// The table in docs/STUDIO.md.
+/// The table in docs/studio.md.
 QString documentTable(const KeyMap& keys) {
   QString text, group;
   for (const KeyLine& line : keys.lines(true)) {
@@ -271,7 +271,7 @@ class TestKeyMap : public QObject {
   void theDocumentHasTheTable() {
     Keys k;
     const QString table = documentTable(KeyMap(k.window));
-    QFile file(QStringLiteral(PITCHBOARD_SOURCE_DIR "/docs/STUDIO.md"));
+    QFile file(QStringLiteral(PITCHBOARD_SOURCE_DIR "/docs/studio.md"));
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QString text = QString::fromUtf8(file.readAll());
     file.close();

@@ -3,6 +3,8 @@
 
 #include <QComboBox>
 #include <QElapsedTimer>
+#include <QFile>
+#include <QFileDialog>
 #include <QtTest>
 #include <optional>
 
@@ -92,7 +94,7 @@ class TestLive : public QObject {
     s.goLive();
     QVERIFY(!chooser->isVisible() && team->isVisible());
     QTRY_COMPARE(s.scoreboard()->state().state, QStringLiteral("NO REFEREE"));
-    QTRY_VERIFY(s.label("noRobots").contains(QStringLiteral("Nothing heard yet")));
+    QTRY_VERIFY(s.label("noRobots").contains(QStringLiteral("Waiting for robots…")));
     QTRY_VERIFY(s.label("statusPace").contains(QStringLiteral("UDP 0.0/s, 0 lost, 0 bad")));
     s.window.showSource(SourceKind::Simulate);
     QTRY_VERIFY(chooser->isVisible() && !team->isVisible());
@@ -198,7 +200,7 @@ class TestLive : public QObject {
     s.window.showSource(SourceKind::Live);
     QTRY_COMPARE(s.bound(), std::size_t(16));
     QTRY_VERIFY(s.window.notices()->text().contains(QString::number(s.options.portBase + 5)));
-    QTRY_VERIFY(s.label("statusProcesses").contains(QStringLiteral("Not received")));
+    QTRY_VERIFY(s.label("statusProcesses").contains(QStringLiteral("Cannot receive on")));
     const Robot robot(s.options, 6);
     QVERIFY(robot.say());
     QTRY_COMPARE(s.robots(), std::size_t(1));
@@ -279,6 +281,54 @@ class TestLive : public QObject {
     QTRY_COMPARE(s.robots() == 1 ? s.health().messages : 0, sent);
     QCOMPARE(s.health().errorCount, std::uint64_t(0));
     QVERIFY(!robot.received());
+  }
+
+  void aCatalogIsOfferedForUnknownNames() {
+    Studio s;
+    s.change(live_rig::receiveVariables);
+    s.goLive();
+    auto* button = s.window.findChild<QToolButton*>(QStringLiteral("importCatalog"));
+    live_rig::Agent agent(s.options, 3);
+    const auto sent = [&s] { return s.live()->details().sent; };
+    QTRY_VERIFY(agent.send("VOLTAGE=150") && sent().size() == 1);
+    emit s.live()->optionsChanged();  // the bar looks again
+    QVERIFY(!button->isVisible());
+    QTRY_VERIFY(agent.send("VOLTAGE=150 KICK_POWER=3") && button->isVisible());
+    QVERIFY2(button->toolTip().contains(QStringLiteral("KICK_POWER")),
+             qPrintable(button->toolTip()));
+
+    const auto write = [&s](const char* name, const QByteArray& text) {
+      QFile file(s.folder.filePath(QLatin1String(name)));
+      return file.open(QIODevice::WriteOnly) && file.write(text) == text.size() ? file.fileName()
+                                                                                : QString();
+    };
+    const auto choose = [&](const QString& file) {
+      QTest::mouseClick(button, Qt::LeftButton);
+      auto* ask = s.window.findChild<QFileDialog*>(QStringLiteral("importCatalogDialog"));
+      QVERIFY(ask != nullptr && ask->isVisible());
+      ask->selectFile(file);
+      static_cast<QDialog*>(ask)->accept();
+      QTRY_VERIFY(!s.window.findChild<QFileDialog*>(QStringLiteral("importCatalogDialog")));
+    };
+    choose(write("bad.json", "{"));
+    QTRY_VERIFY(s.window.notices()->text().contains(QStringLiteral("bad.json")));
+    QVERIFY(s.live()->options().catalogs.empty() && button->isVisible());
+    const QString file =
+        write("board.json", R"({"int": {"VOLTAGE": 0}, "float": {"KICK_POWER": 0}})");
+    choose(file);
+    QTRY_VERIFY(agent.send("VOLTAGE=150 KICK_POWER=3") && !button->isVisible());
+    QCOMPARE(sent()[0].catalog, std::string("board.json"));
+    QVERIFY(sent()[0].unknown.empty());
+    QCOMPARE(s.settings.value(QStringLiteral("live/catalogs")).toStringList(), QStringList{file});
+    // It knows what the number alone does not tell.
+    s.live()->clear();
+    const auto isFloat = [&] {
+      const auto store = s.live()->series();
+      const auto id = store->find("Robot 3", "KICK_POWER");
+      return id && store->view(id->group)->info().columns[id->column].type ==
+                       telemetry::ColumnType::Float32;
+    };
+    QTRY_VERIFY(agent.send("VOLTAGE=150 KICK_POWER=3") && isFloat());
   }
 
   void simulatedAndReceivedStandSideBySide() {

@@ -43,7 +43,7 @@ class TestLiveCards : public QObject {
     QTRY_VERIFY(s.cards()[0]->state().tag.startsWith(QStringLiteral("TIMEOUT")));
     QVERIFY(s.cards()[0]->state().timedOut);
     QVERIFY(s.cards()[0]->state().action.startsWith(QStringLiteral("last: ")));
-    QTRY_VERIFY(s.label("statusProcesses").contains(QStringLiteral("has not been heard")));
+    QTRY_VERIFY(s.label("statusProcesses").contains(QStringLiteral("has been offline")));
     QVERIFY(robot.say());
     QTRY_VERIFY(!s.health().timedOut);
     QTRY_VERIFY(!s.cards()[0]->state().timedOut);
@@ -69,7 +69,7 @@ class TestLiveCards : public QObject {
     QVERIFY(s.health(0).conflict && s.health(1).conflict);
     QVERIFY(s.live()->frame()->robots[0].key != s.live()->frame()->robots[1].key);
     QTRY_COMPARE(s.cards().size(), qsizetype(2));
-    QCOMPARE(s.cards()[0]->state().tag, QStringLiteral("number sent twice"));
+    QCOMPARE(s.cards()[0]->state().tag, QStringLiteral("two senders"));
   }
 
   void cardsOfOurTeamComeFirst() {

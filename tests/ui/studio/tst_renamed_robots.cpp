@@ -163,7 +163,7 @@ class TestRenamedRobots : public QObject {
       telemetry::TeamSetup ours;
       ours.name = "RoboFEI";
       ours.number = 12;
-      ours.colour = TeamColor::Red;
+      ours.colour = "red";
       ours.firstPort = o.portBase + 1;
       ours.lastPort = o.portBase + 16;
       o.team.teams = {ours};

@@ -308,7 +308,7 @@ class TestSafeHands : public QObject {
     // What the match refuses is no step.
     heavy.ballMass = -1.0;
     s.controller.edits()->setRigidBody(heavy);
-    QTRY_VERIFY2(s.window.notices()->text().contains("The physics stays as it was"),
+    QTRY_VERIFY2(s.window.notices()->text().contains("Could not change the physics"),
                  qPrintable(s.window.notices()->text()));
     QCOMPARE(stack->index(), 0);
 
@@ -384,7 +384,7 @@ class TestSafeHands : public QObject {
     }
     lookBack();
     s.window.field()->select({blue(1)});
-    for (const char* text : {"Seed", "Robots decide", "Match number", "Reset score", "Speed",
+    for (const char* text : {"Seed", "Run robot processes", "Match number", "Reset score", "Speed",
                              "Game clock runs", "Undo"}) {
       QAction* action = s.menuAction(QString::fromUtf8(text));
       if (action != nullptr) QVERIFY2(!action->isEnabled(), text);
@@ -448,8 +448,7 @@ class TestSafeHands : public QObject {
     QCOMPARE(dock->cards().size(), qsizetype(5));
 
     whenMenuOpens([](QMenu* menu) {
-      QAction* entry =
-          menu_entry::called(menu->actions(), QStringLiteral("In a window of its own"));
+      QAction* entry = menu_entry::called(menu->actions(), QStringLiteral("Open in a window"));
       QVERIFY(entry);
       entry->trigger();
     });

@@ -84,6 +84,18 @@ PlotLayout everyKind() {
   return {{PageSpec{"one", {chart, lane, xy}}}, 0};
 }
 
+/// The long session in a studio whose memory is too small for it.
+struct LargeSession : Studio {
+  QTemporaryDir files;
+  LargeSession() : Studio(0) {
+    window.setMemoryBudget(1);
+    plots()->setLayoutSpec(everyKind());
+    window.openSession(longSession(files));
+  }
+  PlotsDock* plots() { return window.findChild<PlotsDock*>(); }
+  bool isRead() const { return window.replay()->isOpen() && window.replay()->loaded() == 1.0; }
+};
+
 }  // namespace
 
 class TestSessionCompare : public QObject {
@@ -424,13 +436,9 @@ class TestSessionCompare : public QObject {
   }
 
   void anEnvelopeIsMarkedAndCompletesByItself() {
-    QTemporaryDir folder;
-    Studio s(0);
-    s.window.setMemoryBudget(1);
-    auto* plots = s.window.findChild<PlotsDock*>();
-    plots->setLayoutSpec(everyKind());
-    s.window.openSession(longSession(folder));
-    QTRY_VERIFY(s.window.replay()->isOpen() && s.window.replay()->loaded() == 1.0);
+    LargeSession s;
+    QTRY_VERIFY(s.isRead());
+    auto* plots = s.plots();
     const auto* pane = s.window.findChild<ChartPane*>();
     plots->time()->setRange({0.0, longSeconds});  // every summary is read
     QTRY_VERIFY(pane->traces()[0].coarse && pane->traces()[0].columns.size() > 100);
@@ -446,13 +454,9 @@ class TestSessionCompare : public QObject {
   }
 
   void theWholeSessionIsMeasured() {
-    QTemporaryDir folder;
-    Studio s(0);
-    s.window.setMemoryBudget(1);
-    auto* plots = s.window.findChild<PlotsDock*>();
-    plots->setLayoutSpec(everyKind());
-    s.window.openSession(longSession(folder));
-    QTRY_VERIFY(s.window.replay()->isOpen() && s.window.replay()->loaded() == 1.0);
+    LargeSession s;
+    QTRY_VERIFY(s.isRead());
+    auto* plots = s.plots();
     plots->time()->setRange({100.0, 110.0});
     plots->time()->showMarks(true);
     auto* panel = plots->currentPage()->marksPanel();

@@ -280,7 +280,7 @@ class TestSessionExportDialog : public QObject {
                       Qt::LeftButton);
     QCOMPARE(failed.size(), 1);
     QVERIFY(!dialog->isWriting());
-    QVERIFY2(message(dialog).contains(QStringLiteral("Cancelled")), qPrintable(message(dialog)));
+    QVERIFY2(message(dialog).contains(QStringLiteral("cancelled")), qPrintable(message(dialog)));
     QVERIFY(!QFile::exists(path));
     QVERIFY(parts(s.folder.path()).isEmpty());
   }

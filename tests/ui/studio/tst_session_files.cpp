@@ -74,7 +74,7 @@ class TestSessionFiles : public QObject {
     file.write(bytes);
     file.close();
     s.window.openSession(path);
-    QTRY_VERIFY2(s.notice().contains(QStringLiteral("not opened")), qPrintable(s.notice()));
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("Could not open")), qPrintable(s.notice()));
     QVERIFY(!s.window.replay()->isOpen());
   }
 
@@ -118,7 +118,7 @@ class TestSessionFiles : public QObject {
     QSignalSpy opened(s.window.replay(), &ReplayController::opened);
     s.window.openSession(broken);
     QTRY_COMPARE(opened.size(), 1);
-    QTRY_VERIFY2(s.notice().contains(QStringLiteral("broke off")), qPrintable(s.notice()));
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("truncated")), qPrintable(s.notice()));
     s.window.openSession(s.folder.filePath(QStringLiteral("none.mcap")));
     QTRY_VERIFY2(s.notice().contains(QStringLiteral("none.mcap")), qPrintable(s.notice()));
     s.window.openSession(good);
@@ -157,7 +157,7 @@ class TestSessionFiles : public QObject {
     };
     for (int i = 0; i < 5 && !looked(); ++i) closeNotice(s.window);
     QVERIFY2(repair != nullptr, qPrintable(s.notice()));
-    QVERIFY2(s.notice().contains(QStringLiteral("damaged inside")), qPrintable(s.notice()));
+    QVERIFY2(s.notice().contains(QStringLiteral("is damaged")), qPrintable(s.notice()));
     QSignalSpy opened(s.window.replay(), &ReplayController::opened);
     QTest::mouseClick(repair, Qt::LeftButton);
     QTRY_COMPARE_WITH_TIMEOUT(opened.size(), 1, 20'000);
@@ -171,7 +171,8 @@ class TestSessionFiles : public QObject {
       using namespace pitchboard::telemetry;
       auto file = McapWriter::create(path.toStdString());
       QVERIFY(file.has_value());
-      // The check is a CRC-32 over keys and values, each with its final zero (docs/SESSIONS.md).
+      // The check is a CRC-32 over keys and values, each with its final zero
+      // (docs/file-formats.md).
       QVERIFY(file->metadata(
           "pitchboard",
           {{"format", "9"}, {"start_ns", "5000000000"}, {"new", "x"}, {"check", "3914321931"}}));

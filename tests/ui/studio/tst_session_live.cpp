@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <atomic>
 #include <ctime>
+#include <set>
 
+#include <telemetry/pb2/pb2.h>
 #include <telemetry/session/session_reader.h>
 #include <ui/session/export_dialog.h>
 #include <ui/sources/compared_session.h>
@@ -348,6 +350,105 @@ class TestSessionLive : public QObject {
                                       QStringLiteral("LOCALIZATION_X")});
     QVERIFY2(run.exitCode == 0, run.err.constData());
     check(run.out.trimmed().split('\n'));
+  }
+
+  /// From a robot's datagrams over a recording, its replay and each export: the same numbers.
+  void variablesThatARobotSendsAreExported() {
+    Studio s(0);
+    link::LiveOptions options = live_rig::options();
+    live_rig::receiveVariables(options);
+    s.window.live()->setOptions(options);
+    s.window.showSource(SourceKind::Live);
+    live_rig::Agent agent(options, 1);
+    // What is written as text on the way has to come back to the last bit.
+    const auto yawAt = [](int i) { return 0.1F * static_cast<float>(i) - 1.7F; };
+    int last = 0;
+    const auto send = [&](int until) {
+      for (; last < until; ++last) {
+        const std::string fields =
+            "VOLTAGE=" + std::to_string(last) + " TEAM_STATE=" + std::to_string(-3 * last) +
+            " IMU_EULER_Z=" + std::string(telemetry::Pb2Number(yawAt(last)).text());
+        if (!agent.send(fields)) return false;
+        const bool come = QTest::qWaitFor([&] {
+          const auto sent = s.window.live()->details().sent;
+          return !sent.empty() && sent[0].link.messages == static_cast<std::uint64_t>(last + 1);
+        });
+        if (!come) return false;
+      }
+      return true;
+    };
+    QTRY_VERIFY(s.window.live()->frame());
+    // Rows begin with the robot's first two seconds over.
+    QTRY_VERIFY_WITH_TIMEOUT(
+        send(last + 1) && s.window.live()->series()->find("Robot 1", "TEAM_STATE"), 30'000);
+    const int first = last;
+    const QString path = record(s, [&] { return send(first + 40); });
+    QVERIFY(!path.isEmpty());
+
+    const auto compare = [&](const QList<QByteArray>& line) {
+      const int i = line[0].toInt();
+      QCOMPARE(line[1].toInt(), -3 * i);
+      QCOMPARE(line[2].toFloat(), yawAt(i));
+    };
+    const auto check = [&](const QList<QList<QByteArray>>& rows) {
+      std::set<int> seen;
+      for (const auto& row : rows) {
+        compare(row);
+        seen.insert(row[0].toInt());
+      }
+      for (int i = first; i < first + 40; ++i) QVERIFY2(seen.contains(i), QByteArray::number(i));
+    };
+    // Replay.
+    s.window.openSession(path);
+    QTRY_VERIFY(s.window.timeline()->isRecording());
+    const auto replayed = [&] {
+      QList<QList<QByteArray>> rows;
+      const auto store = s.window.replay()->series();
+      const auto group = store ? store->findGroup("Robot 1") : std::nullopt;
+      if (!group) return rows;
+      const auto view = store->view(*group);
+      std::vector<std::vector<telemetry::Sample>> columns;
+      for (const char* name : {"VOLTAGE", "TEAM_STATE", "IMU_EULER_Z"}) {
+        view->samples(store->find("Robot 1", name)->column, {-1e9, 1e9}, columns.emplace_back());
+      }
+      for (std::size_t i = 0; i < columns[0].size(); ++i) {
+        rows.append({QByteArray::number(columns[0][i].value),
+                     QByteArray::number(columns[1].at(i).value),
+                     QByteArray::number(columns[2].at(i).value, 'g', 17)});
+      }
+      return rows;
+    };
+    QTRY_VERIFY2(replayed().size() >= 40, QByteArray::number(replayed().size()));
+    check(replayed());
+    // Exports, also of a recording that was exported itself.
+    const auto exported = [](const QString& file, const QStringList& more) {
+      return runProgram("pitchboard-cli",
+                        QStringList{"export", file, "--robots", "Robot 1"} + more);
+    };
+    const QString copy = s.folder.filePath(QStringLiteral("copy.mcap"));
+    const ProgramRun copied = exported(path, {"--to", "mcap", "-o", copy});
+    QVERIFY2(copied.exitCode == 0, copied.err.constData());
+    for (const QString& file : {path, copy}) {
+      const ProgramRun table =
+          exported(file, {"--to", "csv-wide", "--variables", "VOLTAGE,TEAM_STATE,IMU_EULER_Z"});
+      QVERIFY2(table.exitCode == 0, table.err.constData());
+      QList<QByteArray> lines = table.out.trimmed().split('\n');
+      const QList<QByteArray> head = lines.takeFirst().split(',');
+      QList<QList<QByteArray>> rows;
+      for (const QByteArray& line : lines) {
+        const QList<QByteArray> cells = line.split(',');
+        QList<QByteArray> row;
+        for (const char* name : {"VOLTAGE", "TEAM_STATE", "IMU_EULER_Z"}) {
+          row.append(cells.at(head.indexOf(QByteArray("Robot 1.") + name)));
+        }
+        rows.append(row);
+      }
+      check(rows);
+    }
+    QFile page(s.folder.filePath(QStringLiteral("report.html")));
+    const ProgramRun report = exported(path, {"--to", "report", "-o", page.fileName()});
+    QVERIFY2(report.exitCode == 0, report.err.constData());
+    QVERIFY(page.open(QIODevice::ReadOnly) && page.readAll().contains("Robot 1"));
   }
 
   void withoutAnythingHeardNothingIsSaved() {

@@ -408,7 +408,7 @@ class TestWindowWork : public QObject {
     link::MatchEvent low{link::MatchEventKind::BatteryLow, 1.0, blue(1), "B1"};
     emit s.controller.eventsReceived({low});
     QVERIFY(!alarms->isRaised());
-    s.menuAction(QStringLiteral("A robot has a low battery"))->trigger();
+    s.menuAction(QStringLiteral("A robot's battery is low"))->trigger();
     emit s.controller.eventsReceived({low});
     QVERIFY(alarms->isRaised());
     QTRY_VERIFY(!alarms->isRaised());
@@ -417,7 +417,7 @@ class TestWindowWork : public QObject {
     alarms->setBell([&rung] { ++rung; });
     emit s.controller.eventsReceived({low});
     QCOMPARE(rung, 0);
-    QAction* sound = s.menuAction(QStringLiteral("With a sound"));
+    QAction* sound = s.menuAction(QStringLiteral("Play a sound"));
     sound->trigger();
     QCOMPARE(rung, 1);
     link::MatchEvent fall = low;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The timeline as a person uses it: real mouse and keys on a source that goes on.
+#include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QToolButton>
@@ -29,10 +30,12 @@ namespace {
 class TestSource : public FrameSource {
  public:
   double oldest = 0.0;
+  bool nobodyPlays = false;
   FramePtr made(double time) const {
     auto frame = std::make_shared<link::MatchFrame>();
     frame->snapshot.time = time;
     frame->snapshot.clockRunning = true;
+    frame->nobodyPlays = nobodyPlays;
     link::RobotFrame robot;
     robot.identity.id = RobotId{7};
     robot.identity.team = TeamColor::Red;
@@ -158,9 +161,62 @@ class TestTimeline : public QObject {
     QVERIFY(!sign.isVisible());
     b.timeline.seek(62.5);
     QVERIFY(sign.isVisible());
-    QCOMPARE(sign.text(), QStringLiteral("Looking back: 01:02.50 (Now leads back)"));
+    QCOMPARE(sign.text(), QStringLiteral("Viewing 01:02.50 · press Now to return"));
     b.timeline.goLive();
     QVERIFY(!sign.isVisible());
+  }
+
+  void aSignSaysThatNobodyPlays() {
+    Bench b;
+    QLabel& sign = *qobject_cast<QLabel*>(makeNobodyPlaysSign(&b.shown, &b.window));
+    b.source.goTo(101);
+    QVERIFY(!sign.isVisible());
+    b.source.nobodyPlays = true;
+    b.source.goTo(102);
+    QVERIFY(sign.isVisible() && sign.text().contains(QStringLiteral("told to play")));
+    b.source.nobodyPlays = false;
+    b.source.goTo(103);
+    QVERIFY(!sign.isVisible());
+  }
+
+  void aTypedTimeIsShown_data() {
+    QTest::addColumn<QString>("typed");
+    QTest::addColumn<double>("time");
+    QTest::newRow("seconds") << "78.7" << 78.7;
+    QTest::newRow("minutes") << "1:18.7" << 78.7;
+    QTest::newRow("hours") << " 00:01:18.7" << 78.7;
+    QTest::newRow("the beginning") << "0" << 0.0;
+  }
+  void aTypedTimeIsShown() {
+    QFETCH(QString, typed);
+    QFETCH(double, time);
+    Bench b;
+    const auto dialog = [] {
+      for (QWidget* top : QApplication::topLevelWidgets()) {
+        if (auto* ask = qobject_cast<QInputDialog*>(top); ask && ask->isVisible()) return ask;
+      }
+      return static_cast<QInputDialog*>(nullptr);
+    };
+    const auto type = [](QInputDialog* ask, const QString& text) {
+      auto* line = ask->findChild<QLineEdit*>();
+      line->clear();
+      QTest::keyClicks(line, text);
+      QTest::keyClick(line, Qt::Key_Return);
+    };
+    b.actions.findChild<QAction*>(QStringLiteral("goToTime"))->trigger();
+    QVERIFY(dialog() != nullptr);
+    // What is no time, and what is not there, is refused with a reason and can be corrected.
+    type(dialog(), QStringLiteral("soon"));
+    QVERIFY(dialog() != nullptr);
+    QVERIFY2(dialog()->labelText().contains(QStringLiteral("1:18.7")),
+             qPrintable(dialog()->labelText()));
+    QCOMPARE(dialog()->textValue(), QStringLiteral("soon"));
+    type(dialog(), QStringLiteral("2:30"));
+    QVERIFY(dialog() != nullptr && !b.timeline.isLookingBack());
+    type(dialog(), typed);
+    QVERIFY(dialog() == nullptr);
+    QVERIFY(b.timeline.isLookingBack());
+    QCOMPARE(b.timeline.shownTime(), time);
   }
 
   void eventsAreMarkedAndJumpedTo() {

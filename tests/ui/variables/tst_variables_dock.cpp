@@ -203,7 +203,7 @@ class TestVariablesDock : public QObject {
     auto* empty = bench.dock->findChild<QLabel*>(QStringLiteral("emptyVariables"));
     QCOMPARE(empty->isVisible(), expected == 0);
     if (expected == 0)
-      QVERIFY(empty->text().contains(QStringLiteral("words")));
+      QVERIFY(empty->text().contains(QStringLiteral("No matching")));
     else
       QVERIFY(bench.view->isExpanded(filter->index(0, 0)));
     box->clear();

@@ -39,7 +39,11 @@ class TestVariablesEdit : public QObject {
     bench.choose(ballDistance);
     QTest::keyClick(bench.view, Qt::Key_F2);
     QVERIFY(!bench.view->isEditing());
-    QVERIFY(bench.message().contains(QStringLiteral("locked")));
+    QVERIFY(bench.message().contains(QStringLiteral("Editing is off")));
+    QVERIFY(bench.at(ballDistance)
+                .data(Qt::ToolTipRole)
+                .toString()
+                .contains(QStringLiteral("distance to the ball")));
     bench.press("editValues");
     QTest::keyClick(bench.view, Qt::Key_F2);
     QVERIFY(bench.view->isEditing());
@@ -76,10 +80,10 @@ class TestVariablesEdit : public QObject {
     QTest::addColumn<QString>("reason");
     QTest::newRow("truth") << SourceKind::Simulate << "B1/TRUE_X"
                            << "truth";
-    QTest::newRow("live") << SourceKind::Live << ballDistance << "live";
+    QTest::newRow("live") << SourceKind::Live << ballDistance << "Live";
     QTest::newRow("replay") << SourceKind::Replay << ballDistance << "recording";
     QTest::newRow("attached") << SourceKind::Simulate << "key 900/VISION_LOST"
-                              << "only read";
+                              << "read-only";
   }
   void whatCannotBeEditedSaysWhy() {
     QFETCH(const SourceKind, kind);

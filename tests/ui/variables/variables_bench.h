@@ -15,7 +15,7 @@
 #include <cmath>
 #include <memory>
 
-#include <base/actions.h>
+#include <simcore/world/action_codes.h>
 #include <telemetry/series/series_store.h>
 #include <ui/base/in_place_message.h>
 #include <ui/base/plot_target.h>

@@ -5,7 +5,6 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
-#include <QFile>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QLabel>
@@ -28,6 +27,7 @@
 #include <ui/window/main_window.h>
 
 #include "../support/menu_entry.h"
+#include "../support/real_time_robot.h"
 #include "../support/segment_keys.h"
 #include "studio_rig.h"
 
@@ -255,7 +255,7 @@ class TestStudioWork : public QObject {
     QCOMPARE(first.controller.cognition(), link::Cognition::None);
     QCOMPARE(second.controller.cognition(), link::Cognition::Inline);
     QVERIFY(second.window.notices()->isVisible());
-    QVERIFY2(second.window.notices()->text().contains(QStringLiteral("decide inside the studio")),
+    QVERIFY2(second.window.notices()->text().contains(QStringLiteral("run inside the studio")),
              qPrintable(second.window.notices()->text()));
     QVERIFY(second.window.findChild<QLabel*>(QStringLiteral("noProcesses"))
                 ->text()
@@ -287,14 +287,7 @@ class TestStudioWork : public QObject {
 
   void aChangeOfSpeedAsksAboutProgramsInRealTime() {
     Studio s(options(link::Cognition::Inline));
-    QFile profile(s.folder.filePath(QStringLiteral("own.json")));
-    QVERIFY(profile.open(QIODevice::WriteOnly));
-    profile.write(R"({"version": 1, "name": "own", "processes": [{"name": "decision",
-      "command": ["/bin/sleep", "600"], "clock": "real"}]})");
-    profile.close();
-    link::Scenario scenario = link::loadScenario("one-robot").value();
-    scenario.robots[0].runtime.profile = profile.fileName().toStdString();
-    s.controller.open(scenario);
+    s.controller.open(realTimeRobot(s.folder));
     QTRY_VERIFY(s.child(1, "decision").pid != 0);
     const int first = s.child(1, "decision").pid;
     s.controller.setSpeed(8.0);

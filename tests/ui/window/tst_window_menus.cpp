@@ -81,7 +81,7 @@ class TestWindowMenus : public QObject {
     Studio s;
     s.controller.setMatchNumber(free);
     QTRY_VERIFY(s.controller.frame());
-    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Robots decide"),
+    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Run robot processes"),
                      QStringLiteral("In separate processes")}));
     QTRY_COMPARE(s.controller.cognition(), link::Cognition::Separate);
     // Programs of the operating system, on the blackboards of this number.
@@ -92,7 +92,7 @@ class TestWindowMenus : public QObject {
     QTRY_VERIFY(std::ranges::all_of(s.controller.frame()->robots.front().processes(),
                                     [](const auto& process) { return process.pid > 0; }));
     QCOMPARE(s.ticked("whoDecides"), QStringList{QStringLiteral("In separate processes")});
-    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Robots decide"),
+    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Run robot processes"),
                      QStringLiteral("Inside the studio")}));
     QTRY_VERIFY(s.controller.cognition() == link::Cognition::Inline && s.controller.frame() &&
                 !s.controller.frame()->matchNumber);
@@ -106,8 +106,8 @@ class TestWindowMenus : public QObject {
     if (free == 0) QSKIP("every number that the menu lists is taken");
     Studio s;
     QTRY_VERIFY(s.controller.frame());
-    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Robots decide"),
-                     QStringLiteral("Only your own")}));
+    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Run robot processes"),
+                     QStringLiteral("Only your team")}));
     QTRY_VERIFY(s.controller.frame() && s.controller.frame()->matchNumber);
     QVERIFY(s.click(
         {QStringLiteral("Simulation"), QStringLiteral("Match number"), QString::number(free)}));
@@ -144,7 +144,7 @@ class TestWindowMenus : public QObject {
   void goingOnSaysWhatProcessesDoNotRemember() {
     Studio s;
     QTRY_VERIFY(s.controller.frame());
-    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Robots decide"),
+    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Run robot processes"),
                      QStringLiteral("In separate processes")}));
     QTRY_VERIFY(s.controller.cognition() == link::Cognition::Separate && s.controller.frame() &&
                 s.controller.frame()->matchNumber);
@@ -153,7 +153,7 @@ class TestWindowMenus : public QObject {
     s.window.timeline()->seek(0.2);
     s.window.findChild<QAction*>(QStringLiteral("continueFromHere"))->trigger();
     QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(12));
-    QVERIFY2(s.window.notices()->text().contains("begin again with the belief that they had at"),
+    QVERIFY2(s.window.notices()->text().contains("restart with the belief they had at"),
              qPrintable(s.window.notices()->text()));
   }
 

@@ -27,7 +27,7 @@ QString refereeStateText(const link::RefereeView& view) {
   if (!view.phase.empty()) parts << text(view.phase);
   if (view.stopped) parts << QStringLiteral("stopped");
   if (view.timedOut) {
-    parts << QStringLiteral("not heard for %1").arg(durationText(view.age));
+    parts << QStringLiteral("last packet %1 ago").arg(durationText(view.age));
   }
   return parts.join(comma);
 }
@@ -53,12 +53,12 @@ QString refereeSetPlayText(const link::RefereeView& view) {
 QString refereeTruthText(const link::RefereeView& view) {
   if (!view.truth) return {};
   const link::RefereeTruth& truth = *view.truth;
-  QStringList parts{
-      QStringLiteral("Really: %1 %2").arg(text(truth.state), refereeClockText(truth.secondsLeft)),
-      QStringLiteral("%1 : %2").arg(truth.scores[0]).arg(truth.scores[1])};
+  QStringList parts{QStringLiteral("True state: %1 %2")
+                        .arg(text(truth.state), refereeClockText(truth.secondsLeft)),
+                    QStringLiteral("%1 : %2").arg(truth.scores[0]).arg(truth.scores[1])};
   if (!truth.setPlay.empty()) parts << text(truth.setPlay);
   if (truth.secondaryTime.value_or(0) != 0) {
-    parts << QStringLiteral("%1 s on the second clock").arg(*truth.secondaryTime);
+    parts << QStringLiteral("secondary time %1 s").arg(*truth.secondaryTime);
   }
   parts << QStringLiteral("%1 ago").arg(durationText(truth.age, 1));
   return parts.join(comma);

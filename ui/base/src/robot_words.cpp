@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include <base/actions.h>
 #include <base/duration_words.h>
 #include <robotlink/frame/teams.h>
+#include <simcore/world/action_codes.h>
 #include <telemetry/wire/meanings.h>
 
 namespace pitchboard::ui {

@@ -4,7 +4,7 @@
 #include <QObject>
 #include <algorithm>
 
-#include <robotlink/frame/match_event.h>
+#include <robotlink/frame/match_result.h>
 #include <ui/base/referee_words.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
@@ -20,9 +20,7 @@ QString teamName(TeamColor team, const link::Teams& teams) {
 }
 
 QColor refereeColour(const std::string& words) {
-  for (const TeamColorInfo& team : teamColors) {
-    if (team.name == words) return theme().team(team.color);
-  }
+  if (const auto drawn = teamColorNamed(words)) return theme().team(*drawn);
   // What referees know besides the colours that robots are drawn in.
   static const std::pair<const char*, QColor> others[] = {{"white", QColor(245, 245, 245)},
                                                           {"green", QColor(58, 150, 80)},
@@ -47,15 +45,24 @@ QString refereeTip(const link::RefereeView& view, bool received) {
   tip << refereeStateText(view);
   if (const QString setPlay = refereeSetPlayText(view); !setPlay.isEmpty()) tip << setPlay;
   tip << (view.kickOffTeam ? QStringLiteral("Kick-off: team %1").arg(*view.kickOffTeam)
-                           : QStringLiteral("Kick-off: nobody (drop ball)"));
+                           : QStringLiteral("Kick-off: none (drop ball)"));
   if (!received) return tip.join(QLatin1Char('\n'));
-  tip << QStringLiteral("Referee at %1, version %2, heard %3 ago")
+  tip << QStringLiteral("Referee at %1, version %2, last packet %3 ago")
              .arg(QString::fromStdString(view.sender))
              .arg(view.version)
              .arg(durationText(view.age, 1));
-  if (view.conflict) tip << QStringLiteral("A second referee program is heard.");
+  if (view.conflict) tip << QStringLiteral("A second referee program is sending.");
   if (const QString truth = refereeTruthText(view); !truth.isEmpty()) tip << truth;
   return tip.join(QLatin1Char('\n'));
+}
+
+/// Left team first; empty before the second half, and where only packets are known.
+QString halvesOf(const link::MatchFrame& frame) {
+  if (!frame.desk) return {};
+  const sim::GameState& game = frame.desk->game;
+  const std::size_t left = game.leftTeam();
+  return QString::fromStdString(
+      link::halvesText(link::goalsByHalf(game, left), link::goalsByHalf(game, 1 - left)));
 }
 
 ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
@@ -63,7 +70,7 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   if (!frame.referee) {
     state.clock = QStringLiteral("--:--");
     state.state = QStringLiteral("NO REFEREE");
-    state.tip = QStringLiteral("No referee's packet has been heard yet.");
+    state.tip = QStringLiteral("No referee packet received yet.");
     return state;
   }
   const link::RefereeView& view = *frame.referee;
@@ -78,7 +85,7 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   state.state = QString::fromStdString(view.state);
   const std::string& more = !view.setPlay.empty() ? view.setPlay : view.phase;
   if (view.timedOut) {
-    state.state = QStringLiteral("REFEREE SILENT");
+    state.state = QStringLiteral("REFEREE OFFLINE");
   } else if (view.stopped) {
     state.state += QStringLiteral(" · ") + QStringLiteral("stopped");
   } else if (!more.empty()) {
@@ -106,6 +113,9 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   }
   state.penalties = penalties.join(QStringLiteral(" · "));
   state.tip = refereeTip(view, frame.origin == link::FrameOrigin::Live);
+  if (const QString halves = halvesOf(frame); !halves.isEmpty()) {
+    state.tip += QStringLiteral("\nBy half: ") + halves;
+  }
   return state;
 }
 

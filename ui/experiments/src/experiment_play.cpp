@@ -102,10 +102,10 @@ void ExperimentPlay::play(const link::Experiment& experiment, const QString& fol
 Result<QString> ExperimentPlay::recordOne(const PlayedExperiment& of, std::size_t number) {
   const QString path = QString::fromStdString(link::sessionPath(of.folder.toStdString(), number));
   if (QFileInfo::exists(path)) return path;
-  QDir().mkpath(of.folder + QStringLiteral("/sessions"));
-  auto player = link::RunPlayer::create(of.experiment, settingsWith(m_cancelled));
-  if (!player) return tl::unexpected(player.error());
-  const auto result = player->record(number, path.toStdString(), "pitchboard");
+  link::PlaySettings settings = settingsWith(m_cancelled);
+  settings.program = "pitchboard";
+  const auto result = link::recordAgain(of.folder.toStdString(), of.experiment, number,
+                                        path.toStdString(), settings);
   if (!result) return tl::unexpected(result.error());
   return path;
 }

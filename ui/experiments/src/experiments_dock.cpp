@@ -145,11 +145,10 @@ class ExperimentsDock : public QWidget {
     m_parts.replay->open(sessions.front());
     if (sessions.size() == 1) {
       if (m_parts.compared != nullptr) m_parts.compared->stop();
-      return say(
-          m_shown->experiment.teamPrograms
-              ? QStringLiteral("The run is open in Replay. Own programs do not repeat a run: "
-                               "one that was not recorded was played anew.")
-              : QStringLiteral("The run is open in Replay."));
+      return say(m_shown->experiment.hasTeamPrograms()
+                     ? QStringLiteral("The run is open in Replay. Team programs do not repeat "
+                                      "exactly: a run that was not recorded was played again.")
+                     : QStringLiteral("The run is open in Replay."));
     }
     m_parts.compared->open(sessions.back());
     say(
@@ -210,8 +209,7 @@ class ExperimentsDock : public QWidget {
   /// A file, read again when it was open before.
   void open(const QString& path, bool play) {
     if (m_play->isPlaying()) {
-      return say(QStringLiteral("%1 is not opened while an experiment is being played.").arg(path),
-                 true);
+      return say(QStringLiteral("Cannot open %1 while an experiment is running.").arg(path), true);
     }
     const int known = m_choice->findData(path);
     if (known < 0) m_choice->addItem(QFileInfo(path).completeBaseName(), path);

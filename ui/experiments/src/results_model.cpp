@@ -8,7 +8,7 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr int fixedRunColumns = 3;
+constexpr int fixedRunColumns = 5;
 const QString minusSign = QStringLiteral("−"), nothing = QStringLiteral("–");
 
 QString text(double value, bool rate = false) {
@@ -64,8 +64,8 @@ void ResultsModel::fill() {
   const std::vector<std::size_t> telling = link::tellingMetrics(s);
   switch (m_kind) {
     case Kind::Measured:
-      m_heads = {"Metric",           "Condition", "n",      "Mean",
-                 "95 % of the mean", "SD",        "Median", "95th percentile"};
+      m_heads = {"Metric",          "Condition", "n",      "Mean",
+                 "95 % CI of mean", "SD",        "Median", "95th percentile"};
       for (const std::size_t m : telling) {
         for (const link::ConditionSummary& condition : s.conditions) {
           const link::Summary& one = condition.metrics[m];
@@ -98,7 +98,7 @@ void ResultsModel::fill() {
       }
       break;
     case Kind::Runs:
-      m_heads = {"Run", "Condition", "Seed"};
+      m_heads = {"Run", "Condition", "Seed", "Score", "Repeatable"};
       m_metrics = telling;
       for (const std::size_t m : m_metrics) m_heads.append(title(s.metrics[m]));
       for (std::size_t number = 1; number <= m_played->experiment.allRuns(); ++number) {
@@ -142,6 +142,13 @@ QVariant ResultsModel::runCell(int row, int column, bool sorting) const {
     const qulonglong seed = link::seedOf(m_played->experiment, place);
     return sorting ? QVariant(seed) : QString::number(seed);
   }
+  const auto& [goals, against, repeatable] =
+      m_played->table.conditions[place.condition].outcomes[place.index];
+  if (column == 3) {
+    if (sorting) return goals - against;
+    return QStringLiteral("%1 : %2").arg(goals).arg(against);
+  }
+  if (column == 4) return repeatable ? QStringLiteral("yes") : QStringLiteral("no");
   const std::size_t metric = m_metrics[static_cast<std::size_t>(column - fixedRunColumns)];
   const double value = m_played->table.conditions[place.condition].columns[metric][place.index];
   if (sorting) return std::isfinite(value) ? value : -1e300;
@@ -159,7 +166,7 @@ QVariant ResultsModel::data(const QModelIndex& index, int role) const {
     return theme().errorText;
   }
   if (role == Qt::ToolTipRole && m_kind == Kind::Runs) {
-    return QStringLiteral("Double click: see this run in Replay");
+    return QStringLiteral("Double-click to view this run in Replay");
   }
   return {};
 }

@@ -59,7 +59,7 @@ void ResultsTabs::addTabs() {
     highlight();
     showChoices();
   });
-  addTab(m_trajectories, QStringLiteral("Ways"));
+  addTab(m_trajectories, QStringLiteral("Trajectories"));
   addTab(m_distribution, QStringLiteral("Distribution"));
   cover(m_trajectories, QStringLiteral("experimentTrajectoriesEmpty"));
   cover(m_distribution->area(), QStringLiteral("experimentDistributionEmpty"));
@@ -80,9 +80,9 @@ void ResultsTabs::cover(QWidget* area, const QString& name) {
 void ResultsTabs::showPlaying(bool playing) {
   if (m_shown) return;
   for (QLabel* label : m_empty) {
-    label->setText(playing ? QStringLiteral("The runs are being played. Results stand here when "
-                                            "all are there, or when you press Cancel.")
-                           : QStringLiteral("No results yet. Start plays the experiment."));
+    label->setText(playing ? QStringLiteral("Playing the runs. Results appear here when all are "
+                                            "done or when you press Cancel.")
+                           : QStringLiteral("No results yet. Press Start to play the experiment."));
   }
 }
 
@@ -155,12 +155,12 @@ void ResultsTabs::showResults(const PlayedPtr& played) {
     m_empty[table]->setVisible(m_models[table]->rowCount() == 0);
   };
   sayEmpty(ResultsModel::Kind::Differences,
-           QStringLiteral("There is one condition, and no given figure beside which it could "
-                          "stand: \"conditions\", \"grid\" or \"compare\" in the file."));
+           QStringLiteral("Nothing to compare: there is only one condition. Add \"conditions\", "
+                          "\"grid\" or \"compare\" to the file."));
   sayEmpty(ResultsModel::Kind::Assertions,
-           QStringLiteral("Nothing is asserted. \"assertions\" in the file make a test of it, "
-                          "such as \"goal_rate >= 0.5\"."));
-  sayEmpty(ResultsModel::Kind::Runs, QStringLiteral("No run has ended."));
+           QStringLiteral("No assertions. Add \"assertions\" to the file to make it a test, such "
+                          "as \"goal_rate >= 0.5\"."));
+  sayEmpty(ResultsModel::Kind::Runs, QStringLiteral("No run has finished."));
   showChoices();
 }
 

@@ -103,13 +103,13 @@ void SituationDialog::makeForm() {
   m_runs->setObjectName(QStringLiteral("testRuns"));
   m_runs->setRange(1, mostTestRuns);
   m_runs->setValue(usualRuns);
-  m_runs->setToolTip(QStringLiteral("Each with another seed"));
+  m_runs->setToolTip(QStringLiteral("Each run has its own seed"));
   m_spread->setObjectName(QStringLiteral("testSpread"));
   m_spread->setRange(0, 100);
   m_spread->setValue(usualSpread);
   m_spread->setSuffix(QStringLiteral(" cm"));
-  m_spread->setToolTip(
-      QStringLiteral("How far a robot may start from where it stands here; 0: exactly there"));
+  m_spread->setToolTip(QStringLiteral(
+      "Largest distance between a robot's start and its position here; 0 keeps it exact"));
   form->addRow(
       QStringLiteral("Runs"),
       inRow(this, {m_runs, new QLabel(QStringLiteral("from starts within"), this), m_spread}));
@@ -140,12 +140,12 @@ void SituationDialog::makeRobotRows(QFormLayout* form) {
     const QString name = QString::fromUtf8(team.name.data(), qsizetype(team.name.size()));
     if (m_team->findText(name) < 0) m_team->addItem(name, int(robot.identity.team));
   }
-  m_team->setToolTip(QStringLiteral("Whose goals, kicks and falls are meant"));
+  m_team->setToolTip(QStringLiteral("Team whose goals, kicks and falls count"));
   form->addRow(QStringLiteral("Team"), m_team);
   form->setRowVisible(m_team, m_team->count() > 1);
   m_poses->setObjectName(QStringLiteral("testPoses"));
   m_poses->addItem(QStringLiteral("where they stood"));
-  m_poses->addItem(QStringLiteral("where they believed to be"));
+  m_poses->addItem(QStringLiteral("where they believed they were"));
   form->addRow(QStringLiteral("Robots start"), m_poses);
   form->setRowVisible(m_poses, m_frame->truthKnown);
   m_behaviour->setObjectName(QStringLiteral("testBehaviour"));
@@ -153,13 +153,13 @@ void SituationDialog::makeRobotRows(QFormLayout* form) {
     m_behaviour->addItem(QString::fromUtf8(one.name.data(), qsizetype(one.name.size())));
   }
   m_behaviour->setCurrentText(QString::fromStdString(link::MomentOptions{}.behaviour));
-  m_behaviour->setToolTip(QStringLiteral("Of robots whose own behaviour nobody knows"));
+  m_behaviour->setToolTip(QStringLiteral("Robots with unknown behaviour"));
   form->addRow(QStringLiteral("They play"), m_behaviour);
   form->setRowVisible(m_behaviour,
                       !std::all_of(m_frame->robots.begin(), m_frame->robots.end(), knowsBehaviour));
   m_noCalls->setObjectName(QStringLiteral("testNoCalls"));
   m_noCalls->setToolTip(
-      QStringLiteral("The game stays as it is: no penalties, set plays and whistles"));
+      QStringLiteral("Keeps the game state: no penalties, set plays or whistles"));
   form->addRow(QStringLiteral("Referee"), m_noCalls);
   form->setRowVisible(m_noCalls, m_frame->referee.has_value());
 }
@@ -302,11 +302,11 @@ void SituationDialog::check() {
   if (!made) {
     words = QString::fromStdString(made.error().message);
   } else if (m_folder->text().trimmed().isEmpty()) {
-    words = QStringLiteral("Say in which folder.");
+    words = QStringLiteral("Choose a folder.");
   }
   const bool usable = words.isEmpty();
   if (usable) {
-    words = QFileInfo::exists(path()) ? QStringLiteral("%1 is there and will be replaced.")
+    words = QFileInfo::exists(path()) ? QStringLiteral("%1 exists and will be replaced.")
                                       : QStringLiteral("%1");
     words = words.arg(QDir::toNativeSeparators(path()));
   }

@@ -22,7 +22,7 @@ bool SituationTests::isPossible() const {
 
 void SituationTests::ask() {
   if (!isPossible()) {
-    emit failed(QStringLiteral("There is no robot on the field to make a test of."));
+    emit failed(QStringLiteral("Cannot make a test: no robot is on the field."));
     return;
   }
   delete m_window->findChild<SituationDialog*>({}, Qt::FindDirectChildrenOnly);

@@ -50,7 +50,7 @@ void paintLegend(QPainter& p, const QRect& room) {
 
 TrajectoriesView::TrajectoriesView(QWidget* parent) : QWidget(parent) {
   setObjectName(QStringLiteral("experimentTrajectories"));
-  setToolTip(QStringLiteral("Choose one run or several in Runs to bring them out."));
+  setToolTip(QStringLiteral("Select one or more runs in Runs to highlight them."));
 }
 
 void TrajectoriesView::show(const PlayedPtr& played, std::size_t condition) {

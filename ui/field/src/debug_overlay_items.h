@@ -6,8 +6,8 @@
 
 #include <memory>
 
-#include <base/ids.h>
 #include <robotlink/cognition/cognition_debug.h>
+#include <simcore/world/team_color.h>
 #include "field_item.h"
 
 namespace pitchboard::ui {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What robots' programs draw on the field (docs/DRAWINGS.md): an item for each layer of each robot.
+// What robots' programs draw on the field (docs/drawings.md): an item for each layer of each robot.
 // A layer that counts from its robot goes where the robot goes. UI thread; belongs to the scene.
 
 #include <map>
@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <base/ids.h>
 #include <base/robot_key.h>
+#include <simcore/world/team_color.h>
 #include <telemetry/wire/drawing_store.h>
 
 #include "field_item.h"

@@ -56,7 +56,7 @@ void DrawingsMenu::fill() {
   for (QAction* action : actions()) {
     if (action != m_show) delete action;
   }
-  QAction* selected = addAction(QStringLiteral("Only of selected robots"));
+  QAction* selected = addAction(QStringLiteral("Selected robots only"));
   selected->setCheckable(true);
   selected->setChecked(m_scene->style().drawings.onlySelected);
   connect(selected, &QAction::toggled, this, [this](bool on) {
@@ -68,7 +68,7 @@ void DrawingsMenu::fill() {
   const bool none = drawnLayers(*m_scene).empty();
   addSeparator();
   if (none) {
-    addAction(QStringLiteral("No program draws at the moment (docs/DRAWINGS.md)"))
+    addAction(QStringLiteral("No program is sending drawings (see docs/drawings.md)"))
         ->setEnabled(false);
   }
   if (frame != nullptr && !frame->drawingProblem.empty()) {

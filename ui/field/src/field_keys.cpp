@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/field/field_keys.h>
 
-#include <base/actions.h>
+#include <simcore/world/action_codes.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -42,7 +42,7 @@ const FieldKey table[] = {
     {Qt::Key_J, none, "J", words<13>, {Act, 13}},
     {Qt::Key_S, none, "S", words<11>, {Act, 11}},
     {Qt::Key_T, none, "T", words<0>, {Act, 0}},
-    {Qt::Key_Y, none, "Y", "search the ball", {Search, 1}},
+    {Qt::Key_Y, none, "Y", "search for the ball", {Search, 1}},
     {Qt::Key_Z, none, "Z", "stop searching", {Search, 0}},
 
     {Qt::Key_F2, none, "F2", "Load the match", {LoadMatch}},

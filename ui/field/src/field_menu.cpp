@@ -66,7 +66,7 @@ void addRobots(QMenu* menu, FieldScene* scene, MatchController* controller,
 
 void addBall(QMenu* menu, FieldScene* scene, MatchController* controller,
              const FieldMenuActions& actions) {
-  menu->addAction(QStringLiteral("Place and speed of the ball…"), menu,
+  menu->addAction(QStringLiteral("Ball position and speed…"), menu,
                   [actions] { actions.editBall(); });
   menu->addAction(QStringLiteral("Ball to the centre mark"), controller,
                   [controller, scene] { controller->edits()->moveBall(scene->ball(), Point{}); });

@@ -79,14 +79,14 @@ void FieldTools::makeViews() {
     return action;
   };
   m_actions.flip = make("flipSides", "object-flip-horizontal", "Flip sides",
-                        "See the field from the other side");
+                        "View the field from the other side");
   m_actions.flip->setCheckable(true);
   connect(m_actions.flip, &QAction::toggled, this, [this](bool on) { m_canvas->setFlipped(on); });
   m_actions.fit = make("fitField", "zoom-fit-best", "Fit field", "Show the whole field");
   connect(m_actions.fit, &QAction::triggered, this, [this] { m_canvas->fit(); });
-  m_actions.publishedKeys =
-      make("publishedKeys", "input-keyboard", "Published keys",
-           "Letters give orders to robots as in the published simulator, wherever the focus is");
+  m_actions.publishedKeys = make("publishedKeys", "input-keyboard", "Published keys",
+                                 "Letter keys command robots as in the published simulator, even "
+                                 "when another panel has the focus");
   m_actions.publishedKeys->setCheckable(true);
   m_actions.showKeys = make("showKeys", "help-contextual", "Show keys", "Show all keys");
 }
@@ -115,7 +115,7 @@ void FieldTools::makeLayerOptions(QWidget* field) {
   }
   m_drawings = new DrawingsMenu(
       m_scene, m_actions.layers[static_cast<std::size_t>(FieldLayer::Drawings)], field);
-  m_drawings->menuAction()->setText(QStringLiteral("Drawings of robots' programs"));
+  m_drawings->menuAction()->setText(QStringLiteral("Drawings from the robots' programs"));
   m_actions.options.push_back(m_drawings->menuAction());
 }
 
@@ -154,7 +154,7 @@ void FieldTools::addTeams() {
 void FieldTools::addLayersButton() {
   auto* layersButton = new QToolButton;
   layersButton->setIcon(themedIcon(QStringLiteral("layer-visible-on")));
-  layersButton->setToolTip(QStringLiteral("Layers: what the field shows"));
+  layersButton->setToolTip(QStringLiteral("Choose what the field shows"));
   layersButton->setAccessibleName(QStringLiteral("Layers"));
   layersButton->setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(layersButton);

@@ -141,7 +141,7 @@ void FieldView::Private::openBallEditor() {
   if (!editor() || !scene->frame()) return;
   const Point ball = scene->ball();
   const Velocity& v = scene->frame()->snapshot.ballVelocity;
-  openEditor({QStringLiteral("Place and speed of the ball"),
+  openEditor({QStringLiteral("Ball position and speed"),
               {ball, std::atan2(v.y, v.x)},
               true,
               std::hypot(v.x, v.y),

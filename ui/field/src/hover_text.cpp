@@ -28,7 +28,7 @@ QString beliefText(const link::MatchFrame& frame, const link::RobotFrame& robot)
   const QString sure =
       robot.sigma ? QStringLiteral("σ %1").arg(distanceText(*robot.sigma)) : QString();
   if (!frame.truthKnown) return sure.isEmpty() ? sure : QStringLiteral("Belief: %1").arg(sure);
-  if (!robot.belief) return QStringLiteral("Belief: localization does not work");
+  if (!robot.belief) return QStringLiteral("Belief: localization is not working");
   const double turned = std::abs(wrapToPi(robot.belief->yaw - robot.pose.yaw));
   return QStringLiteral("Belief: %1 and %2° off, %3")
       .arg(distanceText(distance(robot.belief->position, robot.pose.position)))
@@ -46,7 +46,7 @@ QString hoverText(const link::MatchFrame& frame, RobotKey id) {
   if (!robot->ownName.empty()) head += QLatin1Char(' ') + QString::fromStdString(robot->ownName);
   if (!robot->behaviour.empty()) {
     head += robot->behaviour == link::noBehaviour
-                ? QStringLiteral(" · your own process")
+                ? QStringLiteral(" · team program")
                 : QStringLiteral(" · ") + capitalised(robot->behaviour);
   }
   lines << head;
@@ -56,7 +56,7 @@ QString hoverText(const link::MatchFrame& frame, RobotKey id) {
     const link::PlannedPath& path = *robot->cognitionDebug->path;
     lines << QStringLiteral("Target: %1%2")
                  .arg(placeText(path.points.back()),
-                      path.complete ? QString() : QStringLiteral(" (no way leads there)"));
+                      path.complete ? QString() : QStringLiteral(" (no path)"));
   }
   if (robot->poseKnown()) {
     lines << QStringLiteral("At %1  %2°")
@@ -73,7 +73,7 @@ QString hoverText(const link::MatchFrame& frame, RobotKey id) {
     lines << seen;
   }
   if (robot->timedOut()) {
-    lines << QStringLiteral("Not heard for %1")
+    lines << QStringLiteral("Last seen %1 ago")
                  .arg(durationText(telemetry::secondsOf(robot->link->age)));
   }
   if (const auto& penalty = robot->penalty) {

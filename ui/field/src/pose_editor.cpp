@@ -59,7 +59,7 @@ PoseEditor::PoseEditor(PoseEdit edit, const sim::FieldSpec& field, QWidget* pare
   QFont bold = title->font();
   bold.setBold(true);
   title->setFont(bold);
-  auto* hint = new QLabel(QStringLiteral("Enter keeps it, Esc puts it back"));
+  auto* hint = new QLabel(QStringLiteral("Enter applies, Esc reverts"));
   hint->setForegroundRole(QPalette::PlaceholderText);
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(title);

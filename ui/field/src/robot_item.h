@@ -6,8 +6,8 @@
 #include <QString>
 #include <optional>
 
-#include <base/ids.h>
 #include <base/robot_key.h>
+#include <simcore/world/team_color.h>
 
 #include "field_item.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 // Qualitative space round the selected robot: EOPRA (directions and distance rings) and StarVars
-// (directions), as in SYSTEM.md section 9.
+// (directions), as in system.md section 9.
 
 #include <vector>
 

@@ -62,15 +62,15 @@ AttachDialog::AttachDialog(AttachedBoards* boards, QWidget* parent)
   setObjectName(QStringLiteral("attachDialog"));
   setWindowTitle(QStringLiteral("Attach blackboard"));
   setAttribute(Qt::WA_DeleteOnClose);
-  auto* about = new QLabel(
-      QStringLiteral("Live shows an attached blackboard as a robot. A simulated match lists its "
-                     "variables beside those of its robots. It is only read, and changes faster "
-                     "than the sampling rate are missed."),
-      this);
+  auto* about =
+      new QLabel(QStringLiteral("Live shows an attached blackboard as a robot. A simulated match "
+                                "lists its variables beside those of its robots. Blackboards are "
+                                "only read. Changes faster than the sampling rate are missed."),
+                 this);
   about->setWordWrap(true);
   m_segments = makeTable(this, "segments",
                          {QStringLiteral("Key"), QStringLiteral("Size"), QStringLiteral("Owner"),
-                          QStringLiteral("Attached by"), QStringLiteral("What")});
+                          QStringLiteral("Attached by"), QStringLiteral("Note")});
   connect(m_segments, &QTableWidget::itemSelectionChanged, this, &AttachDialog::choose);
   connect(m_segments, &QTableWidget::itemDoubleClicked, this, [this] { attach(); });
   m_attached = makeTable(this, "attachedBoards",
@@ -92,7 +92,7 @@ AttachDialog::AttachDialog(AttachedBoards* boards, QWidget* parent)
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* column = new QVBoxLayout(this);
   column->addWidget(about);
-  column->addWidget(new QLabel(QStringLiteral("Segments of this computer"), this));
+  column->addWidget(new QLabel(QStringLiteral("Segments on this computer"), this));
   column->addWidget(m_segments, 1);
   column->addWidget(makeForm());
   column->addWidget(new QLabel(QStringLiteral("Attached"), this));
@@ -122,11 +122,12 @@ QWidget* AttachDialog::makeForm() {
   m_key->setObjectName(QStringLiteral("attachKey"));
   m_key->setRange(1, 2147483647);
   m_key->setValue(link::AttachedBoard().key);
-  m_key->setToolTip(QStringLiteral("A segment that is not there yet is taken up when it comes"));
+  m_key->setToolTip(QStringLiteral(
+      "You can enter a key before its segment exists; it is attached as soon as it appears"));
   m_robot = new QSpinBox(widget);
   m_robot->setObjectName(QStringLiteral("attachRobot"));
   m_robot->setRange(0, 999);
-  m_robot->setSpecialValueText(QStringLiteral("as the key says"));
+  m_robot->setSpecialValueText(QStringLiteral("from the key"));
   m_team = new QComboBox(widget);
   m_team->setObjectName(QStringLiteral("attachTeam"));
   for (const TeamColorInfo& colour : teamColors) {
@@ -138,15 +139,15 @@ QWidget* AttachDialog::makeForm() {
   m_catalog->setObjectName(QStringLiteral("attachCatalog"));
   m_catalog->addItem(QStringLiteral("published map"), QString());
   m_catalog->addItem(fromFile);
-  m_catalog->setToolTip(
-      QStringLiteral("Names and places of its variables: a blackboard.h, SharedMemory.py or JSON"));
+  m_catalog->setToolTip(QStringLiteral(
+      "Names and positions of its variables: a blackboard.h, SharedMemory.py or JSON file"));
   connect(m_catalog, &QComboBox::activated, this, &AttachDialog::chooseCatalog);
   m_rate = new NumberBox(widget);
   m_rate->setObjectName(QStringLiteral("attachRate"));
   m_rate->setRange(link::AttachedBoard::slowest, link::AttachedBoard::fastest);
   m_rate->setDecimals(1);
   m_rate->setValue(link::AttachedBoard().rate);
-  m_rate->setSuffix(QStringLiteral(" a second"));
+  m_rate->setSuffix(QStringLiteral(" per second"));
   add(0, 0, "Key", m_key);
   add(0, 2, "Robot", m_robot);
   add(1, 0, "Catalog", m_catalog);
@@ -171,14 +172,15 @@ void AttachDialog::listSegments() {
               userName(info.owner),
               info.attached == 1 ? QStringLiteral("1 process")
                                  : QStringLiteral("%1 processes").arg(info.attached),
-              info.blackboardSized ? QStringLiteral("size of a published blackboard")
+              info.blackboardSized ? QStringLiteral("same size as the published blackboard")
                                    : QStringLiteral("needs its own catalog")});
     m_segments->item(row, 0)->setData(Qt::UserRole, info.key);
   }
   const bool isNote = m_message->property("note").toBool();
   if (segments.empty() && m_message->text().isEmpty()) {
-    say(QStringLiteral("No program of this computer has shared memory now. Start the robot's "
-                       "processes, or type the key: it is taken up when it comes."),
+    say(QStringLiteral(
+            "No program on this computer has shared memory. Start the robot's processes, or enter "
+            "the key: the segment is attached as soon as it appears."),
         false);
     m_message->setProperty("note", true);
   } else if (!segments.empty() && isNote) {
@@ -211,7 +213,7 @@ void AttachDialog::choose() {
 void AttachDialog::chooseCatalog(int index) {
   if (m_catalog->itemText(index) != fromFile) return;
   m_catalog->setCurrentIndex(0);
-  auto* ask = new QFileDialog(this, QStringLiteral("Catalog of variables"), {},
+  auto* ask = new QFileDialog(this, QStringLiteral("Choose a variable catalog"), {},
                               QStringLiteral("Catalogs (*.h *.py *.json);;All files (*)"));
   ask->setAttribute(Qt::WA_DeleteOnClose);
   ask->setFileMode(QFileDialog::ExistingFile);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/beat.h>
 #include <ui/live/bad_messages_dock.h>
 
 #include <QLabel>
 #include <QStackedWidget>
 #include <QTableView>
-#include <QTimer>
 
 #include <ui/base/table_style.h>
 #include <ui/sources/live_controller.h>
@@ -22,7 +22,7 @@ class BadMessagesDock : public QStackedWidget {
         m_model(new BadMessagesModel(this)),
         m_table(new QTableView(this)),
         m_empty(makeEmptyLabel(this, QStringLiteral("noBadMessages"))) {
-    constexpr int refreshMilliseconds = 500;
+    constexpr Beat::Milliseconds most{500};
     m_model->setObjectName(QStringLiteral("badMessages"));
     m_table->setModel(m_model);
     styleTable(m_table);
@@ -32,11 +32,8 @@ class BadMessagesDock : public QStackedWidget {
     }
     addWidget(m_empty);
     addWidget(m_table);
-    auto* timer = new QTimer(this);
-    connect(timer, &QTimer::timeout, this, [this] {
-      if (isVisible()) refresh();
-    });
-    timer->start(refreshMilliseconds);
+    m_refresh = Beat::display().add(
+        this, most, [this] { refresh(); }, most);
     refresh();
   }
 
@@ -49,12 +46,10 @@ class BadMessagesDock : public QStackedWidget {
  private:
   void refresh() {
     m_model->update(m_live->details());
-    m_empty->setText(
-        m_live->isListening()
-            ? QStringLiteral(
-                  "Every message could be used. Messages that cannot be read appear here, "
-                  "with the reason and their text.")
-            : QStringLiteral("Live is not listening. Choose Live in the tool bar."));
+    m_empty->setText(m_live->isListening()
+                         ? QStringLiteral("No bad messages. Messages that cannot be decoded appear "
+                                          "here with the reason and their text.")
+                         : QStringLiteral("Live is not listening. Choose Live in the tool bar."));
     setCurrentWidget(m_model->rowCount() > 0 ? static_cast<QWidget*>(m_table) : m_empty);
   }
 
@@ -62,6 +57,7 @@ class BadMessagesDock : public QStackedWidget {
   BadMessagesModel* m_model;
   QTableView* m_table;
   QLabel* m_empty;
+  std::unique_ptr<Beat::Part> m_refresh;
 };
 
 }  // namespace

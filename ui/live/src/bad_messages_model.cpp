@@ -36,24 +36,24 @@ void BadMessagesModel::update(const link::LiveDetails& details) {
   };
   count(QStringLiteral("referee's port"), QString::fromStdString(details.unknownRefereeReason),
         details.unknownReferee, QString::fromStdString(details.unknownRefereeSample));
-  count(QStringLiteral("robots"), QStringLiteral("from senders that are not on the list"),
+  count(QStringLiteral("robots"), QStringLiteral("sender not on the list"),
         details.team.refusedByFilter);
-  count(QStringLiteral("referee"), QStringLiteral("from senders that are not on the list"),
+  count(QStringLiteral("referee"), QStringLiteral("sender not on the list"),
         details.refusedReferees);
-  count(QStringLiteral("referee"), QStringLiteral("of a version that was not chosen"),
+  count(QStringLiteral("referee"), QStringLiteral("other protocol version"),
         details.referee.otherVersions);
-  count(QStringLiteral("robots"), QStringLiteral("of more robots than are kept (64)"),
+  count(QStringLiteral("robots"), QStringLiteral("from more than 64 robots"),
         details.team.refusedRobots);
-  count(QStringLiteral("curves"), QStringLiteral("messages of more robots than are kept (64)"),
+  count(QStringLiteral("curves"), QStringLiteral("messages from more than 64 robots"),
         details.rows.rows);
-  count(QStringLiteral("curves"), QStringLiteral("values in more fields than are kept"),
+  count(QStringLiteral("curves"), QStringLiteral("values beyond the field limit"),
         details.rows.values);
-  count(QStringLiteral("network"), QStringLiteral("lost because nobody took them in time"),
+  count(QStringLiteral("network"), QStringLiteral("lost: the studio could not keep up"),
         details.network.queueDrops);
   for (const telemetry::PortStatus& port : details.network.ports) {
     count(QStringLiteral("port %1").arg(port.port),
           QStringLiteral("lost in the kernel: its buffer was full"), port.kernelDrops);
-    count(QStringLiteral("port %1").arg(port.port), QStringLiteral("longer than 64 KiB, cut"),
+    count(QStringLiteral("port %1").arg(port.port), QStringLiteral("longer than 64 KiB, truncated"),
           port.truncated);
   }
   const auto sameRow = [](const Row& a, const Row& b) {
@@ -101,8 +101,8 @@ QVariant BadMessagesModel::data(const QModelIndex& index, int role) const {
 
 QVariant BadMessagesModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
-  const QString names[] = {QStringLiteral("Who"), QStringLiteral("What is wrong"),
-                           QStringLiteral("How many"), QStringLiteral("Last text")};
+  const QString names[] = {QStringLiteral("Sender"), QStringLiteral("Problem"),
+                           QStringLiteral("Count"), QStringLiteral("Last message")};
   return section >= 0 && section < columns ? names[section] : QVariant();
 }
 

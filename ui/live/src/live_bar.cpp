@@ -5,7 +5,6 @@
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QSettings>
-#include <QTimer>
 #include <QToolButton>
 #include <algorithm>
 
@@ -24,7 +23,7 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
       m_team(new QComboBox(this)),
       m_monitor(new QToolButton(this)),
       m_catalog(new QToolButton(this)) {
-  constexpr int refreshMilliseconds = 500;
+  constexpr Beat::Milliseconds most{500};
   m_ports->setObjectName(QStringLiteral("livePorts"));
   m_ports->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   m_ports->setIcon(themedIcon(QStringLiteral("configure")));
@@ -52,11 +51,8 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
   row->addWidget(m_monitor);
   row->addWidget(m_catalog);
   setRoom(Room::Wide);
-  auto* timer = new QTimer(this);
-  connect(timer, &QTimer::timeout, this, [this] {
-    if (isVisible()) refresh();
-  });
-  timer->start(refreshMilliseconds);
+  m_refresh = Beat::display().add(
+      this, most, [this] { refresh(); }, most);
   connect(live, &LiveController::optionsChanged, this, &LiveBar::refresh);
   refresh();
 }
@@ -65,8 +61,10 @@ void LiveBar::setRoom(Room room) {
   const bool least = room == Room::Least;
   m_ports->setToolButtonStyle(room == Room::Wide ? Qt::ToolButtonTextBesideIcon
                                                  : Qt::ToolButtonIconOnly);
-  for (QToolButton* one : {m_monitor, m_catalog})
-    one->setToolButtonStyle(least ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextOnly);
+  m_monitor->setToolButtonStyle(least ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextOnly);
+  // With its text it would push the whole bar out of the tool bar.
+  m_catalog->setToolButtonStyle(room == Room::Wide ? Qt::ToolButtonTextOnly
+                                                   : Qt::ToolButtonIconOnly);
   m_team->setFixedWidth(scaled(this, least ? 136 : 150));
   layout()->setSpacing(scaled(this, least ? 2 : 8));
 }
@@ -75,10 +73,10 @@ void LiveBar::refresh() {
   const link::LiveOptions& options = m_live->options();
   m_ports->setText(m_live->portsText());
   QStringList tip{
-      QStringLiteral("Click for all settings of Live."),
+      QStringLiteral("Click to open Live settings."),
       options.bind.value == 0
-          ? QStringLiteral("Listening at every address of this computer.")
-          : QStringLiteral("Listening at %1.").arg(QString::fromStdString(options.bind.text()))};
+          ? QStringLiteral("Listening on all addresses of this computer.")
+          : QStringLiteral("Listening on %1.").arg(QString::fromStdString(options.bind.text()))};
   const link::LiveDetails details = m_live->details();
   for (const telemetry::PortStatus& port : details.network.ports) {
     if (!port.problem.empty()) tip << QString::fromStdString(port.problem);
@@ -87,17 +85,14 @@ void LiveBar::refresh() {
   m_monitor->setChecked(options.monitor.has_value());
   m_monitor->setToolTip(
       options.monitor
-          ? QStringLiteral(
-                "Monitor mode is on: once a second the referee's program at %1 is asked for true "
-                "data. "
-                "Nothing else is sent.%2")
+          ? QStringLiteral("Monitor mode is on: Live asks the GameController at %1 for true data "
+                           "once a second and sends nothing else.%2")
                 .arg(QString::fromStdString(options.monitor->text()),
                      details.monitorProblem.empty()
                          ? QString()
                          : QLatin1Char('\n') + QString::fromStdString(details.monitorProblem))
-          : QStringLiteral(
-                "Ask the referee's program for monitor mode (controllers of 2026). Off: nothing is "
-                "sent at all."));
+          : QStringLiteral("Ask the GameController (2026) for monitor mode. When off, Live sends "
+                           "nothing at all."));
   showTeams();
   offerCatalog(details);
 }
@@ -113,18 +108,18 @@ void LiveBar::offerCatalog(const link::LiveDetails& details) {
     }
     const auto more = static_cast<int>(sent.unknown.size()) - mostNames;
     if (more > 0) names << QStringLiteral("and %1 more").arg(more);
-    tip << QStringLiteral("%1 sends variables that no imported catalog has: %2.")
+    tip << QStringLiteral("%1 sends variables that are in no catalog: %2.")
                .arg(QString::fromStdString(sent.name), names.join(QStringLiteral(", ")));
   }
   m_catalog->setVisible(!tip.isEmpty());
   tip << QStringLiteral(
-      "They are shown all the same. Import the team's blackboard.h, SharedMemory.py or .json to "
-      "list them in its order and with its types.");
+      "They are shown anyway. Import the team's blackboard.h, SharedMemory.py or .json to use its "
+      "order and types.");
   m_catalog->setToolTip(tip.join(QLatin1Char('\n')));
 }
 
 void LiveBar::importCatalog() {
-  auto* ask = new QFileDialog(window(), QStringLiteral("Import catalog of variables"), {},
+  auto* ask = new QFileDialog(window(), QStringLiteral("Import variable catalog"), {},
                               QStringLiteral("Catalogs (*.h *.hpp *.py *.json);;All files (*)"));
   ask->setObjectName(QStringLiteral("importCatalogDialog"));
   ask->setAttribute(Qt::WA_DeleteOnClose);
@@ -186,9 +181,9 @@ void LiveBar::showTeams() {
     for (const Entry& entry : wanted) m_team->addItem(entry.text, entry.number);
   }
   m_team->setCurrentIndex(m_team->findData(ours));
-  m_team->setToolTip(QStringLiteral(
-      "Whose robots are heard: decides whose penalties are shown on cards and field. "
-      "The teams are those that the referee names."));
+  m_team->setToolTip(
+      QStringLiteral("Your team: cards and field show its penalties. The list has the teams that "
+                     "the referee announces."));
 }
 
 void LiveBar::switchMonitor(bool on) {

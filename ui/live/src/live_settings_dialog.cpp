@@ -119,28 +119,28 @@ QWidget* LiveSettingsDialog::makeNetwork() {
   QFormLayout* form = formOf(widget);
   m_bind = new NetworkChooser(widget);
   m_bind->setObjectName(QStringLiteral("bind"));
-  m_bind->setToolTip(QStringLiteral(
-      "Every interface: all addresses of this computer, broadcasts included. One address "
-      "receives what is sent to it, but no broadcasts. An address can be typed, too"));
-  form->addRow(QStringLiteral("Listen at"), m_bind);
+  m_bind->setToolTip(
+      QStringLiteral("Every interface: all addresses of this computer, including broadcasts. A "
+                     "single address receives no broadcasts. You can also type an address"));
+  form->addRow(QStringLiteral("Listen on"), m_bind);
   m_portBase = addNumber(form, "portBase", QStringLiteral("Port base"), 0, 65534,
                          QStringLiteral("Robot n sends to port base + n"));
   m_robots = addNumber(form, "robots", QStringLiteral("Robots"), 1, 64,
-                       QStringLiteral("How many ports after the base"));
-  m_variablesPortBase = addNumber(
-      form, "variablesPortBase", QStringLiteral("Variables port base"), 0, 65534,
-      QStringLiteral("pitchboard-agent on robot n sends variables to this port base + n"));
+                       QStringLiteral("Number of ports after the base"));
+  m_variablesPortBase =
+      addNumber(form, "variablesPortBase", QStringLiteral("Variables port base"), 0, 65534,
+                QStringLiteral("pitchboard-agent on robot n sends to this base + n"));
   m_variablesPortBase->setSpecialValueText(QStringLiteral("off"));
   m_senders = new QLineEdit(widget);
   m_senders->setObjectName(QStringLiteral("senders"));
   m_senders->setPlaceholderText(QStringLiteral("everybody"));
   m_senders->setToolTip(
-      QStringLiteral("Robots' addresses and networks, e.g. 192.168.0.7, 192.168.1.0/24. Empty: "
-                     "everybody. The referee has a list of its own"));
-  form->addRow(QStringLiteral("Robots only from"), m_senders);
+      QStringLiteral("Addresses and networks of robots, e.g. 192.168.0.7, 192.168.1.0/24. Empty: "
+                     "accept all. The referee has its own list"));
+  form->addRow(QStringLiteral("Accept robots from"), m_senders);
   form->addRow(makeExplanation(
-      QStringLiteral("A port that another program holds is named in the status bar and tried "
-                     "again every three seconds; the others work meanwhile."),
+      QStringLiteral("If another program uses a port, the status bar names it and Live tries again "
+                     "every three seconds. The other ports keep working."),
       widget));
   return widget;
 }
@@ -150,10 +150,11 @@ QWidget* LiveSettingsDialog::makeRobots() {
   QFormLayout* form = formOf(widget);
   m_timeout =
       addReal(form, "timeout", QStringLiteral("Timeout after"), 0.1, 3600, 1, QStringLiteral(" s"),
-              QStringLiteral("A robot that is silent for so long is greyed"));
+              QStringLiteral("A robot that sends nothing for this time is greyed out"));
   m_cells = addNumber(
       form, "cells", QStringLiteral("Battery cells"), 0, 24,
-      QStringLiteral("In series. Automatic: the fewest that explain the highest voltage seen"));
+      QStringLiteral(
+          "Cells in series. Automatic: the smallest number that fits the highest voltage seen"));
   m_cells->setSpecialValueText(QStringLiteral("automatic"));
   const QString volts = QStringLiteral(" V per cell");
   m_full = addReal(form, "full", QStringLiteral("Full at"), 0.1, 10, 2, volts, {});
@@ -180,26 +181,27 @@ QWidget* LiveSettingsDialog::makeReferee() {
   auto* widget = new QGroupBox(QStringLiteral("Referee"), this);
   QFormLayout* form = formOf(widget);
   m_refereePort = addNumber(form, "refereePort", QStringLiteral("Port"), 1, 65535,
-                            QStringLiteral("3838 for every controller so far"));
+                            QStringLiteral("All GameControllers so far use 3838"));
   m_refereeVersion = new QComboBox(widget);
   m_refereeVersion->setObjectName(QStringLiteral("refereeVersion"));
-  m_refereeVersion->addItem(QStringLiteral("the highest that is heard"), 0);
+  m_refereeVersion->addItem(QStringLiteral("highest received"), 0);
   constexpr int versions[] = {7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20};
   for (const int version : versions) {
     m_refereeVersion->addItem(QStringLiteral("only %1").arg(version), version);
   }
-  m_refereeVersion->setToolTip(QStringLiteral(
-      "Controllers of 2014 to 2016 send version 7 beside a higher one; two controllers may run"));
+  m_refereeVersion->setToolTip(
+      QStringLiteral("GameControllers of 2014 to 2016 also send version 7, and two GameControllers "
+                     "may run at once"));
   form->addRow(QStringLiteral("Packet version"), m_refereeVersion);
   m_refereeSenders = new QLineEdit(widget);
   m_refereeSenders->setObjectName(QStringLiteral("refereeSenders"));
   m_refereeSenders->setPlaceholderText(QStringLiteral("everybody"));
   m_refereeSenders->setToolTip(QStringLiteral(
-      "Addresses and networks of the referee's computer. Others are counted and not shown"));
-  form->addRow(QStringLiteral("Referee only from"), m_refereeSenders);
-  m_ourTeam =
-      addNumber(form, "ourTeam", QStringLiteral("Our team's number"), 0, 65535,
-                QStringLiteral("As in the referee's program; decides whose penalties are shown"));
+      "Addresses and networks of the referee's computer. Packets from others are only counted"));
+  form->addRow(QStringLiteral("Accept referee from"), m_refereeSenders);
+  m_ourTeam = addNumber(
+      form, "ourTeam", QStringLiteral("Our team's number"), 0, 65535,
+      QStringLiteral("As in the GameController. Cards and field show the penalties of this team"));
   m_ourTeam->setSpecialValueText(QStringLiteral("not chosen"));
   m_monitor = new QCheckBox(QStringLiteral("Ask the referee for monitor mode"), widget);
   m_monitor->setObjectName(QStringLiteral("monitor"));
@@ -210,12 +212,10 @@ QWidget* LiveSettingsDialog::makeReferee() {
   form->addRow(m_monitor);
   form->addRow(QStringLiteral("Referee at"), m_monitorAddress);
   form->addRow(makeExplanation(
-      QStringLiteral("Controllers of 2026 send more to programs that ask for it. While "
-                     "this is on, one packet of "
-                     "five bytes (RGTr and a zero) goes to UDP port 3636 of that one "
-                     "address every second. It is the "
-                     "only thing that Live ever sends, it never goes to a robot, and it "
-                     "is off at every start."),
+      QStringLiteral("GameControllers of 2026 send more data to programs that ask for it. While "
+                     "this is on, Live sends one packet of five bytes (RGTr and a zero) per second "
+                     "to UDP port 3636 of that address. Live never sends anything else and never "
+                     "sends to robots. This is off at every start."),
       widget));
   return widget;
 }
@@ -244,9 +244,8 @@ QWidget* LiveSettingsDialog::makeMessages() {
   row->addStretch(1);
   form->addRow(row);
   form->addRow(makeExplanation(
-      QStringLiteral("Teams insert fields of their own. A profile says in which order a "
-                     "message has its fields and what they mean. Fields after those of the "
-                     "profile are shown as OTHER_1, OTHER_2, ..."),
+      QStringLiteral("Teams add fields of their own. A profile lists the fields of a message in "
+                     "order, with their meaning. Further fields are shown as OTHER_1, OTHER_2, …"),
       widget));
   return widget;
 }
@@ -295,7 +294,7 @@ void LiveSettingsDialog::showProfile() {
 }
 
 void LiveSettingsDialog::chooseProfile() {
-  auto* ask = new QFileDialog(this, QStringLiteral("Profile of messages"),
+  auto* ask = new QFileDialog(this, QStringLiteral("Message profile"),
                               QFileInfo(m_profileFile).path(), QStringLiteral("Profiles (*.json)"));
   ask->setAttribute(Qt::WA_DeleteOnClose);
   ask->setFileMode(QFileDialog::ExistingFile);
@@ -337,7 +336,7 @@ bool LiveSettingsDialog::read(LiveSettings& live) {
   link::LiveOptions& o = live.options;
   const auto words = [](const Error& error) { return QString::fromStdString(error.text()); };
   const auto bind = telemetry::parseAddress(m_bind->address().toStdString());
-  if (!bind) return fail(QStringLiteral("Listen at: %1").arg(words(bind.error())));
+  if (!bind) return fail(QStringLiteral("Listen on: %1").arg(words(bind.error())));
   o.bind = *bind;
   o.portBase = m_portBase->value();
   o.robots = m_robots->value();
@@ -345,11 +344,12 @@ bool LiveSettingsDialog::read(LiveSettings& live) {
   o.refereePort = m_refereePort->value();
   live.senders = m_senders->text();
   auto senders = sendersFromText(live.senders);
-  if (!senders) return fail(QStringLiteral("Robots only from: %1").arg(words(senders.error())));
+  if (!senders) return fail(QStringLiteral("Accept robots from: %1").arg(words(senders.error())));
   o.team.senders = std::move(*senders);
   live.refereeSenders = m_refereeSenders->text();
   auto referees = sendersFromText(live.refereeSenders);
-  if (!referees) return fail(QStringLiteral("Referee only from: %1").arg(words(referees.error())));
+  if (!referees)
+    return fail(QStringLiteral("Accept referee from: %1").arg(words(referees.error())));
   o.refereeSenders = std::move(*referees);
   o.refereeVersion = m_refereeVersion->currentData().toInt();
   o.team.timeout = std::chrono::milliseconds(qRound64(m_timeout->value() * 1000));

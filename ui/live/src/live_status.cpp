@@ -20,7 +20,7 @@ QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* fram
     if (!port.bound) closed << QString::number(port.port);
   }
   if (!closed.isEmpty()) {
-    return QStringLiteral("Not received: port %1 (tried again)")
+    return QStringLiteral("Cannot receive on port %1 (retrying)")
         .arg(closed.mid(0, 4).join(QStringLiteral(", ")) +
              (closed.size() > 4 ? QStringLiteral(", …") : QString()));
   }
@@ -28,7 +28,7 @@ QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* fram
   for (const link::RobotFrame& robot : frame->robots) {
     if (!robot.link) continue;
     if (robot.link->conflict) {
-      return QStringLiteral("Number %1 is sent by two programs").arg(robot.identity.number);
+      return QStringLiteral("Two programs send as robot %1").arg(robot.identity.number);
     }
     // Another program that sends the same number is enough.
     const bool stillReceived = std::ranges::any_of(frame->robots, [&robot](const auto& other) {
@@ -36,12 +36,12 @@ QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* fram
              other.key.number == robot.key.number;
     });
     if (robot.timedOut() && !stillReceived) {
-      return QStringLiteral("%1 has not been heard for %2. Its card comes back by itself.")
+      return QStringLiteral("%1 has been offline for %2. Its card returns when it sends again.")
           .arg(robotName(robot), durationText(telemetry::secondsOf(robot.link->age)));
     }
   }
   if (frame->referee && frame->referee->conflict) {
-    return QStringLiteral("A second referee program is heard");
+    return QStringLiteral("A second referee program is sending");
   }
   return {};
 }
@@ -95,7 +95,7 @@ LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::
                           countText(lost),
                           countText(details.team.errors.messages() + details.unknownReferee +
                                     details.badVariables));
-  text.referee = frame == nullptr || !frame->referee ? QStringLiteral("No referee heard")
+  text.referee = frame == nullptr || !frame->referee ? QStringLiteral("No referee")
                                                      : QStringLiteral("%1Referee: version %2, %3/s")
                                                            .arg(teamsText(*frame))
                                                            .arg(frame->referee->version)
@@ -110,8 +110,8 @@ LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::
                            countText(details.network.queueDrops))};
   if (refused > 0) {
     tip << QStringLiteral(
-               "refused: %1 of robots and %2 of referees that are not on their lists, "
-               "%3 of more robots than are kept")
+               "refused: %1 from robots and %2 from referees not on the lists, %3 beyond the robot "
+               "limit")
                .arg(countText(details.team.refusedByFilter + details.refusedVariables),
                     countText(details.refusedReferees), countText(details.team.refusedRobots));
   }

@@ -38,7 +38,7 @@ void NetworkChooser::offer(const QString& chosen) {
   int index = findData(chosen);
   if (index < 0 && !QHostAddress(chosen).isNull()) {
     index = count();
-    addItem(QStringLiteral("%1 — not on this computer now").arg(chosen), chosen);
+    addItem(QStringLiteral("%1 (not on this computer now)").arg(chosen), chosen);
   }
   setCurrentIndex(index);
   if (index < 0) setEditText(chosen);

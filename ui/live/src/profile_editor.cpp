@@ -232,7 +232,7 @@ void ProfileEditor::addRow(int row, const ProfileField& field) {
   type->setCurrentIndex(static_cast<int>(field.type));
   auto* meaning = new QComboBox(m_table);
   for (std::size_t i = 0; i < telemetry::fieldMeaningCount; ++i) {
-    meaning->addItem(i == 0 ? QStringLiteral("(only shown)")
+    meaning->addItem(i == 0 ? QStringLiteral("(display only)")
                             : meaningText(static_cast<FieldMeaning>(i)));
   }
   meaning->setCurrentIndex(static_cast<int>(field.meaning));
@@ -331,7 +331,7 @@ void ProfileEditor::check() {
   }
   m_save->setEnabled(good.has_value());
   if (good)
-    say(QStringLiteral("%1 fields. Saving puts the profile to use.").arg(now.fields.size()), false);
+    say(QStringLiteral("%1 fields. Save the profile to use it.").arg(now.fields.size()), false);
   else
     say(QString::fromStdString(good.error().text()), true);
 }
@@ -346,7 +346,7 @@ bool ProfileEditor::saveTo(const QString& path) {
     return false;
   }
   if (const auto written = writeFile(path.toStdString(), text, IfExists::Replace); !written) {
-    say(QStringLiteral("%1 cannot be written. %2")
+    say(QStringLiteral("Could not write %1. %2")
             .arg(path, QString::fromStdString(written.error().message)),
         true);
     return false;

@@ -50,15 +50,15 @@ Result<telemetry::TeamSetup> setupOf(const TeamDraft& draft) {
   }
   const auto names = namesFrom(draft.robots);
   if (!names) {
-    return failure(ErrorCode::InvalidArgument,
-                   "Robots are written as numbers and names: 1 Ana, 2 Bo", setup.title());
+    return failure(ErrorCode::InvalidArgument, "Write robots as numbers and names: 1 Ana, 2 Bo",
+                   setup.title());
   }
   setup.robots = *names;
   if (setup.firstPort == 0) setup.lastPort = 0;
   if (setup.firstPort > 0 && setup.lastPort == 0) setup.lastPort = setup.firstPort;
   if (setup.lastPort < setup.firstPort) {
-    return failure(ErrorCode::InvalidArgument,
-                   "The last port lies before the first one; exchange them.", setup.title());
+    return failure(ErrorCode::InvalidArgument, "The last port is lower than the first. Swap them.",
+                   setup.title());
   }
   // What a file of it would be told.
   return telemetry::parseTeamSetup(telemetry::teamSetupText(setup), setup.title(), setup.profile);

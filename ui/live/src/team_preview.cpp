@@ -81,8 +81,8 @@ std::vector<PreviewRow> previewOf(const std::vector<Arrival>& arrivals,
       const auto error = static_cast<telemetry::TextError>(i);
       if (decoded.errors.has(error)) why << QString::fromUtf8(telemetry::errorWords(error));
     }
-    if (!listed) why << QStringLiteral("its address is not on the list of senders");
-    if (listed && !decoder) why << QStringLiteral("no team sends from there to this port");
+    if (!listed) why << QStringLiteral("sender not on the team's list");
+    if (listed && !decoder) why << QStringLiteral("no team has this sender and port");
     row.says = why.join(QStringLiteral(", ")) + knownFormats(arrival, known) +
                QStringLiteral(": ") +
                QString::fromStdString(telemetry::printable(arrival.payload, 60));

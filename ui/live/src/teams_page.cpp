@@ -45,7 +45,7 @@ TeamsPage::TeamsPage(LiveController* live, QWidget* parent)
   top->addLayout(makeList());
   m_form = makeForm();
   top->addWidget(m_form, 1);
-  auto* title = new QLabel(QStringLiteral("What arrives, as these teams would read it"), this);
+  auto* title = new QLabel(QStringLiteral("Incoming messages (preview)"), this);
   title->setFont(themeFont(TypeRole::Secondary));
   m_table = new QTableWidget(0, 5, this);
   m_table->setObjectName(QStringLiteral("teamPreview"));
@@ -90,13 +90,12 @@ QLayout* TeamsPage::makeList() {
     buttons->addWidget(button, place / 2, place % 2);
     return button;
   };
-  addButton(0, "addTeam", QStringLiteral("Add"), QStringLiteral("Another team is heard, too"),
-            [this] {
-              add(draftOf(telemetry::TeamSetup()));
-              m_name->setFocus();
-            });
+  addButton(0, "addTeam", QStringLiteral("Add"), QStringLiteral("Add a team"), [this] {
+    add(draftOf(telemetry::TeamSetup()));
+    m_name->setFocus();
+  });
   m_remove = addButton(1, "removeTeam", QStringLiteral("Remove"),
-                       QStringLiteral("This team is not listened to any more"), [this] {
+                       QStringLiteral("Remove this team"), [this] {
                          const int place = m_list->currentRow();
                          if (place < 0) return;
                          m_drafts.erase(m_drafts.begin() + place);
@@ -104,10 +103,10 @@ QLayout* TeamsPage::makeList() {
                          show(m_list->currentRow());
                          preview();
                        });
-  addButton(2, "loadTeam", QStringLiteral("Open…"), QStringLiteral("A team setup from its file"),
+  addButton(2, "loadTeam", QStringLiteral("Open…"), QStringLiteral("Load a team setup from a file"),
             [this] { ask(false); });
   m_save = addButton(3, "saveTeam", QStringLiteral("Save as…"),
-                     QStringLiteral("This team as a file, for --team and other computers"),
+                     QStringLiteral("Save this team as a file, for --team or another computer"),
                      [this] { ask(true); });
   auto* column = new QVBoxLayout;
   column->addWidget(m_list, 1);
@@ -136,15 +135,15 @@ QWidget* TeamsPage::makeForm() {
     connect(box, &QSpinBox::valueChanged, this, &TeamsPage::take);
     return box;
   };
-  m_name = addLine("teamName", QStringLiteral("Name"), QStringLiteral("as the referee's number"));
+  m_name = addLine("teamName", QStringLiteral("Name"), QStringLiteral("from the referee's number"));
   m_number = addSpin("teamNumber", 65535, QStringLiteral("not known"));
-  m_number->setToolTip(QStringLiteral("Of the team in the referee's program"));
+  m_number->setToolTip(QStringLiteral("Number of the team in the GameController"));
   m_colour = new QComboBox(widget);
   m_colour->setObjectName(QStringLiteral("teamColour"));
   m_colour->addItem(QStringLiteral("the referee's"));
   for (const TeamColorInfo& colour : teamColors) {
-    m_colour->addItem(swatch(colour.color), QString::fromUtf8(colour.name),
-                      static_cast<int>(colour.color));
+    const QString name = QString::fromUtf8(colour.name);
+    m_colour->addItem(swatch(colour.color), name, name);
   }
   connect(m_colour, &QComboBox::currentIndexChanged, this, &TeamsPage::take);
   auto* numbers = new QHBoxLayout;
@@ -165,20 +164,19 @@ QWidget* TeamsPage::makeForm() {
       QStringLiteral("Addresses and networks, e.g. 192.168.0.7, 192.168.18.0/24"));
   m_profile = new QComboBox(widget);
   m_profile->setObjectName(QStringLiteral("teamProfile"));
-  m_profile->setToolTip(QStringLiteral("How the team writes its messages"));
+  m_profile->setToolTip(QStringLiteral("Format of the team's messages"));
   connect(m_profile, &QComboBox::activated, this, &TeamsPage::chooseProfile);
   m_attacks = new QComboBox(widget);
   m_attacks->setObjectName(QStringLiteral("teamAttacks"));
   m_attacks->addItems({QStringLiteral("plays to the right"), QStringLiteral("plays to the left")});
-  m_attacks->setToolTip(
-      QStringLiteral("Where +x of a message points that counts towards the opponents' goal"));
+  m_attacks->setToolTip(QStringLiteral("Attack direction"));
   connect(m_attacks, &QComboBox::currentIndexChanged, this, &TeamsPage::take);
   auto* messages = new QHBoxLayout;
   messages->addWidget(m_profile, 1);
   messages->addWidget(m_attacks, 1);
   form->addRow(QStringLiteral("Messages"), messages);
   m_names = addLine("teamRobots", QStringLiteral("Robots"), QStringLiteral("1 Ana, 2 Bo"));
-  m_names->setToolTip(QStringLiteral("Numbers and names of its robots, with commas between them"));
+  m_names->setToolTip(QStringLiteral("Numbers and names of its robots, separated by commas"));
   return widget;
 }
 
@@ -202,7 +200,7 @@ Result<std::vector<telemetry::TeamSetup>> TeamsPage::teams() const {
 
 void TeamsPage::add(TeamDraft draft) {
   if (m_drafts.size() >= telemetry::TeamSetup::mostTeams) {
-    return say(QStringLiteral("At most %1 teams can be heard at one time; remove one first.")
+    return say(QStringLiteral("Live can receive at most %1 teams. Remove one first.")
                    .arg(telemetry::TeamSetup::mostTeams),
                true);
   }
@@ -217,7 +215,8 @@ void TeamsPage::name(int place) {
   const telemetry::TeamSetup& setup = m_drafts[static_cast<std::size_t>(place)].setup;
   QListWidgetItem* item = m_list->item(place);
   item->setText(QString::fromStdString(setup.title()));
-  item->setIcon(setup.colour ? swatch(*setup.colour) : QIcon());
+  const auto colour = teamColorNamed(setup.colour);
+  item->setIcon(colour ? swatch(*colour) : QIcon());
 }
 
 void TeamsPage::show(int place) {
@@ -231,7 +230,7 @@ void TeamsPage::show(int place) {
   const telemetry::TeamSetup& setup = draft.setup;
   m_name->setText(QString::fromStdString(setup.name));
   m_number->setValue(setup.number);
-  m_colour->setCurrentIndex(setup.colour ? m_colour->findData(static_cast<int>(*setup.colour)) : 0);
+  m_colour->setCurrentIndex(std::max(0, m_colour->findData(QString::fromStdString(setup.colour))));
   m_firstPort->setValue(setup.firstPort);
   m_lastPort->setValue(setup.lastPort == setup.firstPort ? 0 : setup.lastPort);
   m_lastPort->setEnabled(setup.firstPort > 0);
@@ -285,7 +284,7 @@ void TeamsPage::chooseProfile(int index) {
   if (m_profile->itemText(index) != profileFromFile)
     return use(m_profile->itemData(index).toString());
   fillProfiles();
-  auto* ask = new QFileDialog(this, QStringLiteral("Profile of messages"), {},
+  auto* ask = new QFileDialog(this, QStringLiteral("Message profile"), {},
                               QStringLiteral("Profiles (*.json)"));
   ask->setAttribute(Qt::WA_DeleteOnClose);
   ask->setFileMode(QFileDialog::ExistingFile);
@@ -299,10 +298,7 @@ void TeamsPage::take() {
   telemetry::TeamSetup& setup = draft->setup;
   setup.name = m_name->text().trimmed().toStdString();
   setup.number = m_number->value();
-  setup.colour.reset();
-  if (m_colour->currentIndex() > 0) {
-    setup.colour = static_cast<TeamColor>(m_colour->currentData().toInt());
-  }
+  setup.colour = m_colour->currentData().toString().toStdString();
   setup.firstPort = m_firstPort->value();
   setup.lastPort = m_lastPort->value();
   m_lastPort->setEnabled(setup.firstPort > 0);
@@ -324,7 +320,7 @@ Result<void> TeamsPage::load(const QString& path) {
 
 Result<void> TeamsPage::save(const QString& path) {
   const TeamDraft* draft = current();
-  if (draft == nullptr) return failure(ErrorCode::NotFound, "No team is chosen.");
+  if (draft == nullptr) return failure(ErrorCode::NotFound, "No team selected.");
   const auto setup = setupOf(*draft);
   if (!setup) return tl::unexpected(setup.error());
   return telemetry::saveTeamSetup(*setup, path.toStdString());
@@ -375,10 +371,10 @@ void TeamsPage::preview() {
     }
   }
   if (rows.empty() && m_message->text().isEmpty()) {
-    say(m_live->isListening() ? QStringLiteral("Nothing has arrived at the robots' ports since "
-                                               "this page was opened.")
-                              : QStringLiteral("Live is not listening; what arrives at ports of "
-                                               "these teams is shown all the same."),
+    say(m_live->isListening()
+            ? QStringLiteral("Nothing received on the robots' ports since this page was opened.")
+            : QStringLiteral("Live is not listening, but messages on these teams' ports are still "
+                             "shown here."),
         false);
   } else if (!rows.empty() && m_message->property("note").toBool()) {
     say({}, false);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The team setups of Live (docs/LIVE.md, "Team setups") as a form, and below it what arrives, as
+// The team setups of Live (docs/live.md, "Team setups") as a form, and below it what arrives, as
 // these setups would read it, before they are put to use. Qt owns it. UI thread only.
 
 #include <QWidget>

@@ -63,7 +63,7 @@ class LogDock : public QWidget {
     });
     m_start->setObjectName(QStringLiteral("logStartLines"));
     m_start->setCheckable(true);
-    m_start->setToolTip(QStringLiteral("Show what processes write while they start"));
+    m_start->setToolTip(QStringLiteral("Show start-up output of processes"));
     connect(m_start, &QToolButton::toggled, this,
             [this](bool on) { m_filter->showStartLines(on); });
     m_follow->setObjectName(QStringLiteral("logFollow"));
@@ -167,7 +167,7 @@ class LogDock : public QWidget {
     m_empty->setVisible(empty);
     m_empty->setText(
         m_model->rowCount() > m_model->startLines()
-            ? QStringLiteral("No line has all of these words and this level.")
+            ? QStringLiteral("No matching log entries")
             : QStringLiteral("Nothing yet. Kicks, goals, falls, errors and what the robots' "
                              "processes print appear here."));
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/models/robot_models.h>
+#include <ui/base/beat.h>
 #include <ui/noise/noise_dock.h>
 
 #include <QCheckBox>
@@ -51,7 +52,8 @@ class NoiseDock : public QScrollArea {
     setWidget(form);
     setMinimumWidth(form->minimumSizeHint().width() + scaled(this, 14));
     connect(m_controller, &MatchController::scenarioChanged, this, [this] { adopt(); });
-    connect(m_source, &FrameSource::frameReceived, this, [this] { follow(); });
+    m_follow = Beat::display().add(this, {}, [this] { follow(); });
+    connect(m_source, &FrameSource::frameReceived, this, [this] { m_follow->want(); });
     connect(m_controller->edits(), &MatchEdits::robotsChanged, this, [this] { showRobots(); });
     connect(m_controller->edits(), &MatchEdits::physicsChanged, this,
             [this] { showPhysics(m_controller->edits()->physics()); });
@@ -185,14 +187,14 @@ class NoiseDock : public QScrollArea {
     connect(m_model, &QComboBox::activated, this,
             [this] { m_controller->edits()->setPhysics(m_model->currentData().toString()); });
     column->addWidget(m_model);
-    column->addWidget(makeExplanation(
-        QStringLiteral("The match goes on with another model; its robots stop for a moment."),
-        form));
+    column->addWidget(
+        makeExplanation(QStringLiteral("Changing the physics model stops all motion."), form));
     m_exact = makeExplanation(
-        QStringLiteral("“published” follows the published simulator to the last bit: it has no "
-                       "constants and one kind of robot, no IMU noise but drift, misses nothing, "
-                       "sees without delay, and its speeds are per frame: at another tick rate "
-                       "than 60 all is faster or slower. Choose “rigid-body” to change that."),
+        QStringLiteral(
+            "“published” matches the published simulator bit for bit. It has no adjustable "
+            "constants and a single robot model; the IMU drifts but has no noise; vision misses "
+            "nothing and has no delay. Speeds are per frame, so a tick rate other than 60 makes "
+            "everything faster or slower. Choose “rigid-body” to change any of this."),
         form);
     column->addWidget(m_exact);
     m_body = new QWidget(form);
@@ -305,6 +307,7 @@ class NoiseDock : public QScrollArea {
   MatchController* m_controller;
   RobotSelection* m_selection;
   const SourceSwitch* m_source;
+  std::unique_ptr<Beat::Part> m_follow;
   QLabel* m_whose = nullptr;
   QWidget* m_robots = nullptr;
   QComboBox* m_kind = nullptr;

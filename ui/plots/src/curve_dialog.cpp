@@ -293,7 +293,7 @@ QString CurveDialog::unknownVariable() const {
     const QString near =
         columns.isEmpty() ? nearestName(group, groups) : nearestName(column, columns);
     const QString words = columns.isEmpty()
-                              ? QStringLiteral("There is no %1 now.").arg(group)
+                              ? QStringLiteral("There is no %1.").arg(group)
                               : QStringLiteral("%1 has no variable %2.").arg(group, column);
     return near.isEmpty() ? words : words + QStringLiteral(" Did you mean %1?").arg(near);
   }

@@ -112,7 +112,7 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
   head->addWidget(m_times, 1);
   head->addWidget(m_span);
   m_span->setObjectName(QStringLiteral("statisticsSpan"));
-  m_span->setToolTip(QStringLiteral("Choose what mean, σ, min, max and RMS are of"));
+  m_span->setToolTip(QStringLiteral("Range for mean, σ, min, max and RMS"));
   m_span->setFont(themeFont(TypeRole::Secondary));
   m_span->setAutoRaise(true);
   m_span->setPopupMode(QToolButton::InstantPopup);

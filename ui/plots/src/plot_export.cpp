@@ -25,7 +25,7 @@ constexpr double pngRatio = 2.0;
 tl::unexpected<Error> cannotWrite(const QFileDevice& file) {
   return failure(
       ErrorCode::SystemError,
-      QStringLiteral("The file could not be written: %1.").arg(file.errorString()).toStdString(),
+      QStringLiteral("Could not write the file: %1.").arg(file.errorString()).toStdString(),
       file.fileName().toStdString());
 }
 
@@ -102,7 +102,7 @@ QImage plotPicture(PlotPage& page, double ratio) {
 
 Result<void> savePlotPng(PlotPage& page, const QString& path) {
   const QByteArray bytes = pictureBytes(plotPicture(page, pngRatio));
-  if (bytes.isEmpty()) return failure(ErrorCode::SystemError, "The picture could not be made.");
+  if (bytes.isEmpty()) return failure(ErrorCode::SystemError, "Could not render the picture.");
   return writeBytes(path, bytes);
 }
 

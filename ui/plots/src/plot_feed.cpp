@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plot_feed.h"
 
-#include <QTimer>
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -18,6 +18,7 @@ namespace {
 
 const QString curvePrefix = QStringLiteral("curve/");
 constexpr std::string_view keeperBehaviour = "keeper";
+constexpr Beat::Milliseconds mostOften{32}, leastOften{100};  // between two looks
 
 bool isColumn(const std::string& saved, const telemetry::ColumnInfo& column) {
   return column.name == saved || column.name == telemetry::presentName(saved);
@@ -44,12 +45,14 @@ std::optional<telemetry::SeriesId> idOf(const telemetry::SeriesStore& rows, cons
 }  // namespace
 
 PlotFeed::PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent)
-    : QObject(parent), m_source(source), m_time(time), m_timer(new QTimer(this)) {
-  m_timer->setInterval(refreshMilliseconds);
-  connect(m_timer, &QTimer::timeout, this, &PlotFeed::refresh);
-  connect(source, &FrameSource::rowsCame, this, [this] {
-    if (m_timer->isActive()) refresh();
-  });
+    : QObject(parent), m_source(source), m_time(time) {
+  constexpr Beat::Milliseconds most{250};
+  const auto look = [this] {
+    if (m_running) refresh();
+  };
+  m_refresh = Beat::display().add(nullptr, mostOften, look, most);
+  connect(source, &FrameSource::frameReceived, this, &PlotFeed::refreshSoon);
+  connect(source, &FrameSource::rowsCame, this, look);
   connect(source, &FrameSource::restarted, this, &PlotFeed::forget);
   connect(source, &FrameSource::rewound, time, &LinkedTime::rewind);
 }
@@ -57,15 +60,22 @@ PlotFeed::PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent)
 PlotFeed::~PlotFeed() = default;
 
 void PlotFeed::setRunning(bool on) {
-  if (on == m_timer->isActive()) return;
-  if (on) {
+  if (on == m_running) return;
+  m_running = on;
+  if (on)
     refresh();
-    m_timer->start();
-  } else {
-    m_timer->stop();
-    // Views keep their rows in memory.
-    m_views.clear();
-  }
+  else
+    m_views.clear();  // they keep their rows in memory
+}
+
+void PlotFeed::setTimeOfPixel(double seconds) {
+  const auto milliseconds = std::clamp(seconds * 1e3, static_cast<double>(mostOften.count()),
+                                       static_cast<double>(leastOften.count()));
+  m_refresh->setLeast(Beat::Milliseconds(std::lround(milliseconds)));
+}
+
+void PlotFeed::refreshSoon() {
+  if (m_running) m_refresh->want();
 }
 
 void PlotFeed::forget() {
@@ -76,10 +86,11 @@ void PlotFeed::forget() {
   m_firstAsked.clear();
   ++m_generation;
   ++m_looks;
-  if (m_timer->isActive()) refresh();
+  if (m_running) refresh();
 }
 
 void PlotFeed::refresh() {
+  m_refresh->settle();
   const auto store = m_source->series();
   const quint64 revision = store ? store->groupsRevision() : 0;
   if (store != m_store) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What plots read: one consistent look at a source's rows, renewed on a timer while somebody
+// What plots read: one consistent look at a source's rows, renewed with its frames while somebody
 // watches. UI thread only.
 
 #include <QDateTime>
@@ -12,10 +12,9 @@
 #include <optional>
 
 #include <telemetry/series/series_store.h>
+#include <ui/base/beat.h>
 #include <ui/plots/plot_layout.h>
 #include <ui/sources/frame_source.h>
-
-class QTimer;
 
 namespace pitchboard::ui {
 
@@ -35,8 +34,6 @@ struct ColumnView {
 class PlotFeed : public QObject {
   Q_OBJECT
  public:
-  static constexpr int refreshMilliseconds = 33;
-
   /// Both outlive the feed.
   PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent = nullptr);
   ~PlotFeed() override;
@@ -89,6 +86,11 @@ class PlotFeed : public QObject {
   void setRunning(bool on);
   /// Takes a new look now.
   void refresh();
+  /// Takes one in a beat soon, while it runs.
+  void refreshSoon();
+  /// How much time a pixel of the plots stands for (s): what moves less than that between two looks
+  /// need not be looked at.
+  void setTimeOfPixel(double seconds);
 
  signals:
   /// There may be something new to draw.
@@ -105,7 +107,8 @@ class PlotFeed : public QObject {
 
   FrameSource* m_source;
   LinkedTime* m_time;
-  QTimer* m_timer;
+  bool m_running = false;
+  std::unique_ptr<Beat::Part> m_refresh;
   std::shared_ptr<const telemetry::SeriesStore> m_store;
   quint64 m_storeRevision = 0;
   quint64 m_generation = 1;

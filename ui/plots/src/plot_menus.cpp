@@ -41,17 +41,17 @@ void saveAs(PlotsDock* dock, const QString& title, const QString& name, const QS
 
 void addExports(QMenu* menu, PlotsDock* dock) {
   menu->addAction(QStringLiteral("Export picture (PNG)…"), dock, [dock] {
-    saveAs(dock, QStringLiteral("Export the plots as a picture"), QStringLiteral("plots.png"),
+    saveAs(dock, QStringLiteral("Export plots as picture"), QStringLiteral("plots.png"),
            QStringLiteral("Pictures (*.png)"),
            [dock](const QString& path) { return savePlotPng(*dock->currentPage(), path); });
   });
   menu->addAction(QStringLiteral("Export drawing (SVG)…"), dock, [dock] {
-    saveAs(dock, QStringLiteral("Export the plots as a drawing"), QStringLiteral("plots.svg"),
+    saveAs(dock, QStringLiteral("Export plots as drawing"), QStringLiteral("plots.svg"),
            QStringLiteral("Drawings (*.svg)"),
            [dock](const QString& path) { return savePlotSvg(*dock->currentPage(), path); });
   });
   menu->addAction(QStringLiteral("Export visible data (CSV)…"), dock, [dock] {
-    saveAs(dock, QStringLiteral("Export the data that is visible"), QStringLiteral("plots.csv"),
+    saveAs(dock, QStringLiteral("Export visible data"), QStringLiteral("plots.csv"),
            QStringLiteral("Tables (*.csv)"), [dock](const QString& path) {
              return savePlotCsv(dock->currentPage()->panes(), dock->time()->range(), path);
            });
@@ -102,12 +102,12 @@ void addPresets(QMenu* menu, PlotsDock* dock) {
   });
   menu->addAction(QStringLiteral("Import layout…"), dock, [dock] {
     const QString path =
-        QFileDialog::getOpenFileName(dock, QStringLiteral("Import a layout of plots"), {},
+        QFileDialog::getOpenFileName(dock, QStringLiteral("Import plot layout"), {},
                                      QStringLiteral("Layouts (*.json);;All files (*)"));
     if (!path.isEmpty()) openLayout(dock, PlotPresets::readFile(path));
   });
   menu->addAction(QStringLiteral("Export layout…"), dock, [dock] {
-    saveAs(dock, QStringLiteral("Export the layout of the plots"), QStringLiteral("plots.json"),
+    saveAs(dock, QStringLiteral("Export plot layout"), QStringLiteral("plots.json"),
            QStringLiteral("Layouts (*.json)"), [dock](const QString& path) {
              return PlotPresets::writeFile(path, dock->layoutSpec());
            });
@@ -253,7 +253,7 @@ void addKinds(QMenu* menu, PlotPage* page, PlotPane* pane) {
                  spec.curves[i + 1].kind != CurveKind::Variable;
       xy.curves << pair;
     }
-    const QString words = QStringLiteral("Show one over the other (XY)");
+    const QString words = QStringLiteral("Show as XY plot");
     if (computed) {
       // What is computed is computed where it is shown over time: that stays.
       menu->addAction(words, page, [page, pane, xy] {
@@ -296,7 +296,7 @@ QMenu* makePlotsMenu(PlotsDock* dock) {
   menu->addAction(QStringLiteral("Add curve…"), dock, [dock] { askForCurve(dock); });
   menu->addAction(QStringLiteral("Rename tab…"), dock,
                   [dock] { dock->renamePage(int(dock->pages().indexOf(dock->currentPage()))); });
-  menu->addAction(QStringLiteral("Remove all plots of the tab"), dock,
+  menu->addAction(QStringLiteral("Remove all plots of this tab"), dock,
                   [dock] { dock->currentPage()->removeAll(); });
   menu->addSeparator();
   addPresets(menu, dock);

@@ -464,7 +464,7 @@ void PlotPage::dragMoveEvent(QDragMoveEvent* event) {
   event->acceptProposedAction();
   const Target target = targetAt(event->position().toPoint(), names.size());
   const QString words = target.place == Place::OnPane  ? QStringLiteral("add to this plot")
-                        : target.place == Place::NewXy ? QStringLiteral("one over the other (XY)")
+                        : target.place == Place::NewXy ? QStringLiteral("XY plot")
                                                        : QStringLiteral("new plot");
   m_lines->setHint(DropHint{target.area, words});
 }

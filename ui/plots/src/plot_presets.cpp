@@ -32,7 +32,7 @@ void PlotPresets::save(const QString& name, const PlotLayout& layout) {
 Result<PlotLayout> PlotPresets::load(const QString& name) const {
   const QJsonObject presets = all();
   if (!presets.contains(name)) {
-    return failure(ErrorCode::NotFound, "There is no layout of this name.", name.toStdString());
+    return failure(ErrorCode::NotFound, "There is no layout with this name.", name.toStdString());
   }
   const QByteArray text = QJsonDocument(presets[name].toObject()).toJson();
   return layoutFromText({text.data(), std::size_t(text.size())}, name.toStdString());

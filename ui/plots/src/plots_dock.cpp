@@ -37,7 +37,6 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr int drawMilliseconds = 16;
 constexpr int saveMilliseconds = 1000;
 const QString noticeTopic = QStringLiteral("plots");
 const QString layoutKey = QStringLiteral("plots/layout");
@@ -78,7 +77,7 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   pageRow->addStretch(1);
   pageRow->addWidget(makeTools());
   m_tabs->setObjectName(QStringLiteral("docks"));  // they look like the tabs of docks
-  m_tabs->setAccessibleName(QStringLiteral("Tabs of the plots"));
+  m_tabs->setAccessibleName(QStringLiteral("Plot tabs"));
   m_tabs->setDrawBase(false);
   // The dock has a tab already: with one page, a row of tabs would only take room from the curves.
   m_tabs->setAutoHide(true);
@@ -86,11 +85,9 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   m_tabs->setFont(themeFont(TypeRole::Secondary));
   m_tabs->setExpanding(false);
   m_tabs->setElideMode(Qt::ElideRight);
-  m_draw.setSingleShot(true);
-  m_draw.setInterval(drawMilliseconds);
+  m_draw = Beat::display().add(this, {}, [this] { drawNow(); });
   m_saveSoon.setSingleShot(true);
   m_saveSoon.setInterval(saveMilliseconds);
-  connect(&m_draw, &QTimer::timeout, this, &PlotsDock::drawNow);
   connect(&m_saveSoon, &QTimer::timeout, this, &PlotsDock::save);
   connect(m_tabs, &QTabBar::tabBarDoubleClicked, this, &PlotsDock::renamePage);
   connect(m_tabs, &QTabBar::currentChanged, this, [this](int tab) {
@@ -99,6 +96,7 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   });
   connect(m_tabs, &QTabBar::tabMoved, this, &PlotsDock::changed);
   connect(m_feed, &PlotFeed::refreshed, this, &PlotsDock::takeRows);
+  connect(context.source, &SourceSwitch::newestChanged, m_feed, &PlotFeed::refreshSoon);
   for (const auto moved : {&LinkedTime::rangeChanged, &LinkedTime::marksChanged}) {
     connect(context.time, moved, this, &PlotsDock::scheduleDraw);
   }
@@ -356,6 +354,7 @@ void PlotsDock::hideEvent(QHideEvent*) {
 void PlotsDock::takeRows() {
   const auto known = m_context.time->data();
   const bool pending = currentPage() != nullptr && currentPage()->isWorking();
+  if (pending) m_feed->refreshSoon();
   const bool same = known == m_drawnData && m_drawnGeneration == m_feed->generation() &&
                     m_drawnRows == m_feed->rowsRead();
   if (same && !pending) return;
@@ -378,13 +377,15 @@ void PlotsDock::compare() {
 }
 
 void PlotsDock::scheduleDraw() {
-  if (isVisible() && !m_draw.isActive()) m_draw.start();
+  m_draw->want();
 }
 
 void PlotsDock::drawNow() {
-  m_draw.stop();
+  m_draw->settle();
   if (m_context.timeline != nullptr) m_feed->setClock(m_context.timeline->clock());
   if (PlotPage* page = currentPage(); page != nullptr && isVisible()) page->refresh();
+  const telemetry::TimeRange shown = m_context.time->range();
+  m_feed->setTimeOfPixel((shown.end - shown.begin) / std::max(width(), 1));
 }
 
 QWidget* makePlotsDock(const PlotsContext& context, QWidget* parent) {
@@ -414,7 +415,7 @@ QToolButton* toolButton(QAction* action, QWidget* parent) {
 
 // In the row of tabs, because height is what plots lack.
 QToolBar* PlotsDock::makeTools() {
-  auto* tools = new QToolBar(QStringLiteral("Tools of the plots"), this);
+  auto* tools = new QToolBar(QStringLiteral("Plot tools"), this);
   tools->setObjectName(QStringLiteral("plotTools"));
   tools->layout()->setSpacing(1);  // the sheet's, which was asked before it had its name
   tools->setIconSize(QSize(scaled(this, 16), scaled(this, 16)));
@@ -429,7 +430,7 @@ QToolBar* PlotsDock::makeTools() {
   connect(time, &LinkedTime::followingChanged, m_follow, &QAction::setChecked);
 
   m_window->setObjectName(QStringLiteral("plotWindow"));
-  m_window->setToolTip(QStringLiteral("How much is shown while following"));
+  m_window->setToolTip(QStringLiteral("Time span shown while following"));
   m_window->setFont(themeFont(TypeRole::Secondary));
   m_window->setPopupMode(QToolButton::InstantPopup);
   auto* windows = new QMenu(m_window);
@@ -468,7 +469,7 @@ QToolBar* PlotsDock::makeTools() {
 
   auto* fit = new QAction(themedIcon(QStringLiteral("zoom-fit-best")),
                           QStringLiteral("Show everything"), this);
-  fit->setToolTip(QStringLiteral("Show all there is (also a double click on a plot)"));
+  fit->setToolTip(QStringLiteral("Show all data (or double-click a plot)"));
   connect(fit, &QAction::triggered, time, &LinkedTime::fitAll);
 
   auto* add =

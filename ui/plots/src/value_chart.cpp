@@ -11,6 +11,7 @@
 #include <QResizeEvent>
 #include <QValueAxis>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <ui/base/robot_words.h>
@@ -39,6 +40,9 @@ class ValueChart::Layer : public QGraphicsItem {
   QRectF boundingRect() const override { return area; }
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override {
     if (!curves || area.isEmpty()) return;
+    painter->setPen(gridPen);
+    painter->setRenderHint(QPainter::Antialiasing, false);
+    for (const double x : grid) painter->drawLine(QLineF(x, area.top(), x, area.bottom()));
     if (painter->paintEngine()->type() != QPaintEngine::Raster) {
       painter->setClipRect(area);
       curves(*painter);
@@ -64,6 +68,8 @@ class ValueChart::Layer : public QGraphicsItem {
   }
 
   QRectF area;
+  std::vector<double> grid;  // lines of an x axis without numbers, in the view
+  QPen gridPen;
   Painter curves;
   Painting painting = Painting::Whole;
   bool stale = true;
@@ -143,13 +149,15 @@ ValueChart::ValueChart(QWidget* parent)
     axis->setTickType(QValueAxis::TicksDynamic);
   }
   m_axisX->setLabelsVisible(false);
+  m_axisX->setGridLineVisible(false);
   m_layer = new Layer(chart());
   m_layer->setZValue(100);
   applyTheme();
 }
 
-void ValueChart::setLabelsX(bool on) {
-  m_axisX->setLabelsVisible(on);
+void ValueChart::labelX() {
+  m_axisX->setLabelsVisible(true);
+  m_axisX->setGridLineVisible(true);
 }
 
 void ValueChart::addSeries(QAbstractSeries* series) {
@@ -170,12 +178,14 @@ void ValueChart::applyTheme() {
               (grid.blue() + colors.view.blue()) / 2);
   for (QValueAxis* axis : {m_axisX, m_axisY, m_axisRight}) {
     axis->setGridLinePen(QPen(grid, 1));
+    m_layer->gridPen = QPen(grid, 1);
     axis->setTitleFont(themeFont(TypeRole::Small));
     axis->setTitleBrush(colors.secondaryText);
     axis->setLabelsFont(themeFont(TypeRole::Small));
     axis->setLabelsBrush(colors.secondaryText);
   }
   redraw();
+  viewport()->update();
 }
 
 void ValueChart::setMargins(int left, int top, int right, int bottom) {
@@ -200,7 +210,9 @@ void ValueChart::place() {
   chart()->layout()->invalidate();
   chart()->layout()->activate();
   m_layer->setArea(m_area);
+  placeGridX();
   redraw();
+  viewport()->update();
 }
 
 void ValueChart::put(QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
@@ -240,9 +252,32 @@ int ValueChart::wantedRight() const {
 }
 
 void ValueChart::setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep, double xAnchor) {
-  if (xAnchor != m_axisX->tickAnchor()) m_axisX->setTickAnchor(xAnchor);
-  put(m_axisX, m_x, x, m_stepX, xStep);
+  if (m_axisX->labelsVisible()) {
+    if (xAnchor != m_axisX->tickAnchor()) m_axisX->setTickAnchor(xAnchor);
+    put(m_axisX, m_x, x, m_stepX, xStep);
+  } else {
+    m_x = x;
+    m_stepX = xStep;
+    m_anchorX = xAnchor;
+    placeGridX();
+  }
   put(m_axisY, m_y, y, m_stepY, yStep);
+}
+
+void ValueChart::placeGridX() {
+  m_layer->grid.clear();
+  const double span = m_x.high - m_x.low;
+  if (m_axisX->labelsVisible() || !(m_stepX > 0.0) || !(span > 0.0)) return;
+  // Rounding must not cost the first or last line.
+  const double slack = m_stepX * 1e-9;
+  const double first = std::ceil((m_x.low - slack - m_anchorX) / m_stepX);
+  const double last = std::floor((m_x.high + slack - m_anchorX) / m_stepX);
+  constexpr double most = 1000.0;  // of lines; none is needed where they cannot be told apart
+  if (last - first > most) return;
+  for (double i = first; i <= last; ++i) {
+    const double time = m_anchorX + i * m_stepX;
+    m_layer->grid.push_back(m_area.left() + (time - m_x.low) / span * m_area.width());
+  }
 }
 
 void ValueChart::setTitles(const QString& x, const QString& y, const QString& right) {
@@ -271,7 +306,8 @@ void ValueChart::setCurvePainter(Painter painter, Painting painting) {
 
 void ValueChart::redraw() {
   m_layer->stale = true;
-  viewport()->update();
+  // Axes tell by themselves when they change.
+  viewport()->update(m_area.toAlignedRect().adjusted(-1, -1, 1, 1));
 }
 
 void ValueChart::drawForeground(QPainter* painter, const QRectF&) {

@@ -4,7 +4,8 @@
 // A Qt chart with two value axes. Axes, grid, numbers and titles are Qt's, and so are the series of
 // an XY plot. Long curves over time are painted by a function instead: Qt's line series takes every
 // row as a point and keeps all of them (compared by line_series in
-// tests/benchmarks/bench_plots.cpp). UI thread only.
+// tests/benchmarks/bench_plots.cpp). With them goes the grid of an x axis without numbers: Qt makes
+// items anew for every step of a time axis that follows. UI thread only.
 
 #include <QChartView>
 #include <functional>
@@ -34,8 +35,8 @@ class ValueChart : public QChartView {
   ValueLimits xLimits() const { return m_x; }
   ValueLimits yLimits() const { return m_y; }
   void setTitles(const QString& x, const QString& y, const QString& right = {});
-  /// Numbers under the x axis: of an XY plot, not of a time axis that others label.
-  void setLabelsX(bool on);
+  /// The x axis has numbers: of an XY plot, not of a time axis that others label.
+  void labelX();
   /// The chart owns it from now on.
   void addSeries(QAbstractSeries* series);
   /// Room for the numbers of the y axis and its title, px.
@@ -61,6 +62,7 @@ class ValueChart : public QChartView {
  private:
   class Layer;
   void place();
+  void placeGridX();
   static void put(QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
                   double toStep);
 
@@ -72,6 +74,7 @@ class ValueChart : public QChartView {
   QRectF m_area;
   ValueLimits m_x, m_y, m_right;
   double m_stepX = 0.0, m_stepY = 0.0, m_stepRight = 0.0;
+  double m_anchorX = 0.0;
 };
 
 }  // namespace pitchboard::ui

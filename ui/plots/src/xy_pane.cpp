@@ -105,7 +105,7 @@ XyPane::XyPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
     : PlotPane(feed, spec, parent), m_chart(new ValueChart(this)) {
   setSurface(m_chart);
   m_chart->setMinimumHeight(scaled(this, 80));
-  m_chart->setLabelsX(true);
+  m_chart->labelX();
   m_chart->setRenderHint(QPainter::Antialiasing, true);
   m_chart->viewport()->installEventFilter(this);
   connect(m_chart, &ValueChart::resized, this, [this] { draw(); });

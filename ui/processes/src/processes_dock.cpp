@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/beat.h>
 #include <ui/processes/processes_dock.h>
 
 #include <QLabel>
 #include <QMenu>
 #include <QStackedWidget>
-#include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <chrono>
@@ -25,16 +25,16 @@ QString emptyText(const MatchController& controller) {
     case link::Cognition::Inline:
       if (controller.options().cognition != link::Cognition::Inline) {
         return QStringLiteral(
-            "The robots decide inside the studio, because separate processes could "
-            "not be started: the Log says why.");
+            "Processes run inside the studio because separate processes could not be started. See "
+            "the Log for the reason.");
       }
       return QStringLiteral(
-          "The robots decide inside the studio, so there are no separate processes to "
-          "show. Simulation > Robots decide > In separate processes starts them.");
+          "Processes run inside the studio, so there are no separate processes to show. To start "
+          "them, choose Simulation > Run robot processes > In separate processes.");
     case link::Cognition::None:
       return QStringLiteral(
-          "Nothing was started. Attach your own processes to the robots' "
-          "blackboards: key 100 × robot number (plus the key base).");
+          "No processes were started. Attach your team's programs to the robots' blackboards: key "
+          "100 × robot number (plus the key base).");
     case link::Cognition::Separate:
       return QStringLiteral("There are no robots, so no processes run.");
   }
@@ -52,7 +52,7 @@ class ProcessesDock : public QStackedWidget {
         m_asNow(new QLabel(QStringLiteral("Processes are shown as they are now."), m_page)),
         m_table(new QTableView(m_page)),
         m_empty(makeEmptyLabel(this, QStringLiteral("noProcesses"))) {
-    constexpr int refreshMilliseconds = 250;
+    constexpr Beat::Milliseconds least{250}, most{1000};
     m_table->setObjectName(QStringLiteral("processesTable"));
     m_table->setModel(m_model);
     m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
@@ -72,11 +72,9 @@ class ProcessesDock : public QStackedWidget {
     column->addWidget(m_table, 1);
     addWidget(m_page);
     addWidget(m_empty);
-    auto* timer = new QTimer(this);
-    connect(timer, &QTimer::timeout, this, [this] {
-      if (isVisible()) refresh();
-    });
-    timer->start(refreshMilliseconds);
+    m_refresh = Beat::display().add(
+        this, least, [this] { refresh(); }, most);
+    connect(m_source, &SourceSwitch::frameReceived, this, [this] { m_refresh->want(); });
     connect(m_source, &SourceSwitch::changed, this, [this] { refresh(); });
     connect(m_controller->edits(), &MatchEdits::lockedChanged, this, [this] { refresh(); });
     for (const auto changed : {&MatchController::scenarioChanged, &MatchController::opened}) {
@@ -168,6 +166,7 @@ class ProcessesDock : public QStackedWidget {
   QLabel* m_asNow;
   QTableView* m_table;
   QLabel* m_empty;
+  std::unique_ptr<Beat::Part> m_refresh;
 };
 
 }  // namespace

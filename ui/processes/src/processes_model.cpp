@@ -19,7 +19,7 @@ QString stateText(const link::ProcessSummary& status) {
   };
   switch (status.state) {
     case State::Waiting:
-      return QStringLiteral("waiting for its start");
+      return QStringLiteral("waiting to start");
     case State::Running:
       return QStringLiteral("running");
     case State::Silent:

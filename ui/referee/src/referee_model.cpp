@@ -47,7 +47,7 @@ RefereeModel::Row RefereeModel::rowOf(const link::RefereePlayerView& player,
                      : reply->age > goodUntil ? QStringLiteral("late")
                      : reply->fallen          ? QStringLiteral("fallen")
                                               : QStringLiteral("good");
-  QStringList tip{QStringLiteral("%1 told the referee %2 ago:")
+  QStringList tip{QStringLiteral("%1 reported to the referee %2 ago:")
                       .arg(QString::fromStdString(reply->address), durationText(reply->age, 1)),
                   reply->fallen ? QStringLiteral("it has fallen") : QStringLiteral("it stands")};
   if (reply->pose) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/beat.h>
 #include <ui/referee/referee_panel.h>
 
 #include <QAction>
@@ -6,7 +7,6 @@
 #include <QMenu>
 #include <QScrollArea>
 #include <QShowEvent>
-#include <QTimer>
 #include <algorithm>
 #include <array>
 
@@ -92,14 +92,9 @@ class RefereePanel : public QScrollArea {
       addKey(QString::fromUtf8(one.words), one.key,
              [this, &one] { callReferee(edits(), one.call, QString::fromUtf8(one.words)); });
     }
-    m_later = new QTimer(this);
-    m_later->setSingleShot(true);
-    constexpr int least = 100;  // ms between two looks at frames
-    m_later->setInterval(least);
-    connect(m_later, &QTimer::timeout, this, &RefereePanel::refresh);
-    connect(context.source, &FrameSource::frameReceived, this, [this] {
-      if (!m_later->isActive()) m_later->start();
-    });
+    constexpr Beat::Milliseconds least{100};  // between two looks at frames
+    m_later = Beat::display().add(this, least, [this] { refresh(); });
+    connect(context.source, &FrameSource::frameReceived, this, [this] { m_later->want(); });
     connect(context.source, &FrameSource::restarted, this, &RefereePanel::refresh);
     connect(context.source, &SourceSwitch::changed, this, &RefereePanel::refresh);
     connect(edits(), &MatchEdits::lockedChanged, this, &RefereePanel::refresh);
@@ -255,7 +250,7 @@ class RefereePanel : public QScrollArea {
       return RefereeCall{.kind = CallKind::Penalise,
                          .penalty = static_cast<PenaltyKind>(m_kind->currentData().toInt())};
     });
-    addForChosen("Pardon", "Ctrl+Alt+E", "They may play again",
+    addForChosen("Pardon", "Ctrl+Alt+E", "The chosen robots may play again",
                  [] { return RefereeCall{.kind = CallKind::Pardon}; });
     m_card = new QToolButton(m_penalties);
     m_card->setObjectName(QStringLiteral("refereeCard"));
@@ -383,14 +378,15 @@ class RefereePanel : public QScrollArea {
       m_state->setText({});
       m_clock->setText({});
       const SourceKind kind = m_context.source->kind();
-      m_detail->setText(kind == SourceKind::Live ? QStringLiteral("Waiting for the referee… Its "
-                                                                  "port and version are in the "
-                                                                  "settings of Live.")
-                        : frame == nullptr       ? m_context.source->emptyText()
-                        : kind == SourceKind::Replay
-                            ? QStringLiteral("This session has no referee at this moment.")
-                            : QStringLiteral("This match has no referee. Choose rules below to get "
-                                             "one."));
+      m_detail->setText(
+          kind == SourceKind::Live
+              ? QStringLiteral(
+                    "Waiting for the referee… Choose its port and version in Live settings.")
+          : frame == nullptr ? m_context.source->emptyText()
+          : kind == SourceKind::Replay
+              ? QStringLiteral("This session has no referee at this moment.")
+              : QStringLiteral("This match has no referee. Choose rules below to get "
+                               "one."));
       m_detail->show();
       m_truth->hide();
       return;
@@ -403,7 +399,7 @@ class RefereePanel : public QScrollArea {
     if (!view.phase.empty()) parts << QString::fromStdString(view.phase);
     if (view.stopped) parts << QStringLiteral("stopped");
     if (view.timedOut) {
-      parts << QStringLiteral("not heard for %1").arg(durationText(view.age));
+      parts << QStringLiteral("last packet %1 ago").arg(durationText(view.age));
     }
     const QString play = frame->desk ? playText(*frame->desk) : QString();
     if (!play.isEmpty()) parts << play;
@@ -510,7 +506,7 @@ class RefereePanel : public QScrollArea {
   QPushButton* m_give = nullptr;
   RefereeLog* m_log = nullptr;
   RulesFold* m_rules = nullptr;
-  QTimer* m_later = nullptr;
+  std::unique_ptr<Beat::Part> m_later;
   QString m_why;  // everything is grey; empty: calls are as the game allows
 };
 

@@ -181,7 +181,7 @@ void RulesFold::loadFormation(bool left) {
                                        .place = places.ball}));
   }
   m_match->edits()->performOrder(QStringLiteral("formation: ") + m_formation->currentText(),
-                                 QStringLiteral("The formation was not loaded"), std::move(steps));
+                                 QStringLiteral("Could not load the formation"), std::move(steps));
 }
 
 void RulesFold::show(const link::MatchFrame* shown, const QString& why) {
@@ -195,7 +195,7 @@ void RulesFold::show(const link::MatchFrame* shown, const QString& why) {
     m_fold->setChecked(!refereed);
   }
   set(m_rules, "Choosing rules restarts the game in INITIAL. Undo brings it back.");
-  set(m_automatic, "Off: only your calls, and READY that runs out, change the game.");
+  set(m_automatic, "When off, only your calls and the end of READY change the game.");
   set(m_formation, "Where both teams and the ball stand");
   set(m_asSetPlay, "While PLAYING the side that attacks gets the corner kick, throw-in, … as well");
   for (auto* button : m_inside->findChildren<QPushButton*>()) button->setEnabled(why.isEmpty());

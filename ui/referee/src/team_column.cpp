@@ -42,7 +42,7 @@ TeamColumn::TeamColumn(bool right, Call called, QWidget* parent)
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setSpacing(gap);
   add("Goal", "A goal for this team", {.kind = CallKind::Goal, .value = 1});
-  add("−1", "Takes a goal of this team back", {.kind = CallKind::Goal, .value = -1});
+  add("−1", "Takes back a goal of this team", {.kind = CallKind::Goal, .value = -1});
   add("Kick-off", "This team has the next kick-off", {.kind = CallKind::KickOff});
   add("Timeout", "In INITIAL, READY and SET", {.kind = CallKind::Timeout});
   auto* column = new QVBoxLayout(this);
@@ -118,10 +118,8 @@ void TeamColumn::show(const link::MatchFrame& frame, bool refereed) {
       team.players = playersOf(frame, frame.desk->game.teams[static_cast<std::size_t>(m_team)]);
     }
   }
-  QColor colour = theme().secondaryText;
-  for (const TeamColorInfo& one : teamColors) {
-    if (team.colour == one.name) colour = theme().team(one.color);
-  }
+  const auto drawn = teamColorNamed(team.colour);
+  const QColor colour = drawn ? theme().team(*drawn) : theme().secondaryText;
   m_square->setStyleSheet(QStringLiteral("background: %1; border-radius: 2px").arg(colour.name()));
   m_name->setText(!refereed           ? refereeTeamText(team, view.ourTeam)
                   : team.name.empty() ? QString::fromStdString(team.colour).toUpper()

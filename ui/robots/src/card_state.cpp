@@ -3,6 +3,7 @@
 
 #include <QStringList>
 #include <algorithm>
+#include <cmath>
 
 #include <base/angles.h>
 #include <robotlink/scenario/scenario.h>
@@ -65,19 +66,19 @@ QString linkText(const telemetry::LinkHealth& link) {
 QString linkTip(const link::RobotFrame& robot) {
   const telemetry::LinkHealth& link = *robot.link;
   QStringList tip{
-      QStringLiteral("Heard from %1").arg(QString::fromStdString(link.sender.text())),
+      QStringLiteral("Sender: %1").arg(QString::fromStdString(link.sender.text())),
       QStringLiteral("Last message %1 ago, %2 per second, jitter %3 ms")
           .arg(durationText(telemetry::secondsOf(link.age), 1), numberText(link.rate, 1),
                numberText(link.jitter * 1000, 0)),
       // A recording counts the bad ones only.
       link.messages > 0
-          ? QStringLiteral("%1 messages, %2 bytes, %3 bad ones")
+          ? QStringLiteral("%1 messages, %2 bytes, %3 bad")
                 .arg(countText(link.messages), countText(link.bytes), countText(link.errorCount))
           : QStringLiteral("%1 bad messages").arg(countText(link.errorCount)),
       link.loss ? QStringLiteral("%1 % lost").arg(numberText(*link.loss * 100, 1))
-                : QStringLiteral("Loss is not known: the messages have no sequence number")};
-  if (link.recoveries > 0) tip << QStringLiteral("Came back %1 times").arg(link.recoveries);
-  if (!robot.poseKnown()) tip << QStringLiteral("Its messages have no position");
+                : QStringLiteral("Packet loss unknown: the messages have no sequence number")};
+  if (link.recoveries > 0) tip << QStringLiteral("Reconnected %1 times").arg(link.recoveries);
+  if (!robot.poseKnown()) tip << QStringLiteral("No position in its messages");
   return tip.join(QLatin1Char('\n'));
 }
 
@@ -92,7 +93,7 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
     put(TagKind::Error,
         QStringLiteral("TIMEOUT %1").arg(durationText(telemetry::secondsOf(robot.link->age))));
   } else if (robot.link && robot.link->conflict) {
-    put(TagKind::Error, QStringLiteral("number sent twice"));
+    put(TagKind::Error, QStringLiteral("two senders"));
   } else if (robot.penalty) {
     // "pickup or incapable": the seconds must not be cut off.
     const QString words =
@@ -169,7 +170,7 @@ QString subtitleOf(const link::RobotFrame& robot) {
   QStringList parts;
   if (!robot.ownName.empty()) parts << QString::fromStdString(robot.ownName);
   if (!robot.behaviour.empty()) {
-    parts << (robot.behaviour == link::noBehaviour ? QStringLiteral("own process")
+    parts << (robot.behaviour == link::noBehaviour ? QStringLiteral("team program")
                                                    : capitalised(robot.behaviour));
   }
   return parts.join(QStringLiteral(" · "));
@@ -218,7 +219,10 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
     m_changed = now;
     m_serial = frame.serial;
   }
-  constexpr double smoothing = 0.1;
+  // A tenth in a tenth of a second.
+  const auto passed = m_updated < 0 ? 100.0 : static_cast<double>(now - m_updated);
+  const double smoothing = 1.0 - std::pow(0.9, passed / 100.0);
+  m_updated = now;
   const double age =
       static_cast<double>(now - m_changed) + 500.0 / std::max(1.0, frame.settings->tickRate);
   m_age += smoothing * (age - m_age);

@@ -128,8 +128,8 @@ QString RobotCard::lampTip(int lamp) const {
   if (state.state == LampState::Silent) {
     return QStringLiteral("%1: silent for %2").arg(process, durationText(state.seconds));
   }
-  return m_state.live ? QStringLiteral("%1: nothing known").arg(process)
-                      : QStringLiteral("%1: not heard of since the match began").arg(process);
+  return m_state.live ? QStringLiteral("%1: unknown").arg(process)
+                      : QStringLiteral("%1: no message yet").arg(process);
 }
 
 void RobotCard::mousePressEvent(QMouseEvent* event) {

@@ -22,7 +22,7 @@ namespace pitchboard::ui {
 
 RobotsDock::RobotsDock(const RobotsContext& context, QWidget* parent)
     : QScrollArea(parent), m_context(context) {
-  constexpr int refreshMilliseconds = 100;
+  constexpr Beat::Milliseconds least{100}, most{250};
   setObjectName(QStringLiteral("robotCards"));
   setFrameShape(QFrame::NoFrame);
   // A click on a card selects; the keys stay with the field.
@@ -53,11 +53,11 @@ RobotsDock::RobotsDock(const RobotsContext& context, QWidget* parent)
   loadParts();
 
   m_clock.start();
-  auto* timer = new QTimer(this);
-  connect(timer, &QTimer::timeout, this, [this] {
+  const auto refreshSeen = [this] {
     if (isVisible() || !m_floating.empty()) refresh();
-  });
-  timer->start(refreshMilliseconds);
+  };
+  m_refresh = Beat::display().add(nullptr, least, refreshSeen, most);
+  connect(context.source, &FrameSource::frameReceived, this, [this] { m_refresh->want(); });
   connect(context.source, &FrameSource::robotsRenamed, this, &RobotsDock::rename);
   connect(context.source, &FrameSource::restarted, this, [this] {
     m_tracker.reset();
@@ -82,7 +82,7 @@ std::vector<CardState> RobotsDock::states() {
       if (!difference) continue;
       const QString words = differenceText(*difference);
       card.detail = words + QStringLiteral(" · ") + card.detail;
-      card.detailTip += QStringLiteral("\nTruth and what is heard are %1 apart").arg(words);
+      card.detailTip += QStringLiteral("\nSimulated and live pose differ by %1").arg(words);
       card.values.push_back({QStringLiteral("BELIEF_ERROR"),
                              numberText(difference->metres * 100, 1), QStringLiteral("cm")});
       card.values.push_back({QStringLiteral("BELIEF_ERROR_THETA"),

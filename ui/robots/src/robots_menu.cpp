@@ -82,8 +82,8 @@ void RobotsDock::addCardActions(QMenu& menu) {
       addForgetting(menu, card->second);
     }
     if (m_floating.count(id) != 0) continue;
-    own->addAction(QStringLiteral("%1 in a window of its own").arg(card->second->state().name),
-                   this, [this, id] { floatCard(id); });
+    own->addAction(QStringLiteral("Open %1 in a window").arg(card->second->state().name), this,
+                   [this, id] { floatCard(id); });
   }
 }
 
@@ -93,7 +93,7 @@ void RobotsDock::addForgetting(QMenu& menu, RobotCard* card) {
                                    QStringLiteral("Forget %1").arg(card->state().name),
                                    m_context.live, [this, id] { m_context.live->forget(id); });
   forget->setObjectName(QStringLiteral("forgetRobot"));
-  forget->setToolTip(QStringLiteral("Its card goes until it is heard again; its curves stay"));
+  forget->setToolTip(QStringLiteral("Removes its card until it sends again; its curves stay"));
 }
 
 void RobotsDock::addListActions(QMenu& menu) {
@@ -161,7 +161,7 @@ void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
             selection->follow(on ? std::optional(id) : std::nullopt);
           });
   if (m_floating.count(id) == 0) {
-    menu.addAction(QStringLiteral("In a window of its own"), this, [this, id] { floatCard(id); });
+    menu.addAction(QStringLiteral("Open in a window"), this, [this, id] { floatCard(id); });
   } else {
     menu.addAction(QStringLiteral("Back to the list"), this, [this, id] { unfloat(id); });
   }

@@ -36,8 +36,8 @@ CheckList::CheckList(const QStringList& names, const QString& placeholder, QWidg
     auto* button = new QToolButton(this);
     button->setText(on ? QStringLiteral("All") : QStringLiteral("None"));
     button->setAutoRaise(true);
-    button->setToolTip(on ? QStringLiteral("Tick everything that the list shows")
-                          : QStringLiteral("Untick everything that the list shows"));
+    button->setToolTip(on ? QStringLiteral("Select all listed")
+                          : QStringLiteral("Deselect all listed"));
     connect(button, &QToolButton::clicked, this, [this, on] { checkShown(on); });
     row->addWidget(button);
   }

@@ -92,10 +92,10 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
     m_size->addItem(QStringLiteral("%1 × %2").arg(size.width()).arg(size.height()), size);
   }
   m_size->setToolTip(
-      QStringLiteral("The picture takes the shape of the field, as large as it fits in here."));
+      QStringLiteral("The picture keeps the shape of the field and fits into this size."));
   m_rate->setRange(1, 60);
   m_rate->setValue(30);
-  m_rate->setSuffix(QStringLiteral(" pictures a second"));
+  m_rate->setSuffix(QStringLiteral(" frames per second"));
   m_begin->setMoment(range.begin);
   m_end->setMoment(range.end);
   makeChoices();
@@ -212,7 +212,7 @@ void ExportDialog::exportTo(const QString& path) {
   SessionMaker make = m_source.make ? m_source.make() : SessionMaker();
   if (!make) {
     setWriting(false);
-    fail(QStringLiteral("Nothing was written: there is nothing in memory yet."));
+    fail(QStringLiteral("There is nothing in memory to export yet."));
     return;
   }
   m_worker.start([this, request, make = std::move(make)] {
@@ -223,8 +223,8 @@ void ExportDialog::exportTo(const QString& path) {
         return;
       }
       setWriting(false);
-      fail(m_cancelled ? QStringLiteral("Cancelled; nothing was written.")
-                       : QStringLiteral("Nothing was written: %1")
+      fail(m_cancelled ? QStringLiteral("Export cancelled.")
+                       : QStringLiteral("Export failed: %1")
                              .arg(QString::fromStdString(made.error().text())));
     });
   });
@@ -249,8 +249,8 @@ void ExportDialog::write(const ExportRequest& request) {
       if (done) {
         succeed(path);
       } else {
-        fail(m_cancelled ? QStringLiteral("Cancelled; nothing was written.")
-                         : QStringLiteral("Nothing was written: %1")
+        fail(m_cancelled ? QStringLiteral("Export cancelled.")
+                         : QStringLiteral("Export failed: %1")
                                .arg(QString::fromStdString(done.error().text())));
       }
     });
@@ -291,8 +291,7 @@ void ExportDialog::writePicture(const QString& path) {
       writeFile(path.toStdString(), {bytes.constData(), static_cast<std::size_t>(bytes.size())},
                 IfExists::Replace, m_source.session.toStdString());
   if (!written) {
-    fail(QStringLiteral("Nothing was written: %1")
-             .arg(QString::fromStdString(written.error().text())));
+    fail(QStringLiteral("Export failed: %1").arg(QString::fromStdString(written.error().text())));
     return;
   }
   succeed(path);
@@ -303,11 +302,11 @@ void ExportDialog::cancel() {
   if (!m_video) return;
   m_video.reset();
   setWriting(false);
-  fail(QStringLiteral("Cancelled; nothing was written."));
+  fail(QStringLiteral("Export cancelled."));
 }
 
 void ExportDialog::succeed(const QString& path) {
-  tell(QStringLiteral("Written: %1 (%2 MB)")
+  tell(QStringLiteral("Exported to %1 (%2 MB)")
            .arg(path)
            .arg(static_cast<double>(QFileInfo(path).size()) / 1e6, 0, 'f', 1),
        false);
@@ -357,7 +356,7 @@ void ExportDialog::makeChoices() {
   m_lines->setRange(0.001, telemetry::Resampling::mostPerSecond);
   m_lines->setDecimals(3);
   m_lines->setValue(telemetry::Resampling{}.rate);
-  m_lines->setSuffix(QStringLiteral(" a second"));
+  m_lines->setSuffix(QStringLiteral(" per second"));
   m_between->setObjectName(QStringLiteral("exportBetween"));
   m_between->addItem(QStringLiteral("Hold the last value"), false);
   m_between->addItem(QStringLiteral("Interpolate"), true);
@@ -412,8 +411,8 @@ bool ExportDialog::takeChoices(telemetry::ExportSelection& selection) {
   const QStringList robots = m_robots->checked(), variables = m_variables->checked();
   if (m_source.groups.empty()) return true;  // nothing to choose from yet: everything
   if (robots.isEmpty() || (numbers && variables.isEmpty())) {
-    fail(robots.isEmpty() ? QStringLiteral("Tick at least one robot.")
-                          : QStringLiteral("Tick at least one variable."));
+    fail(robots.isEmpty() ? QStringLiteral("Select at least one robot.")
+                          : QStringLiteral("Select at least one variable."));
     return false;
   }
   if (!m_robots->isAllChecked()) selection.robots = textsOf(robots);
@@ -429,7 +428,7 @@ bool ExportDialog::takeChoices(telemetry::ExportSelection& selection) {
       if (known.contains(name)) selection.variables.push_back(name.toStdString());
     }
     if (selection.variables.empty()) {
-      fail(QStringLiteral("The ticked robots have none of the ticked variables."));
+      fail(QStringLiteral("The selected robots have none of the selected variables."));
       return false;
     }
   }

@@ -39,8 +39,8 @@ const QString openTopic = QStringLiteral("session"), repairTopic = QStringLitera
 
 QString brokenText(const QString& path) {
   return QStringLiteral(
-             "%1 broke off or is damaged. What can be read is shown; a repaired copy can be made "
-             "beside it.")
+             "%1 is truncated or damaged. The readable part is shown. You can repair it into a new "
+             "file.")
       .arg(QFileInfo(path).fileName());
 }
 
@@ -79,7 +79,7 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
   });
   connect(source, &SourceSwitch::restarted, this, &SessionFiles::showTitle);
   connect(replay, &ReplayController::damageFound, this, [this](const QStringList& sentences) {
-    offerRepair(QStringLiteral("%1 is damaged inside; the rest is shown. %2")
+    offerRepair(QStringLiteral("Part of %1 is damaged; the rest is shown. %2")
                     .arg(QFileInfo(m_replay->path()).fileName(), shortened(sentences)));
   });
   connect(replay, &ReplayController::noted, this, [this](const QStringList& sentences) {
@@ -139,7 +139,7 @@ void SessionFiles::repair(const QString& path) {
                                                  [this](double) { return !m_cancelled; });
     m_toUi.post([this, report, to] {
       if (!report) {
-        m_notices->show({repairTopic}, QStringLiteral("The session was not repaired: %1")
+        m_notices->show({repairTopic}, QStringLiteral("Could not repair the session: %1")
                                            .arg(QString::fromStdString(report.error().text())));
         return;
       }
@@ -180,7 +180,7 @@ void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
   const FramePtr frame = m_source->frame();
   if (!frame || frame->robots.empty()) {
     m_notices->show({simulateTopic},
-                    QStringLiteral("There is no robot on the field to simulate from here."));
+                    QStringLiteral("Cannot simulate from here: no robot is on the field."));
     return;
   }
   link::MomentOptions options;

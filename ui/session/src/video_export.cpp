@@ -92,7 +92,7 @@ void VideoExport::read() {
       if (!frame) {
         cancel();
         emit failed(
-            QStringLiteral("The session cannot be read: %1").arg(QString::fromStdString(problem)));
+            QStringLiteral("Could not read the session: %1").arg(QString::fromStdString(problem)));
         return;
       }
       m_frame = frame;

@@ -45,12 +45,13 @@ const Format* formatOf(const QString& path) {
 QString sentenceOf(const QByteArray& output, const QString& path) {
   const QString text = QString::fromLocal8Bit(output);
   if (text.contains(QLatin1String("No space left"))) {
-    return QStringLiteral("The video could not be finished: the disk is full. Nothing was kept.");
+    return QStringLiteral(
+        "Could not finish the video: the disk is full. Free some space or choose another folder.");
   }
   if (text.contains(QLatin1String("File too large"))) {
     return QStringLiteral(
-        "The video could not be finished: it has reached the largest size that is allowed here. "
-        "Nothing was kept.");
+        "Could not finish the video: it reached the largest file size allowed here. Choose a "
+        "shorter range or a lower rate.");
   }
   if (text.contains(QLatin1String("Unknown encoder")) ||
       text.contains(QLatin1String("Unrecognized option"))) {
@@ -63,8 +64,7 @@ QString sentenceOf(const QByteArray& output, const QString& path) {
   const QStringList lines = text.split('\n', Qt::SkipEmptyParts);
   const QString last =
       lines.isEmpty() ? QStringLiteral("it gave no reason") : lines.last().trimmed();
-  return QStringLiteral("The video could not be written: ffmpeg ended with an error (%1).")
-      .arg(last);
+  return QStringLiteral("Could not write the video: ffmpeg ended with an error (%1).").arg(last);
 }
 
 tl::unexpected<Error> failure(ErrorCode code, const QString& sentence) {
@@ -92,7 +92,7 @@ VideoWriter::~VideoWriter() {
 
 Result<void> VideoWriter::start(const VideoOptions& options) {
   if (m_active)
-    return failure(ErrorCode::Conflict, QStringLiteral("A video is being written already."));
+    return failure(ErrorCode::Conflict, QStringLiteral("A video is already being written."));
   const Format* format = formatOf(options.path);
   if (!format) {
     return failure(ErrorCode::InvalidArgument,
@@ -108,7 +108,7 @@ Result<void> VideoWriter::start(const VideoOptions& options) {
   }
   if (!(options.framesPerSecond >= 1.0 && options.framesPerSecond <= 240.0)) {
     return failure(ErrorCode::InvalidArgument,
-                   QStringLiteral("A video must have 1 to 240 pictures a second."));
+                   QStringLiteral("A video must have 1 to 240 frames per second."));
   }
   auto target = FileTarget::at(options.path.toStdString(),
                                options.overwrite ? IfExists::Replace : IfExists::Refuse,
@@ -178,7 +178,7 @@ void VideoWriter::finish() {
   if (!m_active || m_ending) return;
   m_ending = true;
   if (m_pictures == 0) {
-    fail(QStringLiteral("There is no picture in the chosen time, so there is no video."));
+    fail(QStringLiteral("There is nothing to show in this range. Choose another one."));
     return;
   }
   m_process.closeWriteChannel();
@@ -201,7 +201,7 @@ void VideoWriter::onError(QProcess::ProcessError error) {
   if (!m_active) return;
   // The others end the process: finished() follows, with what it said.
   if (error == QProcess::FailedToStart) {
-    fail(QStringLiteral("ffmpeg could not be started: %1.").arg(m_process.errorString()));
+    fail(QStringLiteral("Could not start ffmpeg: %1.").arg(m_process.errorString()));
   }
 }
 
@@ -209,7 +209,7 @@ void VideoWriter::onFinished(int exitCode, QProcess::ExitStatus status) {
   if (!m_active) return;
   m_output += m_process.readAllStandardError();
   if (status == QProcess::CrashExit) {
-    fail(QStringLiteral("The video could not be finished: ffmpeg was ended from outside."));
+    fail(QStringLiteral("Could not finish the video: ffmpeg was terminated."));
     return;
   }
   if (exitCode != 0 || !m_ending) {
@@ -217,7 +217,7 @@ void VideoWriter::onFinished(int exitCode, QProcess::ExitStatus status) {
     return;
   }
   if (const auto named = m_target->commit(); !named) {
-    fail(QStringLiteral("The video could not be given its name: %1")
+    fail(QStringLiteral("Could not rename the finished video: %1")
              .arg(QString::fromStdString(named.error().text())));
     return;
   }

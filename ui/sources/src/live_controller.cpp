@@ -8,15 +8,12 @@
 
 namespace pitchboard::ui {
 namespace {
-constexpr qint64 framePeriod = 32;  // ms, while many are heard
+constexpr Beat::Milliseconds manyPeriod{32};  // between frames, while many are heard
 constexpr std::size_t fewRobots = 8;
 }  // namespace
 
-LiveController::LiveController(QObject* parent) : FrameSource(parent) {
-  m_nextFrame.setSingleShot(true);
-  m_nextFrame.setTimerType(Qt::PreciseTimer);
-  connect(&m_nextFrame, &QTimer::timeout, this, &LiveController::deliverNow);
-}
+LiveController::LiveController(QObject* parent)
+    : FrameSource(parent), m_news(Beat::display().addSource([this] { deliver(); })) {}
 
 // The watch's thread posts to this object: it ends while this is whole.
 LiveController::~LiveController() {
@@ -25,8 +22,8 @@ LiveController::~LiveController() {
 
 void LiveController::start() {
   if (m_watch) return;
-  m_watch =
-      std::make_unique<link::LiveWatch>(m_options, [this] { m_toUi.post([this] { deliver(); }); });
+  m_watch = std::make_unique<link::LiveWatch>(m_options,
+                                              [this] { m_toUi.post([this] { m_news->want(); }); });
   keepRows();
   for (const auto& observer : m_observers) m_watch->observe(observer);
   emit restarted();
@@ -43,7 +40,7 @@ void LiveController::stop() {
 
 void LiveController::setOptions(const link::LiveOptions& options) {
   if (const auto good = link::validate(options); !good) {
-    emit errorOccurred(QStringLiteral("Live keeps its settings: %1")
+    emit errorOccurred(QStringLiteral("Live settings not changed: %1")
                            .arg(QString::fromStdString(good.error().text())));
     return;
   }
@@ -137,12 +134,12 @@ QString LiveController::portsText() const {
 
 QString LiveController::emptyText() const {
   const QString address = m_options.bind.value == 0
-                              ? QStringLiteral("every address of this computer")
+                              ? QStringLiteral("all addresses of this computer")
                               : QString::fromStdString(m_options.bind.text());
   return QStringLiteral(
-             "Nothing heard yet.\nListening at %1 on %2 for robots and UDP %3 for the referee.\n"
-             "%4Check that this computer is in the robots' network and that no firewall keeps UDP "
-             "out. Nothing is sent to robots.")
+             "Waiting for robots…\nListening on %1: %2 for robots and UDP %3 for the "
+             "referee.\n%4Check that this computer is in the robots' network and that no firewall "
+             "blocks UDP. Live sends nothing to robots.")
       .arg(address, portsText())
       .arg(m_options.refereePort)
       .arg(m_options.team.teams.empty()
@@ -169,21 +166,12 @@ void LiveController::stopObserving(const std::shared_ptr<link::LiveObserver>& ob
 // A frame that comes after a rest is shown at once. Where many robots send often, half as many
 // pictures of them tell as much and cost half.
 void LiveController::deliver() {
-  if (m_nextFrame.isActive()) return;  // which shows this one, too
-  const bool many = m_frame && m_frame->robots.size() > fewRobots;
-  const qint64 rested = many ? m_sinceFrame.elapsed() : framePeriod;
-  if (rested >= framePeriod)
-    deliverNow();
-  else
-    m_nextFrame.start(static_cast<int>(framePeriod - rested));
-}
-
-void LiveController::deliverNow() {
   if (!m_watch) return;  // stopped while this was on its way
-  m_sinceFrame.start();
   const link::LiveNews news = m_watch->take();
   for (const auto& renamings : news.renamings) emit robotsRenamed(renamings);
   m_frame = news.frame;
+  const bool many = m_frame && m_frame->robots.size() > fewRobots;
+  m_news->setLeast(many ? manyPeriod : Beat::Milliseconds(0));
   if (m_frame) {
     emit frameReceived(m_frame);
   }
@@ -197,11 +185,10 @@ void LiveController::deliverNow() {
   }
   if (ports.empty()) return;
   const QString first = QString::fromStdString(sentenceOf(*ports.front()));
-  emit errorOccurred(ports.size() == 1
-                         ? first
-                         : QStringLiteral("%1 ports cannot be received; the first: %2")
-                               .arg(ports.size())
-                               .arg(first));
+  emit errorOccurred(ports.size() == 1 ? first
+                                       : QStringLiteral("Cannot receive on %1 ports. The first: %2")
+                                             .arg(ports.size())
+                                             .arg(first));
 }
 
 }  // namespace pitchboard::ui

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/sources/match_controller.h>
 
-#include <QTimer>
 #include <algorithm>
 #include <map>
 
@@ -38,13 +37,9 @@ MatchController::MatchController(link::MatchOptions options, QObject* parent)
       m_options(std::move(options)),
       m_nextCatalog(&link::VariableCatalog::published(), [](const auto*) {}),
       m_catalog(m_nextCatalog),
-      m_timer(new QTimer(this)),
+      m_news(Beat::display().addSource([this] { poll(); })),
       m_edits(new MatchEdits(this)),
       m_memory(new MatchMemory(this)) {
-  constexpr int displayMilliseconds = 16;
-  m_timer->setTimerType(Qt::PreciseTimer);
-  m_timer->setInterval(displayMilliseconds);
-  connect(m_timer, &QTimer::timeout, this, &MatchController::poll);
   connect(m_edits, &MatchEdits::failed, this, &MatchController::refuse);
   connect(m_memory, &MatchMemory::failed, this, &MatchController::refuse);
 }
@@ -85,16 +80,16 @@ void MatchController::Opening::start(
     made = link::MatchRunner::start(scenario, inside, paused, *catalog, observers);
     if (made) {
       error = QStringLiteral(
-                  "Separate robot processes cannot run: %1. The robots decide inside the studio "
-                  "instead, and other programs cannot see their blackboards. Close the other "
-                  "program, then restart the match.")
+                  "Cannot run separate robot processes: %1. They run inside the studio instead, "
+                  "and other programs cannot open their blackboards. Close the other program, then "
+                  "restart the match.")
                   .arg(words(reason));
     }
   }
   if (made)
     runner = holding(std::move(catalog), std::move(*made));
   else
-    error = words(made.error());
+    error = QStringLiteral("Cannot play the match: %1").arg(words(made.error()));
 }
 
 void MatchController::Opening::resume(
@@ -104,7 +99,7 @@ void MatchController::Opening::resume(
   if (!runner) return;
   runner->execute([&](link::SimulatedMatch& match) {
     if (const auto restored = match.restore(moment); !restored) {
-      error = QStringLiteral("The match cannot go on where it was: %1")
+      error = QStringLiteral("Cannot continue the match where it was: %1")
                   .arg(QString::fromStdString(restored.error().text()));
     }
     return link::Changed::Yes;
@@ -141,7 +136,7 @@ QString MatchController::emptyText() const {
 std::shared_ptr<link::MatchRunner> MatchController::retire() {
   if (m_runner) emit ending();
   ++m_generation;
-  m_timer->stop();
+  if (m_runner) m_runner->setNews({});
   m_opening = false;
   m_whenOpen.clear();
   m_runTo.reset();
@@ -272,7 +267,7 @@ void MatchController::take(Opening& opening) {
     m_runner->setPaused(m_paused);
     if (m_runTo) m_runner->runTo(*m_runTo);
     for (link::MatchRunner::Command& command : m_whenOpen) m_runner->post(std::move(command));
-    m_timer->start();
+    m_runner->setNews([this] { m_toUi.post([this] { m_news->want(); }); });
   }
   m_whenOpen.clear();
   m_runTo.reset();
@@ -336,11 +331,10 @@ void MatchController::tellWhoWillNotFollow() {
   }
   if (names.empty()) return;
   m_toldWhoWillNotFollow = true;
-  emit errorOccurred(
-      QStringLiteral("The processes of %1 were not started here: they go on at ×1 while the match "
-                     "stands still or runs at another speed. Choose their programs on the card, "
-                     "Runtime, and they follow.")
-          .arg(names.join(QStringLiteral(", "))));
+  emit errorOccurred(QStringLiteral("The processes of %1 were not started by this match, so they "
+                                    "keep running at ×1 when it pauses or changes speed. To make "
+                                    "them follow, choose their programs under Runtime on the card.")
+                         .arg(names.join(QStringLiteral(", "))));
 }
 
 void MatchController::tellWhoKeepsRealTime(std::span<const link::MatchEvent> events) {

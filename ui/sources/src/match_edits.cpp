@@ -235,7 +235,7 @@ void MatchEdits::previewRobots(const std::vector<RobotPlacement>& placements) {
 }
 
 void MatchEdits::placeBall(Point position, Velocity velocity) {
-  m_match->post({QStringLiteral("The ball cannot be placed"),
+  m_match->post({QStringLiteral("Could not place the ball"),
                  [position, velocity](link::SimulatedMatch& match) {
                    return match.simulation().placeBall(position, velocity);
                  }});
@@ -253,7 +253,7 @@ void MatchEdits::previewBall(Point position) {
 
 void MatchEdits::insert(const link::ScenarioRobot& entry) {
   m_robots.insert_or_assign(entry.identity.id, entry);
-  m_match->post({QStringLiteral("%1 cannot be added").arg(robotName(entry.identity)),
+  m_match->post({QStringLiteral("Could not add %1").arg(robotName(entry.identity)),
                  [entry](link::SimulatedMatch& match) { return match.robots().add(entry); },
                  [this, id = entry.identity.id] { m_robots.erase(id); }});
 }
@@ -262,7 +262,7 @@ void MatchEdits::erase(RobotId id) {
   const link::ScenarioRobot* known = robot(id);
   const QString name = known ? robotName(known->identity) : QStringLiteral("The robot");
   m_robots.erase(id);
-  m_match->post({QStringLiteral("%1 cannot be removed").arg(name),
+  m_match->post({QStringLiteral("Could not remove %1").arg(name),
                  [id](link::SimulatedMatch& match) { return match.robots().remove(id); }});
 }
 
@@ -283,7 +283,7 @@ bool MatchEdits::wearsAnother(const sim::RobotIdentity& wanted) {
         entry.identity.number != wanted.number) {
       continue;
     }
-    emit failed(QStringLiteral("%1 is on the field already. Choose another number.")
+    emit failed(QStringLiteral("%1 is already on the field. Choose another number.")
                     .arg(robotName(wanted)));
     return true;
   }
@@ -434,7 +434,7 @@ void MatchEdits::commandSearch(RobotId id, bool on) {
 
 void MatchEdits::writeVariable(RobotId id, const QString& name, double value) {
   const link::Variable* variable = m_match->catalog().find(name.toStdString());
-  const QString notWritten = QStringLiteral("%1 is not written").arg(name);
+  const QString notWritten = QStringLiteral("Could not write %1").arg(name);
   if (variable == nullptr) {
     emit failed(QStringLiteral("%1: this match's catalog has no such variable.").arg(notWritten));
     return;
@@ -445,7 +445,7 @@ void MatchEdits::writeVariable(RobotId id, const QString& name, double value) {
           time](link::SimulatedMatch& match) -> Result<void> {
            link::Blackboard* board = match.blackboard(id);
            if (board == nullptr) {
-             return failure(ErrorCode::NotFound, "the robot is not on the field any more");
+             return failure(ErrorCode::NotFound, "the robot is no longer on the field");
            }
            if (type == link::VariableType::Int) {
              board->write(link::IntVar{index}, static_cast<int>(value));
@@ -478,7 +478,7 @@ EditStep settingStep(Value wanted, Read read, Write write) {
 }  // namespace
 
 void MatchEdits::setNoise(const sim::NoiseParameters& noise) {
-  performOrder(QStringLiteral("Change the noise"), QStringLiteral("The noise stays as it was"),
+  performOrder(QStringLiteral("Change the noise"), QStringLiteral("Could not change the noise"),
                {settingStep(
                    noise, [](const sim::WorldState& state) { return state.settings.noise; },
                    [](sim::Simulation& simulation, const sim::NoiseParameters& value) {
@@ -488,7 +488,7 @@ void MatchEdits::setNoise(const sim::NoiseParameters& noise) {
 }
 
 void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
-  performOrder(QStringLiteral("Change the physics"), QStringLiteral("The physics stays as it was"),
+  performOrder(QStringLiteral("Change the physics"), QStringLiteral("Could not change the physics"),
                {settingStep(
                    settings, [](const sim::WorldState& state) { return state.settings.rigidBody; },
                    [](sim::Simulation& simulation, const sim::RigidBodySettings& value) {
@@ -500,7 +500,7 @@ void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
 void MatchEdits::setClockRunning(bool running) {
   performOrder(
       running ? QStringLiteral("Start the game clock") : QStringLiteral("Stop the game clock"),
-      QStringLiteral("The clock stays as it was"),
+      QStringLiteral("Could not change the clock"),
       {settingStep(
           running, [](const sim::WorldState& state) { return state.clockRunning; },
           [](sim::Simulation& simulation, bool value) -> Result<void> {
@@ -511,7 +511,8 @@ void MatchEdits::setClockRunning(bool running) {
 
 void MatchEdits::resetScore() {
   using ScoreAndClock = std::pair<sim::Score, std::uint64_t>;
-  performOrder(QStringLiteral("Reset score and clock"), QStringLiteral("The score stays as it was"),
+  performOrder(QStringLiteral("Reset score and clock"),
+               QStringLiteral("Could not change the score"),
                {settingStep(
                    ScoreAndClock{},
                    [](const sim::WorldState& state) {

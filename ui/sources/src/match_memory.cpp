@@ -107,11 +107,11 @@ void MatchMemory::tellWhatIsLost(const link::Moment& moment, link::Cognition whe
   const double time = static_cast<double>(moment.state.tick) / moment.state.settings.tickRate;
   emit continuedWithout(
       where == link::Cognition::Separate
-          ? QStringLiteral("Reference processes that run separately begin again with the belief "
-                           "that they had at %1. A team's own programs are not told.")
+          ? QStringLiteral("Separate reference processes restart with the belief they had at %1. "
+                           "Team programs keep theirs.")
                 .arg(clockText(time))
-          : QStringLiteral("What the robots' processes remembered at %1 is not kept any more: "
-                           "they begin again with the belief that they had then.")
+          : QStringLiteral("The memory of the robots' processes at %1 is no longer available, so "
+                           "they restart with the belief they had then.")
                 .arg(clockText(time)));
 }
 
@@ -127,7 +127,7 @@ void MatchMemory::continueFrom(double time) {
       static_cast<std::uint64_t>(std::llround(std::max(time, 0.0) * newest->settings->tickRate));
   auto moment = link::momentFromMemory(*m_kept.archive, *rows, tick, m_match->catalog());
   if (!moment) {
-    emit failed(QStringLiteral("The match cannot be continued from this moment: %1")
+    emit failed(QStringLiteral("Cannot continue the match from this moment: %1")
                     .arg(QString::fromStdString(moment.error().text())));
     return;
   }
@@ -137,7 +137,7 @@ void MatchMemory::continueFrom(double time) {
   const auto left = std::make_shared<MatchBranch>();
   left->from = from;
   m_match->post(
-      {QStringLiteral("The match cannot be continued from this moment"),
+      {QStringLiteral("Cannot continue the match from this moment"),
        [moment = std::move(*moment), rows = m_kept.rows, left](link::SimulatedMatch& match) {
          auto entered = match.restore(moment);
          if (!entered) return entered;

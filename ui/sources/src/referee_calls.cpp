@@ -80,7 +80,7 @@ EditStep decisionStep(std::uint32_t cause, Decide decide) {
 }
 
 const QString& notCarriedOut() {
-  static const QString text = QStringLiteral("The referee's call was not carried out");
+  static const QString text = QStringLiteral("Could not make the referee call");
   return text;
 }
 
@@ -110,7 +110,7 @@ void callReferee(MatchEdits* edits, sim::RefereeCall call, const std::vector<Rob
 
 void chooseReferee(MatchEdits* edits, const std::string& ruleSet, const QString& title) {
   edits->performOrder(QStringLiteral("rules: ") + title,
-                      QStringLiteral("The rules were not changed"),
+                      QStringLiteral("Could not change the rules"),
                       {decisionStep(0, [ruleSet](link::SimulatedMatch& match) -> Result<void> {
                         auto rules = link::refereeRuleSet(ruleSet);
                         if (!rules) return tl::unexpected(rules.error());

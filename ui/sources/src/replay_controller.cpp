@@ -200,7 +200,7 @@ void ReplayController::open(const QString& path) {
     if (!session) {
       problem = QString::fromStdString(session.error().text());
     } else if (const auto range = session->range(); !range) {
-      problem = QStringLiteral("%1: the file holds no rows and no messages").arg(path);
+      problem = QStringLiteral("%1 has no rows and no messages").arg(path);
     } else {
       file = std::make_shared<File>(std::move(*session));
       file->range = {range->begin, range->end};
@@ -224,7 +224,7 @@ void ReplayController::open(const QString& path) {
       if (mine != m_generation) return;
       m_opening = false;
       if (!file) {
-        emit failed(QStringLiteral("The session was not opened: %1").arg(problem));
+        emit failed(QStringLiteral("Could not open the session: %1").arg(problem));
         return;
       }
       m_path = path;
@@ -378,8 +378,8 @@ void ReplayController::noteWhatDoesNotFit() {
   if (!held || held->begin <= m_file->range.begin + chunk) return;
   emit noted(
       {QStringLiteral(
-           "The session does not fit into memory (%1 MB): curves show its last %2. Every moment "
-           "can still be shown. Timeline > Memory for the past… gives it more.")
+           "The session does not fit into memory (%1 MB), so plots show its last %2. You can still "
+           "view every moment. To load more, raise Timeline > Memory for the past…")
            .arg(m_budget >> 20)
            .arg(durationText(held->end - held->begin))});
 }

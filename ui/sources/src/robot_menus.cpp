@@ -7,9 +7,9 @@
 #include <QMenu>
 #include <algorithm>
 
-#include <base/actions.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/scenario/scenario.h>
+#include <simcore/world/action_codes.h>
 #include <ui/base/robot_words.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/referee_calls.h>
@@ -66,7 +66,7 @@ void addOrderMenu(QMenu* menu, MatchController* controller, const std::vector<Ro
   }
   orders->addSeparator();
   for (const bool on : {true, false}) {
-    orders->addAction(on ? QStringLiteral("Search the ball") : QStringLiteral("Stop searching"),
+    orders->addAction(on ? QStringLiteral("Search for the ball") : QStringLiteral("Stop searching"),
                       controller, [controller, ids, on] {
                         for (const RobotId id : ids) controller->edits()->commandSearch(id, on);
                       });
@@ -87,7 +87,7 @@ void addBehaviourMenu(QMenu* menu, MatchController* controller, const std::vecto
   for (const link::BehaviourInfo& known : link::behaviours())
     offer(known.name, capitalised(known.name));
   behaviour->addSeparator();
-  offer(link::noBehaviour, QStringLiteral("None (your own process)"));
+  offer(link::noBehaviour, QStringLiteral("None (team program)"));
 }
 
 void addRuntimeMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {
@@ -111,14 +111,15 @@ void addRuntimeMenu(QMenu* menu, MatchController* controller, const std::vector<
     return QFileDialog::getOpenFileName(menu->parentWidget(), title, QString(), filter)
         .toStdString();
   };
-  offer(QStringLiteral("As its team and behaviour say"), {});
+  offer(QStringLiteral("From team and behaviour"), {});
   offer(QStringLiteral("Reference processes"), {std::string(link::referenceRuntime), {}, {}});
-  offer(QStringLiteral("Own processes, started by me"), {std::string(link::ownRuntime), {}, {}});
+  offer(QStringLiteral("Team programs, started by me"), {std::string(link::ownRuntime), {}, {}});
   runtime->addSeparator();
   runtime->addAction(
       QStringLiteral("Run my program as decision…"), controller, [choose, ids, askFile] {
         const std::string file = askFile(
-            QStringLiteral("Program that decides; its argument is the blackboard's key"), {});
+            QStringLiteral("Program for decision; it gets the blackboard's key as its argument"),
+            {});
         if (!file.empty()) choose(ids, {{}, {}, file});
       });
   runtime->addAction(QStringLiteral("Folder of published robots…"), controller, [=] {
@@ -201,7 +202,7 @@ void addModelMenu(QMenu* menu, MatchController* controller, const std::vector<Ro
     if (model) {
       controller->edits()->setModel(ids, *model);
     } else {
-      emit controller->errorOccurred(QStringLiteral("The robot model was not taken: %1")
+      emit controller->errorOccurred(QStringLiteral("Could not use the robot model: %1")
                                          .arg(QString::fromStdString(model.error().text())),
                                      Trouble::Refused);
     }

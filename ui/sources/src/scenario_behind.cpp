@@ -14,7 +14,7 @@ namespace pitchboard::ui {
 namespace {
 
 Result<sim::WorldState> nothingKnown() {
-  return failure(ErrorCode::NotFound, "this state of the match is not kept");
+  return failure(ErrorCode::NotFound, "this state of the match is no longer in memory");
 }
 
 Result<sim::WorldState> recordedState(const ReplayController& replay,

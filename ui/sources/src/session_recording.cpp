@@ -127,10 +127,9 @@ QString SessionRecording::newPath(const QString& title) {
 
 bool SessionRecording::makeFolder(const QDir& folder) {
   if (folder.mkpath(QStringLiteral("."))) return true;
-  emit failed(
-      QStringLiteral("Nothing is recorded: the folder %1 cannot be made. Choose another one in "
-                     "Timeline > Folder for recordings…")
-          .arg(folder.path()));
+  emit failed(QStringLiteral("Cannot record: could not create the folder %1. Choose another one in "
+                             "Timeline > Folder for recordings…")
+                  .arg(folder.path()));
   return false;
 }
 
@@ -184,24 +183,23 @@ void SessionRecording::start() {
 void SessionRecording::startInto(const QString& path) {
   if (m_recorder) return;
   if (!isPossible()) {
-    emit failed(QStringLiteral("Nothing is recorded: there is no match to record."));
+    emit failed(QStringLiteral("Cannot record: no match is open."));
     return;
   }
   if (!makeFolder(QFileInfo(path).dir())) return;
   const QString unused = freePath(path);
   begin(unused);
   if (m_recorder && unused != path) {
-    emit noted(QStringLiteral("%1 exists and is left alone: recording into %2.").arg(path, unused));
+    emit noted(QStringLiteral("%1 already exists; recording into %2 instead.").arg(path, unused));
   }
 }
 
 void SessionRecording::begin(const QString& path) {
   auto made = m_source->kind() == SourceKind::Live ? recordLive(path) : recordMatch(path);
   if (!made) {
-    emit failed(
-        QStringLiteral("Nothing is recorded: %1. Choose another folder in Timeline > Folder for "
-                       "recordings…")
-            .arg(words(made.error())));
+    emit failed(QStringLiteral(
+                    "Cannot record: %1. Choose another folder in Timeline > Folder for recordings…")
+                    .arg(words(made.error())));
     return;
   }
   m_recorder = std::move(*made);
@@ -226,7 +224,7 @@ void SessionRecording::finish(bool matchEnds) {
       if (!done) {
         emit failed(
             QStringLiteral(
-                "The recording %1 is not complete: %2. What was written before can be opened.")
+                "The recording %1 is incomplete: %2. You can open the part that was written.")
                 .arg(path, words(done.error())));
         return;
       }
@@ -321,7 +319,7 @@ void SessionRecording::saveLast(double seconds) {
       if (done)
         emit saved(path);
       else
-        emit failed(QStringLiteral("Nothing was saved: %1").arg(words(done.error())));
+        emit failed(QStringLiteral("Could not save: %1").arg(words(done.error())));
     });
   });
 }

@@ -49,6 +49,10 @@ void hollowUp(QPainter& p, QPointF c, double s) {
   outlined(p);
   up(p, c, s * 0.9);
 }
+void hollowDown(QPainter& p, QPointF c, double s) {
+  outlined(p);
+  down(p, c, s * 0.9);
+}
 void square(QPainter& p, QPointF c, double s) {
   outlined(p);
   p.drawRect(QRectF(c.x() - s * 0.36, c.y() - s * 0.36, s * 0.72, s * 0.72));
@@ -88,6 +92,7 @@ constexpr std::array<Look, link::eventShapeCount> looks{{
     {smallUp, &ThemeColors::secondaryText},
     {down, &ThemeColors::warningText},
     {ring, &ThemeColors::secondaryText},
+    {hollowDown, &ThemeColors::secondaryText},
     {square, &ThemeColors::secondaryText},
     {cross, &ThemeColors::errorText},
     {plus, &ThemeColors::secondaryText},

@@ -2,10 +2,13 @@
 #include <ui/timeline/timeline_actions.h>
 
 #include <QAction>
+#include <QInputDialog>
 #include <QMenu>
+#include <chrono>
 #include <map>
 #include <set>
 
+#include <telemetry/session/session_time.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 #include <ui/sources/abandoned_future.h>
@@ -32,6 +35,7 @@ TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, Abandone
       m_plots(plots),
       m_now(make(this, "timelineNow", "Back to &now", "media-seek-forward")),
       m_oldest(make(this, "oldestMoment", "&Oldest moment")),
+      m_goTo(make(this, "goToTime", "&Go to time…", "go-jump")),
       m_next(make(this, "nextEvent", "&Next event", "go-next")),
       m_previous(make(this, "previousEvent", "&Previous event", "go-previous")),
       m_bookmark(make(this, "addBookmark", "Set &bookmark", "bookmark-new")),
@@ -39,7 +43,7 @@ TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, Abandone
               make(this, "secondBack", "One second back"),
               make(this, "secondForward", "One second forward")},
       m_selectVisible(make(this, "selectVisible", "&Select the plots' range")),
-      m_clearRange(make(this, "clearRange", "Select no &range")),
+      m_clearRange(make(this, "clearRange", "Clear &range")),
       m_loop(make(this, "loopRange", "&Loop range", "media-playlist-repeat")),
       m_compareFuture(make(this, "compareFuture", "Compare with the a&bandoned future")),
       m_dropFuture(make(this, "dropFuture", "&Drop the abandoned future")) {
@@ -61,6 +65,7 @@ TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, Abandone
   connect(m_oldest, &QAction::triggered, timeline, [timeline] {
     if (const auto range = timeline->available()) timeline->seek(range->begin);
   });
+  connect(m_goTo, &QAction::triggered, this, [this] { askForTime(); });
   connect(m_next, &QAction::triggered, timeline, &Timeline::goToNextEvent);
   connect(m_previous, &QAction::triggered, timeline, &Timeline::goToPreviousEvent);
   connect(m_bookmark, &QAction::triggered, this,
@@ -98,6 +103,33 @@ void TimelineActions::refresh() {
   m_loop->setChecked(m_timeline->isLooping());
 }
 
+void TimelineActions::askForTime(const QString& typed, const QString& problem) {
+  using telemetry::TimeForms;
+  auto* ask = new QInputDialog(qobject_cast<QWidget*>(parent()));
+  ask->setObjectName(QStringLiteral("goToTime"));
+  ask->setAttribute(Qt::WA_DeleteOnClose);
+  ask->setWindowTitle(QStringLiteral("Go to time"));
+  const QString forms = m_timeline->clock() ? QStringLiteral("Time of day, such as 15:03:12:")
+                                            : QStringLiteral("Time: 78.7, 1:18.7 or 0:01:18.7");
+  ask->setLabelText(problem.isEmpty() ? forms : problem);
+  ask->setTextValue(typed);
+  connect(ask, &QInputDialog::textValueSelected, this, [this](const QString& text) {
+    const auto range = m_timeline->available();
+    if (!range) return;
+    const auto clock = m_timeline->clock();
+    const telemetry::WallTime start(
+        std::chrono::milliseconds(clock ? clock->toMSecsSinceEpoch() : 0));
+    const auto time = telemetry::sessionTime(text.trimmed().toStdString(), start, *range,
+                                             clock ? TimeForms::Clock : TimeForms::Session);
+    if (time) {
+      m_timeline->seek(*time);
+    } else {
+      askForTime(text, QString::fromStdString(time.error().message));
+    }
+  });
+  ask->open();
+}
+
 void TimelineActions::change(const std::function<void(EventFilter&)>& how) {
   EventFilter filter = m_timeline->eventFilter();
   how(filter);
@@ -126,9 +158,8 @@ void TimelineActions::fillFilter(QMenu* menu) {
   menu->addSeparator();
   for (const auto& [kind, count] : kinds) {
     const std::string_view words = link::info(kind).words;
-    const QString name = kind == link::MatchEventKind::GameState
-                             ? QStringLiteral("State of the game")
-                             : capitalised(words);
+    const QString name =
+        kind == link::MatchEventKind::GameState ? QStringLiteral("Game state") : capitalised(words);
     QAction* action = menu->addAction(QStringLiteral("%1 (%2)").arg(name).arg(count));
     action->setCheckable(true);
     action->setChecked(!now.hidden.contains(kind));
@@ -160,7 +191,7 @@ void TimelineActions::fillFilter(QMenu* menu) {
 }
 
 void TimelineActions::fill(QMenu* menu) {
-  menu->addActions({m_now, m_oldest});
+  menu->addActions({m_now, m_oldest, m_goTo});
   for (QAction* step : m_steps) menu->addAction(step);
   menu->addSeparator();
   menu->addActions({m_next, m_previous, m_bookmark});

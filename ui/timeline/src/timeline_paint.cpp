@@ -208,7 +208,7 @@ void TimelineStrip::editNote(int row) {
   m_note->setObjectName(QStringLiteral("bookmarkNote"));
   m_note->setFont(themeFont(TypeRole::Secondary));
   m_note->setMaxLength(EventList::maxNote);
-  m_note->setPlaceholderText(QStringLiteral("Note, then Enter"));
+  m_note->setPlaceholderText(QStringLiteral("Type a note, then Enter"));
   const int wide = std::min(scaled(this, 200), width());
   const int x =
       std::clamp(static_cast<int>(m_axis.pixel(m_noteTime)) + scaled(this, 8), 0, width() - wide);

@@ -23,7 +23,7 @@ constexpr double narrowest = 0.05;  // s shown
 constexpr double widest = 7 * 86400.0;
 constexpr double markReach = 7.0;  // px of the mock
 // What moves by itself moves a pixel or two in that time; more pictures of it only cost.
-constexpr int calmMilliseconds = 50;
+constexpr Beat::Milliseconds calmly{50};
 
 }  // namespace
 
@@ -34,9 +34,7 @@ TimelineStrip::TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* par
   setMouseTracking(true);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   setAccessibleName(QStringLiteral("Timeline"));
-  m_calm.setSingleShot(true);
-  m_calm.setInterval(calmMilliseconds);
-  connect(&m_calm, &QTimer::timeout, this, qOverload<>(&QWidget::update));
+  m_calm = Beat::display().add(this, calmly, [this] { update(); });
   const auto refresh = [this] {
     fitAxis();
     updateCalmly();
@@ -80,8 +78,8 @@ void TimelineStrip::updateCalmly() {
                         (m_plots == nullptr || m_plots->isFollowing());
   if (!byItself)
     update();
-  else if (!m_calm.isActive())
-    m_calm.start();
+  else
+    m_calm->want();
 }
 
 void TimelineStrip::setCompared(const EventList* events, double offset, const QString& caption) {

@@ -5,12 +5,12 @@
 // moment shown. Click or drag to look back; drag the plots' window in the band; Shift-drag chooses
 // a range; wheel zooms, middle-drag or a wheel with Shift moves. UI thread only.
 
-#include <QTimer>
 #include <QWidget>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include <ui/base/beat.h>
 #include <ui/base/time_axis.h>
 
 #include "event_marks.h"
@@ -107,7 +107,7 @@ class TimelineStrip : public QWidget {
   const EventList* m_compared = nullptr;
   double m_comparedOffset = 0.0, m_grabOffset = 0.0;
   QString m_comparedCaption;
-  QTimer m_calm;
+  std::unique_ptr<Beat::Part> m_calm;
   TimeAxis m_axis;
   bool m_showsAll = true;
   Grab m_grab = Grab::Nothing;

@@ -38,7 +38,7 @@ CatalogChoice::CatalogChoice(MatchController* controller, QSettings* settings,
   } else {
     m_message->say(
         InPlaceMessage::Tone::Error,
-        QStringLiteral("The published catalog is used, because the imported one cannot be read: %1")
+        QStringLiteral("Could not read the imported catalog, so the published one is used: %1")
             .arg(remembered.problem));
   }
 }
@@ -50,7 +50,7 @@ QString CatalogChoice::name() const {
 
 void CatalogChoice::askAndImport(QWidget* parent) {
   const QString file = QFileDialog::getOpenFileName(
-      parent, QStringLiteral("Import a catalog of variables"), m_file,
+      parent, QStringLiteral("Import variable catalog"), m_file,
       QStringLiteral("Catalogs (*.h *.hpp *.py *.json);;All files (*)"));
   if (!file.isEmpty()) importFile(file);
 }
@@ -59,7 +59,7 @@ void CatalogChoice::importFile(const QString& file) {
   const ReadCatalog made = read(file);
   if (!made.catalog) {
     m_message->say(InPlaceMessage::Tone::Error,
-                   QStringLiteral("Nothing was imported. %1").arg(made.problem));
+                   QStringLiteral("Could not import the catalog. %1").arg(made.problem));
     return;
   }
   m_file = QFileInfo(file).absoluteFilePath();
@@ -83,13 +83,11 @@ void CatalogChoice::offerRestart(const QString& sentence) {
     m_message->say(InPlaceMessage::Tone::Note, sentence);
     return;
   }
-  QString all = sentence + QLatin1Char(' ') +
-                QStringLiteral("They name the blackboards from the next match on.");
+  QString all = sentence + QLatin1Char(' ') + QStringLiteral("They apply from the next match on.");
   if (!isPublished() && m_controller->cognition() == link::Cognition::Separate) {
-    all +=
-        QLatin1Char(' ') + QStringLiteral(
-                               "The studio's own robot processes know the published places only: "
-                               "use your team's processes with it.");
+    all += QLatin1Char(' ') + QStringLiteral(
+                                  "The studio's reference processes only know the published "
+                                  "catalog: use your team's programs with this one.");
   }
   m_message->say(InPlaceMessage::Tone::Note, all, QStringLiteral("Restart the match"),
                  [this] { m_controller->restart(); });

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/beat.h>
 #include <ui/variables/variables_dock.h>
 
 #include <QApplication>
 #include <QDockWidget>
+#include <QElapsedTimer>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QSettings>
-#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -50,7 +51,6 @@ class VariablesDock : public QWidget {
         m_view(new VariablesView(m_model, m_filter, this)),
         m_message(new InPlaceMessage(this)),
         m_empty(makeEmptyLabel(this, QStringLiteral("emptyVariables"))),
-        m_timer(new QTimer(this)),
         m_writer(new ValueWriter(context.controller, m_model, m_message, this)) {
     m_model->setObjectName(QStringLiteral("variablesModel"));
     m_catalog = new CatalogChoice(context.controller, context.settings, m_message, this);
@@ -74,9 +74,10 @@ class VariablesDock : public QWidget {
       connect(context.selection, &RobotSelection::blackboardRequested, this,
               [this](const RobotKey& robot) { showBlackboard(robot); });
     }
-    connect(m_timer, &QTimer::timeout, this, [this] { poll(); });
-    constexpr int pollMilliseconds = 100;
-    m_timer->start(pollMilliseconds);
+    constexpr Beat::Milliseconds least{100}, most{500};
+    m_refresh = Beat::display().add(
+        this, least, [this] { poll(); }, most);
+    connect(context.source, &FrameSource::frameReceived, this, [this] { m_refresh->want(); });
     adoptSource();
   }
 
@@ -108,7 +109,7 @@ class VariablesDock : public QWidget {
     m_words->setObjectName(QStringLiteral("variablesFilter"));
     m_words->setPlaceholderText(QStringLiteral("Filter, e.g. ball dist"));
     m_words->setToolTip(
-        QStringLiteral("Rows that have all the words, in robot, process, name or unit"));
+        QStringLiteral("Show rows that contain all words in robot, process, name or unit"));
     m_words->setClearButtonEnabled(true);
     m_words->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
     connect(m_words, &QLineEdit::textChanged, this, [this](const QString& text) {
@@ -116,7 +117,7 @@ class VariablesDock : public QWidget {
       filterChanged();
     });
     m_stars = makeButton("favouritesOnly", "starred-symbolic",
-                         QStringLiteral("Favourites only. * on a variable makes it one."));
+                         QStringLiteral("Show favourites only. Press * on a variable to add it."));
     m_stars->setCheckable(true);
     connect(m_stars, &QToolButton::toggled, this, [this](bool on) {
       m_filter->setFavouritesOnly(on);
@@ -228,7 +229,7 @@ class VariablesDock : public QWidget {
         m_message->say(InPlaceMessage::Tone::Note, why);
       else
         m_message->say(InPlaceMessage::Tone::Note,
-                       QStringLiteral("Values are locked against accidents."),
+                       QStringLiteral("Editing is off to prevent accidents."),
                        QStringLiteral("Edit values"), [this] { m_lock->setChecked(true); });
     });
     connect(m_model, &VariablesModel::favouritesChanged, this, [this] {
@@ -270,10 +271,9 @@ class VariablesDock : public QWidget {
     const QString why = VariablesModel::whyNotEditable(m_context.source->kind());
     m_lock->setToolTip(
         !why.isEmpty() ? why
-        : past
-            ? QStringLiteral("A past moment is shown. Now leads back to values that can be edited.")
-            : QStringLiteral(
-                  "Edit values: double-click a value of a simulated robot to change it"));
+        : past         ? QStringLiteral("You are viewing the past. Press Now to edit values.")
+                       : QStringLiteral(
+                             "Edit values: double-click a value of a simulated robot to change it"));
     m_lock->setAccessibleName(QStringLiteral("Edit values"));
   }
 
@@ -294,14 +294,13 @@ class VariablesDock : public QWidget {
   }
 
   static QString whereText(int key) {
-    return key == 0
-               ? QStringLiteral(
-                     "This blackboard is in the studio's own memory: other programs cannot reach "
-                     "it. Simulation > Robots decide shares it.")
-               : QStringLiteral(
-                     "System V shared memory, key %1, 2048 bytes. In a terminal: "
-                     "pitchboard-cli blackboard watch --key %1")
-                     .arg(key);
+    return key == 0 ? QStringLiteral(
+                          "This blackboard is in the studio's own memory, so other programs cannot "
+                          "open it. To share it, use Simulation > Run robot processes.")
+                    : QStringLiteral(
+                          "System V shared memory, key %1, 2048 bytes. In a terminal: "
+                          "pitchboard-cli blackboard watch --key %1")
+                          .arg(key);
   }
 
   void applyChanged() {
@@ -333,18 +332,25 @@ class VariablesDock : public QWidget {
     m_model->updateGroups();
     describeBoards();
     m_model->refreshSet(m_view->rowsInSight());
-    constexpr int slowly = 5;
+    constexpr int filterMilliseconds = 450;
     const bool busy = m_view->isEditing() || QApplication::mouseButtons() != Qt::NoButton;
-    if (++m_polls % slowly == 0 && !busy) m_filter->update();
-    refresh();
+    if (!busy && (!m_filtered.isValid() || m_filtered.elapsed() >= filterMilliseconds)) {
+      m_filtered.start();
+      m_filter->update();
+    }
+    // A line of some seconds hardly moves in a tenth of one.
+    constexpr int sparkMilliseconds = 190;
+    const bool sparks = !m_sparks.isValid() || m_sparks.elapsed() >= sparkMilliseconds;
+    refresh(sparks);
   }
 
-  void refresh() {
+  void refresh(bool sparks = true) {
     const bool any = m_filter->rowCount() > 0;
     m_view->setVisible(any);
     m_empty->setVisible(!any);
     if (any) {
-      m_model->refresh(m_view->rowsInSight(), m_view->sparkPixels());
+      if (sparks) m_sparks.start();
+      m_model->refresh(m_view->rowsInSight(), sparks ? m_view->sparkPixels() : 0);
       m_view->fitNumbers();
     } else {
       m_empty->setText(emptyText());
@@ -358,15 +364,14 @@ class VariablesDock : public QWidget {
                  ? QStringLiteral("No variables yet. They appear with the first values of a robot.")
                  : why;
     }
-    if (!m_words->text().trimmed().isEmpty())
-      return QStringLiteral("No variable has all of these words.");
+    if (!m_words->text().trimmed().isEmpty()) return QStringLiteral("No matching variables.");
     if (m_stars->isChecked() && m_model->favourites().isEmpty()) {
-      return QStringLiteral("No favourites yet. Select a variable and press * to make it one.");
+      return QStringLiteral("No favourites yet. Select a variable and press * to add it.");
     }
     if (m_changed->isChecked()) {
       return QStringLiteral("Nothing changed within the last %1 s.").arg(m_menu->changedWithin());
     }
-    return QStringLiteral("None of the favourites is in this match.");
+    return QStringLiteral("This match has none of your favourites.");
   }
 
   VariablesContext m_context;
@@ -375,7 +380,8 @@ class VariablesDock : public QWidget {
   VariablesView* m_view;
   InPlaceMessage* m_message;
   QLabel* m_empty;
-  QTimer* m_timer;
+  std::unique_ptr<Beat::Part> m_refresh;
+  QElapsedTimer m_filtered, m_sparks;  // since they were renewed
   ValueWriter* m_writer;
   CatalogChoice* m_catalog = nullptr;
   VariablesMenu* m_menu = nullptr;
@@ -383,7 +389,6 @@ class VariablesDock : public QWidget {
   QToolButton *m_stars = nullptr, *m_changed = nullptr, *m_lock = nullptr;
   std::shared_ptr<const telemetry::SeriesStore> m_store;
   std::set<int> m_attached;  // keys of blackboards that could be read
-  unsigned m_polls = 0;
 };
 
 }  // namespace

@@ -80,10 +80,10 @@ void VariablesMenu::fillSampling(QMenu* menu) {
 }
 
 void VariablesMenu::addFolding() {
-  QAction* fold = addAction(QStringLiteral("Fold what was never set"));
+  QAction* fold = addAction(QStringLiteral("Fold variables never set"));
   fold->setObjectName(QStringLiteral("foldNeverSet"));
   fold->setToolTip(
-      QStringLiteral("Variables that were zero, or had no value, ever since the beginning"));
+      QStringLiteral("Variables that have been zero or without a value since the start"));
   fold->setCheckable(true);
   fold->setChecked(m_filter->isFolding());
   connect(fold, &QAction::toggled, this, [this](bool on) {

@@ -2,6 +2,8 @@
 // VariablesModel: how rows are shown, and what a person may do with them.
 #include <QColor>
 
+#include <robotlink/blackboard/variable_catalog.h>
+#include <robotlink/blackboard/variable_meanings.h>
 #include <ui/base/theme.h>
 
 #include "variable_node.h"
@@ -66,10 +68,9 @@ QVariant VariablesModel::sortValue(const VariableNode& row, int column) const {
 QString VariablesModel::whyNotEditable(SourceKind source) {
   switch (source) {
     case SourceKind::Live:
-      return QStringLiteral(
-          "Values of live robots are only shown: nothing is ever sent to robots.");
+      return QStringLiteral("Live values are read-only: nothing is ever sent to robots.");
     case SourceKind::Replay:
-      return QStringLiteral("Values of a recording are what they were.");
+      return QStringLiteral("Values of a recording are read-only.");
     case SourceKind::Simulate:
       break;
   }
@@ -81,18 +82,17 @@ QString VariablesModel::whyNotEditable(const QModelIndex& index) const {
   if (column == nullptr) return QStringLiteral("Only values of variables can be edited.");
   if (const QString why = whyNotEditable(m_kind); !why.isEmpty()) return why;
   if (m_moment) {
-    return QStringLiteral(
-        "A past moment is shown, and its values are what they were. Now leads back to the match.");
+    return QStringLiteral("You can't edit the past. Press Now to return to the match.");
   }
   const telemetry::GroupInfo& group = groupOf(index)->info();
   if (group.attributes.count("robot") == 0) {
-    return group.name == "match" ? QStringLiteral("Facts of the match are measured, not set.")
-                                 : QStringLiteral("An attached blackboard is only read.");
+    return group.name == "match" ? QStringLiteral("Match data is measured and cannot be edited.")
+                                 : QStringLiteral("Attached blackboards are read-only.");
   }
   if (column->type == telemetry::ColumnType::Float64) {
     return QStringLiteral(
-        "This is the truth or follows from it, not a variable of the blackboard. Robots and "
-        "ball are moved on the field.");
+        "This is simulated truth, not a blackboard variable. Move the robots and the ball on the "
+        "field instead.");
   }
   return {};
 }
@@ -101,8 +101,7 @@ QString VariablesModel::toolTip(const QModelIndex& index) const {
   const VariableNode& row = *node(index);
   if (row.kind == Kind::Category) return {};
   if (row.kind == Kind::Rest) {
-    return QStringLiteral(
-        "Zero, or without a value, ever since the beginning. A click shows and folds them.");
+    return QStringLiteral("Zero or without a value since the start. Click to show or fold them.");
   }
   if (row.kind == Kind::Group) {
     QStringList lines{row.name};
@@ -116,20 +115,24 @@ QString VariablesModel::toolTip(const QModelIndex& index) const {
     }
     lines << (rateOf(row) > 0
                   ? QStringLiteral(
-                        "Sampled %1 times a second. Changes between two samples cannot be seen.")
+                        "Sampled %1 times per second. Changes between two samples are missed.")
                         .arg(rateOf(row), 0, 'f', 1)
                   : QStringLiteral("No sample within the last second."));
     return lines.join(QLatin1Char('\n'));
   }
   QStringList lines{row.path};
+  if (link::VariableCatalog::extended().find(row.info.name)) {
+    const auto text = link::VariableMeanings::published().description(row.info.name);
+    lines << QString::fromUtf8(text.data(), qsizetype(text.size()));
+  }
   if (row.known) {
     const QString words = wordsOf(row.info, row.value);
     lines << exactText(row.info, row.value) + QLatin1Char(' ') +
                  (words.isEmpty() ? QString::fromStdString(row.info.unit) : words);
     if (const QString rate = rateText(row.info, row.ratePerSecond); !rate.isEmpty()) {
-      lines << QStringLiteral("changes by %1 a second").arg(rate);
+      lines << QStringLiteral("changes by %1 per second").arg(rate);
     }
-    lines << QStringLiteral("has this value for %1").arg(row.ageShown);
+    lines << QStringLiteral("unchanged for %1").arg(row.ageShown);
   } else {
     lines << QStringLiteral("no value yet");
   }
@@ -228,13 +231,12 @@ QVariant VariablesModel::headerData(int section, Qt::Orientation orientation, in
   }
   if (role == Qt::ToolTipRole) {
     const QString tips[] = {
-        QStringLiteral(
-            "Robot, process, variable. In a robot's row: samples a second.\nChanges between two "
-            "samples cannot be seen."),
+        QStringLiteral("Robot, process, variable. A robot's row shows its samples per "
+                       "second.\nChanges between two samples are missed."),
         QStringLiteral("Newest sample"),
         QStringLiteral("Unit, or what a code means"),
         QStringLiteral("Rate of change: how much the value changed over the last second"),
-        QStringLiteral("Time since the value changed last"),
+        QStringLiteral("Time since the last change"),
         QStringLiteral("The %1, from lowest to highest value").arg(last.toLower())};
     return tips[section];
   }

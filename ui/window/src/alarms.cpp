@@ -28,15 +28,15 @@ struct Offer {
 };
 // What somebody at a match has to act on; a further one is a line here.
 constexpr Offer offers[] = {
-    {Kind::RobotOffline, "A robot is not heard any more"},
-    {Kind::BatteryLow, "A robot has a low battery"},
+    {Kind::RobotOffline, "A robot goes offline"},
+    {Kind::BatteryLow, "A robot's battery is low"},
     {Kind::Penalised, "A robot is penalised"},
     {Kind::Fall, "A robot falls"},
-    {Kind::ProcessDied, "A process died"},
-    {Kind::ProcessSilent, "A process is silent"},
-    {Kind::RefereeOffline, "The referee is not heard any more"},
+    {Kind::ProcessDied, "A process dies"},
+    {Kind::ProcessSilent, "A process stops responding"},
+    {Kind::RefereeOffline, "The referee goes offline"},
     {Kind::SecondSender, "Two programs send as one robot"},
-    {Kind::PortLost, "A port cannot be received"},
+    {Kind::PortLost, "A port cannot be opened"},
     {Kind::Goal, "A goal"},
 };
 
@@ -146,7 +146,7 @@ void Alarms::fill(QMenu* menu) {
     });
   }
   menu->addSeparator();
-  QAction* sound = menu->addAction(QStringLiteral("With a sound"));
+  QAction* sound = menu->addAction(QStringLiteral("Play a sound"));
   sound->setCheckable(true);
   sound->setChecked(m_sound);
   connect(sound, &QAction::toggled, this, [this](bool on) {

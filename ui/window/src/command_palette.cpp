@@ -50,7 +50,7 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* windo
   setWindowTitle(QStringLiteral("Find anything"));
   setAttribute(Qt::WA_DeleteOnClose);
   m_words->setObjectName(QStringLiteral("paletteWords"));
-  m_words->setPlaceholderText(QStringLiteral("Words of an action, a variable, a robot, an event"));
+  m_words->setPlaceholderText(QStringLiteral("Search actions, variables, robots and events"));
   m_words->setAccessibleName(m_words->placeholderText());
   for (std::size_t i = 0; i < m_entries.size(); ++i) {
     // Menus write keys of the field behind a tab.
@@ -63,7 +63,7 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* windo
   }
   m_filter->setSourceModel(m_model);
   m_list->setObjectName(QStringLiteral("paletteList"));
-  m_list->setAccessibleName(QStringLiteral("What was found"));
+  m_list->setAccessibleName(QStringLiteral("Results"));
   m_list->setModel(m_filter);
   m_list->setUniformItemSizes(true);
   m_list->setItemDelegate(new EntryDelegate(m_list));

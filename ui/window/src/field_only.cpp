@@ -6,7 +6,6 @@
 #include <QMainWindow>
 #include <QMenuBar>
 #include <QStatusBar>
-#include <QTimer>
 #include <QToolBar>
 #include <utility>
 
@@ -21,14 +20,15 @@ FieldOnly::FieldOnly(QMainWindow* window, SourceSwitch* source)
     : QObject(window),
       m_window(window),
       m_source(source),
-      m_action(new QAction(QStringLiteral("Field &only"), this)),
-      m_timer(new QTimer(this)) {
+      m_action(new QAction(QStringLiteral("Field &only"), this)) {
   m_action->setObjectName(QStringLiteral("fieldOnly"));
   m_action->setCheckable(true);
   connect(m_action, &QAction::triggered, this, &FieldOnly::set);
-  constexpr int scoreMilliseconds = 100;
-  m_timer->setInterval(scoreMilliseconds);
-  connect(m_timer, &QTimer::timeout, this, &FieldOnly::place);
+  constexpr Beat::Milliseconds least{100};
+  m_place = Beat::display().add(window, least, [this] {
+    if (m_on) place();
+  });
+  connect(source, &SourceSwitch::frameReceived, this, [this] { m_place->want(); });
 }
 
 void FieldOnly::set(bool on) {
@@ -51,7 +51,6 @@ void FieldOnly::set(bool on) {
   m_window->statusBar()->setVisible(!on);
   m_window->setWindowState(on ? m_state | Qt::WindowFullScreen : m_state);
   if (!on) {
-    m_timer->stop();
     delete m_scoreboard;
     m_scoreboard = nullptr;
     m_window->centralWidget()->removeEventFilter(this);
@@ -63,7 +62,6 @@ void FieldOnly::set(bool on) {
   m_window->centralWidget()->installEventFilter(this);
   place();
   m_scoreboard->show();
-  m_timer->start();
 }
 
 void FieldOnly::place() {

@@ -7,9 +7,10 @@
 #include <QByteArray>
 #include <QObject>
 
+#include <ui/base/beat.h>
+
 class QAction;
 class QMainWindow;
-class QTimer;
 
 namespace pitchboard::ui {
 
@@ -34,7 +35,7 @@ class FieldOnly : public QObject {
   QMainWindow* m_window;
   SourceSwitch* m_source;
   QAction* m_action;
-  QTimer* m_timer;
+  std::unique_ptr<Beat::Part> m_place;
   Scoreboard* m_scoreboard = nullptr;
   QByteArray m_layout;
   Qt::WindowStates m_state;

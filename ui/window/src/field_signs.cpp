@@ -84,6 +84,17 @@ QRect topOfField(FieldSign& sign, const QWidget& canvas, QSize text) {
   return box;
 }
 
+/// As the frames of `source` want it.
+void presentFrames(FieldSign* sign, FrameSource* source) {
+  const auto present = [sign] {
+    // Most frames say the same.
+    if (sign->textNow() != sign->text() || sign->isVisible() == sign->text().isEmpty())
+      sign->present();
+  };
+  QObject::connect(source, &FrameSource::frameReceived, sign, present);
+  QObject::connect(source, &FrameSource::restarted, sign, present);
+}
+
 }  // namespace
 
 QWidget* makeOpeningSign(MatchController* controller, QWidget* canvas) {
@@ -169,13 +180,25 @@ QWidget* makePenaltyStrip(FrameSource* source, QWidget* canvas) {
     const int wide = qMin(text.width() + scaled(sign, 16), canvas->width() - 2 * edge);
     return QRect(canvas->width() - wide - edge, edge, wide, scaled(sign, 22));
   };
-  const auto present = [sign, source] {
-    // Most frames say the same.
-    if (sign->textNow() != sign->text() || sign->isVisible() == sign->text().isEmpty())
-      sign->present();
+  presentFrames(sign, source);
+  return sign;
+}
+
+QWidget* makeNobodyPlaysSign(FrameSource* source, QWidget* canvas) {
+  auto* sign = new FieldSign(canvas, QStringLiteral("nobodyPlaysSign"), &ThemeColors::warningText);
+  sign->textNow = [source] {
+    const FramePtr frame = source->frame();
+    return frame && frame->nobodyPlays
+               ? QStringLiteral("No robot was told to play: choose rules in the Referee panel")
+               : QString();
   };
-  QObject::connect(source, &FrameSource::frameReceived, sign, present);
-  QObject::connect(source, &FrameSource::restarted, sign, present);
+  sign->place = [sign, canvas](QSize text) {
+    const int high = scaled(sign, 22);
+    QRect box(0, 0, qMin(canvas->width(), text.width() + scaled(sign, 16)), high);
+    box.moveCenter({canvas->width() / 2, canvas->height() - high / 2 - scaled(sign, 8)});
+    return box;
+  };
+  presentFrames(sign, source);
   return sign;
 }
 
@@ -204,7 +227,7 @@ QWidget* makeLookingBackSign(Timeline* timeline, QWidget* canvas) {
   sign->textNow = [timeline] {
     // As the line of this moment says it in the plots.
     return timeline->isLookingBack()
-               ? QStringLiteral("Looking back: %1 (Now leads back)")
+               ? QStringLiteral("Viewing %1 · press Now to return")
                      .arg(momentText(timeline->shownTime(), 2, timeline->clock()))
                : QString();
   };

@@ -26,8 +26,10 @@ void makeFirstSteps(SourceSwitch* source, MatchController* controller, Timeline*
                     const QList<QAction*>& actions, QSettings* settings, QWidget* canvas);
 /// Says at the top that a match is over, and what can be done now.
 QWidget* makeFinalWhistleSign(SourceSwitch* source, QWidget* canvas);
-/// Says at the top that the past is shown: "Looking back: 03:12.50 (Now leads back)".
+/// Says at the top that the past is shown: "Viewing 03:12.50 · press Now to return".
 QWidget* makeLookingBackSign(Timeline* timeline, QWidget* canvas);
+/// Says at the lower edge that a match stands still because no robot was told to play.
+QWidget* makeNobodyPlaysSign(FrameSource* source, QWidget* canvas);
 /// Who is penalised, and for how long, at the upper right: "B2 24 · R3 5".
 QWidget* makePenaltyStrip(FrameSource* source, QWidget* canvas);
 /// Says at the lower left that the mode is on; a click switches it off.

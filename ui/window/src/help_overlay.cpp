@@ -117,8 +117,9 @@ void HelpOverlay::paintEvent(QPaintEvent*) {
   painter.drawText(inside, Qt::AlignLeft | Qt::AlignTop, QStringLiteral("Keys"));
   painter.setFont(overlayFont(pixels, false));
   painter.setPen(theme().secondaryText);
-  painter.drawText(inside, Qt::AlignRight | Qt::AlignTop,
-                   QStringLiteral("Search them: Help > Keyboard shortcuts. Any key closes."));
+  painter.drawText(
+      inside, Qt::AlignRight | Qt::AlignTop,
+      QStringLiteral("Press any key to close. To search, use Help > Keyboard shortcuts."));
   const auto draw = [&](QRect place, const QString& text, bool bold) {
     const QFontMetrics metrics(overlayFont(pixels, bold));
     painter.setFont(overlayFont(pixels, bold));

@@ -31,6 +31,7 @@ const KeyRow keyTable[] = {
     {"escape", "Esc", keysOfTime},
     {"timelineNow", "Ctrl+End", keysOfTime},
     {"oldestMoment", "Ctrl+Home", keysOfTime},
+    {"goToTime", "Ctrl+G", keysOfTime},
     {"slower", "-", keysOfTime, nullptr, nullptr, whileHeld},
     {"faster", "+ =", keysOfTime, nullptr, nullptr, whileHeld},
     {"loopRange", "Ctrl+L", keysOfTime},
@@ -67,7 +68,7 @@ const KeyRow keyTable[] = {
     {"removeSelected", "Del", keysOfRobots},
     {nullptr, "Drag, Shift+drag", keysOfRobots, "Move, turn a robot; move, kick the ball"},
     {nullptr, "Wheel on a selected robot", keysOfRobots, "Turn it"},
-    {nullptr, "Ctrl+Alt+letter", keysOfRobots, "Referee calls; see docs/REFEREE.md"},
+    {nullptr, "Ctrl+Alt+letter", keysOfRobots, "Referee calls; see docs/referee.md"},
 
     {"fitField", "Home", keysOfField},
     {"flipSides", "Ctrl+F", keysOfField},

@@ -2,7 +2,7 @@
 #pragma once
 
 // The one map of keys: shortcuts of all actions of the window, the list in Help, the panel of F1
-// and the table in docs/STUDIO.md are made from it. UI thread only.
+// and the table in docs/studio.md are made from it. UI thread only.
 
 #include <QString>
 #include <span>

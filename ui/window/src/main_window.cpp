@@ -141,6 +141,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
     makeOpeningSign(controller, canvas);
     makeFinalWhistleSign(m_source, canvas);
     makeLookingBackSign(m_timeline, canvas);
+    makeNobodyPlaysSign(m_source, canvas);
     makePublishedKeysSign(m_field->actions().publishedKeys, canvas);
     makePenaltyStrip(m_source, canvas);
     makeFirstSteps(m_source, controller, m_timeline,

@@ -22,14 +22,13 @@ struct WhoDecides {
 };
 constexpr std::array<WhoDecides, 3> choices{{
     {link::Cognition::Separate, "In &separate processes",
-     "As on the field: a process for each task of each robot, on blackboards that other programs "
-     "reach",
+     "As on the field: one process per task and robot, on blackboards that other programs can open",
      "separate robot processes"},
     {link::Cognition::Inline, "&Inside the studio",
-     "The same processes as part of the match; other programs cannot reach their blackboards",
-     "robots decide in the studio"},
-    {link::Cognition::None, "Only &your own processes",
-     "Blackboards are made, and wait for the programs that you start", "your processes only"},
+     "The same processes as part of the match. Other programs cannot open their blackboards",
+     "processes inside the studio"},
+    {link::Cognition::None, "Only &your team's programs",
+     "Creates the blackboards and waits for the programs that you start", "team programs only"},
 }};
 
 /// "Match 3 · seed 42 · robots decide in the studio", what a match was started with.
@@ -51,8 +50,7 @@ void askForSeed(MatchController* controller, MainWindow* window) {
   link::Scenario again = controller->beginning();
   bool chosen = false;
   const QString text = QInputDialog::getText(
-      window, QStringLiteral("Seed"),
-      QStringLiteral("The same seed gives the same match, from the beginning. Seed:"),
+      window, QStringLiteral("Seed"), QStringLiteral("The same seed repeats the same match. Seed:"),
       QLineEdit::Normal, QString::number(again.settings.seed), &chosen);
   if (!chosen) return;
   bool good = false;
@@ -60,7 +58,7 @@ void askForSeed(MatchController* controller, MainWindow* window) {
   if (!good) {
     window->notices()->show(
         {QStringLiteral("refused")},
-        QStringLiteral("“%1” is not a valid seed. Enter a whole number from 0 on.").arg(text));
+        QStringLiteral("“%1” is not a valid seed. Enter a whole number, 0 or higher.").arg(text));
     return;
   }
   again.settings.seed = wanted;
@@ -110,8 +108,7 @@ void fillNumbers(QMenu* menu, MatchController* controller, MainWindow* window) {
         bool chosen = false;
         const int number = QInputDialog::getInt(
             window, QStringLiteral("Number of the match"),
-            QStringLiteral("Keys of blackboards and ports follow from it (0 to "
-                           "%1). The match begins again. Number:")
+            QStringLiteral("Sets blackboard keys and ports (0 to %1). The match restarts. Number:")
                 .arg(link::MatchNumber::most),
             wanted.value_or(0), 0, link::MatchNumber::most, 1, &chosen);
         if (chosen) begin(number);
@@ -128,7 +125,7 @@ void addMatchEntries(QMenu* menu, MatchController* controller, MainWindow* windo
                                   [controller, window] { askForSeed(controller, window); });
   seed->setObjectName(QStringLiteral("matchSeed"));
   onlyInTheMatch(seed);
-  QMenu* who = menu->addMenu(QStringLiteral("Robots &decide"));
+  QMenu* who = menu->addMenu(QStringLiteral("Run robot &processes"));
   who->setObjectName(QStringLiteral("whoDecides"));
   who->setToolTipsVisible(true);
   QObject::connect(who, &QMenu::aboutToShow, who,

@@ -232,7 +232,7 @@ void StudioMenus::makeView() {
   QAction* overlay = menu->addAction(QStringLiteral("Overlay &live robots"));
   overlay->setObjectName(QStringLiteral("liveOverlay"));
   overlay->setCheckable(true);
-  overlay->setToolTip(QStringLiteral("Simulated and heard robots side by side, matched by number"));
+  overlay->setToolTip(QStringLiteral("Show simulated and live robots together, matched by number"));
   QObject::connect(overlay, &QAction::toggled, m_parts.overlay, &LiveOverlay::setOn);
   QObject::connect(m_parts.overlay, &LiveOverlay::switched, overlay, &QAction::setChecked);
   QAction* day = menu->addAction(QStringLiteral("Time of &day in Live and Replay"));
@@ -240,7 +240,7 @@ void StudioMenus::makeView() {
   day->setCheckable(true);
   day->setChecked(m_parts.source->timesOfDay());
   day->setToolTip(QStringLiteral(
-      "Axes, timeline, log and readouts write 15:03:12; otherwise they count from the beginning"));
+      "Show 15:03:12 on axes, timeline, log and readouts instead of the time since the start"));
   QObject::connect(day, &QAction::toggled, m_parts.source, [parts = m_parts](bool on) {
     parts.source->setTimesOfDay(on);
     if (parts.settings != nullptr) parts.settings->setValue(QStringLiteral("view/timesOfDay"), on);
@@ -304,8 +304,8 @@ void StudioMenus::makeSimulation() {
   QAction* freely = menu->addAction(QStringLiteral("Robot processes run &freely at ×1"));
   freely->setCheckable(true);
   freely->setToolTip(
-      QStringLiteral("As on the field, jitter included; otherwise the match waits for every "
-                     "process in every tick and gives the same result each time"));
+      QStringLiteral("As on the field, with jitter. When off, the match waits for every process in "
+                     "each tick, so results repeat"));
   QObject::connect(menu, &QMenu::aboutToShow, freely, [freely, controller] {
     freely->setEnabled(controller->cognition() == link::Cognition::Separate);
     freely->setChecked(controller->pace() == link::RobotsPace::Free);
@@ -313,7 +313,7 @@ void StudioMenus::makeSimulation() {
   QObject::connect(freely, &QAction::triggered, controller, [controller](bool on) {
     controller->setPace(on ? link::RobotsPace::Free : link::RobotsPace::LockStep);
   });
-  QAction* wait = menu->addAction(QStringLiteral("Slow &down to what own programs manage"));
+  QAction* wait = menu->addAction(QStringLiteral("Slow &down for team programs"));
   wait->setCheckable(true);
   QObject::connect(menu, &QMenu::aboutToShow, wait,
                    [wait, controller] { wait->setChecked(controller->waitsForTeamPrograms()); });
@@ -382,10 +382,9 @@ void StudioMenus::makeTimeline() {
   withIcon(exportAction, "document-export", "exportSession");
   menu->addAction(QStringLiteral("Memor&y for the past…"), &m_window, [this_ = &m_window] {
     bool chosen = false;
-    const int megabytes = QInputDialog::getInt(
-        this_, QStringLiteral("Memory for the past"),
-        QStringLiteral("Rows of one match, of Live or of a session may take (MB):"),
-        this_->memoryBudget(), 16, 65536, 64, &chosen);
+    const int megabytes = QInputDialog::getInt(this_, QStringLiteral("Memory for the past"),
+                                               QStringLiteral("Memory limit per source (MB):"),
+                                               this_->memoryBudget(), 16, 65536, 64, &chosen);
     if (chosen) this_->setMemoryBudget(megabytes);
   });
   menu->addAction(QStringLiteral("&Folder for recordings…"), recording,

@@ -42,7 +42,7 @@ void ScenarioFiles::read(const QString& nameOrPath,
     constexpr int most = 3;
     const QStringList errors =
         QString::fromStdString(scenario.error().text()).split(QLatin1Char('\n'));
-    QString text = QStringLiteral("The scenario was not opened: %1")
+    QString text = QStringLiteral("Could not open the scenario: %1")
                        .arg(errors.mid(0, most).join(QLatin1Char('\n')));
     if (errors.size() > most) {
       text += QStringLiteral("\nAnd %1 more.").arg(errors.size() - most);
@@ -67,7 +67,7 @@ void ScenarioFiles::save(const QString& path) {
   const auto written =
       writeFile(path.toStdString(), link::scenarioToJson(moment), IfExists::Replace);
   if (!written) {
-    emit failed(QStringLiteral("The scenario was not saved. %1")
+    emit failed(QStringLiteral("Could not save the scenario. %1")
                     .arg(QString::fromStdString(written.error().text())));
   }
 }
@@ -77,7 +77,7 @@ void ScenarioFiles::exportPicture(const QString& path) {
   const QByteArray bytes = m_field->pictureFile(size, QFileInfo(path).suffix());
   if (bytes.isEmpty()) {
     emit failed(
-        QStringLiteral("No picture was written to %1. Choose a name that ends in .png or .svg.")
+        QStringLiteral("Cannot write a picture to %1. Choose a name that ends in .png or .svg.")
             .arg(path));
     return;
   }
@@ -85,7 +85,7 @@ void ScenarioFiles::exportPicture(const QString& path) {
       writeFile(path.toStdString(), {bytes.constData(), static_cast<std::size_t>(bytes.size())},
                 IfExists::Replace);
   if (!written) {
-    emit failed(QStringLiteral("The picture was not written. %1")
+    emit failed(QStringLiteral("Could not write the picture. %1")
                     .arg(QString::fromStdString(written.error().text())));
   }
 }

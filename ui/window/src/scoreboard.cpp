@@ -25,8 +25,7 @@ Scoreboard::Scoreboard(QWidget* parent) : QWidget(parent) {
 void Scoreboard::setState(const ScoreboardState& state) {
   if (state == m_state) return;
   m_state = state;
-  setToolTip(state.tip.isEmpty() ? QStringLiteral("Score, time of play and state of the game")
-                                 : state.tip);
+  setToolTip(state.tip.isEmpty() ? QStringLiteral("Score, time and game state") : state.tip);
   setAccessibleName(
       QStringLiteral("%1 %2 %3, %4, %5")
           .arg(state.leftName, scoreText(state), state.rightName, state.clock, state.state));

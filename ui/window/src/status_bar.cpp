@@ -7,7 +7,6 @@
 #include <QLabel>
 #include <QMenu>
 #include <QPainter>
-#include <QTimer>
 #include <algorithm>
 
 #include <base/angles.h>
@@ -56,7 +55,7 @@ class StatusLabel : public QLabel {
 
 StudioStatusBar::StudioStatusBar(const StatusContext& context, QWidget* parent)
     : QStatusBar(parent), m_context(context) {
-  constexpr int refreshMilliseconds = 200;
+  constexpr Beat::Milliseconds least{200}, most{500};
   m_clock.start();
   setSizeGripEnabled(false);
   m_pace = addLabel("statusPace", false);
@@ -65,9 +64,9 @@ StudioStatusBar::StudioStatusBar(const StatusContext& context, QWidget* parent)
   m_recording = addLabel("statusRecording", false);
   m_cursor = addLabel("statusCursor", true);
   m_selected = addLabel("statusSelected", true);
-  auto* timer = new QTimer(this);
-  connect(timer, &QTimer::timeout, this, &StudioStatusBar::refresh);
-  timer->start(refreshMilliseconds);
+  m_refresh = Beat::display().add(
+      this, least, [this] { refresh(); }, most);
+  connect(context.source, &SourceSwitch::frameReceived, this, [this] { m_refresh->want(); });
   connect(this, &QStatusBar::messageChanged, this, [this](const QString& message) {
     if (message.isEmpty()) refresh();
   });
@@ -186,7 +185,7 @@ void StudioStatusBar::showMemory() {
     if (!room.isEmpty()) text += QStringLiteral(", ") + room;
     const auto kind = telemetry::troubleOf(status);
     if (kind == telemetry::RecordingTrouble::DiskBehind)
-      text += QStringLiteral(", disk does not keep up");
+      text += QStringLiteral(", disk cannot keep up");
     if (status.dropped > 0) text += QStringLiteral(", %1 rows lost").arg(countText(status.dropped));
     m_recording->setText(text);
     m_recording->setToolTip((trouble.isEmpty() ? QString() : trouble + QLatin1Char('\n')) +
@@ -237,19 +236,18 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
                                           .arg(frame.settings->seed));
   switch (m_context.controller->cognition()) {
     case link::Cognition::Separate:
-      m_processes->setText(frame.inLockStep
-                               ? QStringLiteral("Robot processes separate, in lock-step")
-                               : QStringLiteral("Robot processes separate, running freely"));
+      m_processes->setText(frame.inLockStep ? QStringLiteral("Separate processes, in lock-step")
+                                            : QStringLiteral("Separate processes, running freely"));
       break;
     case link::Cognition::Inline:
-      m_processes->setText(QStringLiteral("Robots decide in the studio"));
+      m_processes->setText(QStringLiteral("Processes run inside the studio"));
       break;
     case link::Cognition::None:
-      m_processes->setText(QStringLiteral("Waiting for your processes"));
+      m_processes->setText(QStringLiteral("Waiting for team programs"));
       break;
   }
   if (frame.slowestTeamProgram) {
-    m_processes->setText(QStringLiteral("%1 · own programs reach ×%2")
+    m_processes->setText(QStringLiteral("%1 · team programs reach ×%2")
                              .arg(m_processes->text(), numberText(*frame.slowestTeamProgram, 1)));
   }
   if (frame.matchNumber.value_or(0) > 0) {

@@ -9,6 +9,7 @@
 #include <QStatusBar>
 #include <vector>
 
+#include <ui/base/beat.h>
 #include <ui/live/live_status.h>
 
 class QLabel;
@@ -61,6 +62,7 @@ class StudioStatusBar : public QStatusBar {
   StatusContext m_context;
   LiveStatus m_live;
   QElapsedTimer m_clock;
+  std::unique_ptr<Beat::Part> m_refresh;
   std::vector<Part> m_parts;
   QLabel* m_pace;
   QLabel* m_world;

@@ -6,7 +6,6 @@
 #include <QLayout>
 #include <QMenu>
 #include <QPainter>
-#include <QTimer>
 #include <QToolButton>
 #include <algorithm>
 #include <cmath>
@@ -38,7 +37,7 @@ struct Mode {
 constexpr Mode modes[] = {
     {SourceKind::Simulate, "Simulate", "Robots simulated on this computer"},
     {SourceKind::Live, "Live",
-     "Robots and referee as the network tells. Nothing is sent to robots"},
+     "Robots and referee received from the network. Nothing is sent to robots"},
     {SourceKind::Replay, "Replay", "A recorded session"},
 };
 
@@ -79,18 +78,18 @@ TransportBar::TransportBar(const TransportContext& context, QSettings* settings,
   // A choice made by mouse leaves the keys with the field.
   for (QComboBox* box : findChildren<QComboBox*>()) box->setFocusPolicy(Qt::TabFocus);
 
-  constexpr int scoreMilliseconds = 100;
-  auto* timer = new QTimer(this);
-  connect(timer, &QTimer::timeout, this, [this] {
+  constexpr Beat::Milliseconds least{100}, most{500};
+  const auto refresh = [this] {
     if (const FramePtr frame = m_context.source->frame()) {
       m_scoreboard->setState(scoreboardOf(*frame));
     }
     if (isFinished() != m_finished) showTransport();
     if (m_context.recording->isRecording()) showRecord();
-  });
+  };
+  m_refresh = Beat::display().add(this, least, refresh, most);
+  connect(context.source, &SourceSwitch::frameReceived, this, [this] { m_refresh->want(); });
   connect(context.source, &SourceSwitch::changed, this, &TransportBar::showMode);
   showMode();
-  timer->start(scoreMilliseconds);
 }
 
 void TransportBar::addModes() {

@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include <ui/base/beat.h>
 #include <ui/sources/frame_source.h>
 
 class QComboBox;
@@ -101,6 +102,7 @@ class TransportBar : public QToolBar {
   QAction* m_step;
   QList<QAction*> m_speedSteps, m_skips;
   bool m_finished = false;
+  std::unique_ptr<Beat::Part> m_refresh;
 };
 
 }  // namespace pitchboard::ui

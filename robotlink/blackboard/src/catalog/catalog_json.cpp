@@ -18,7 +18,7 @@ struct SegmentField {
   const char* name;
   int value;
 };
-// The layout is fixed by SYSTEM.md section 2; a file may state it but not change it.
+// The layout is fixed by system.md section 2; a file may state it but not change it.
 constexpr std::array<SegmentField, 5> segmentFields{
     {{"bytes", Blackboard::bytes},
      {"key_per_robot", 100},

@@ -62,7 +62,7 @@ RobotVariables::RobotVariables(const VariableCatalog& catalog) {
   visionBallAngle = names.floatVar("VISION_BALL_ANGLE");
   visionPanDeg = names.floatVar("VISION_PAN_DEG");
   visionTiltDeg = names.floatVar("VISION_TILT_DEG");
-  // The published localization publishes its belief under this name (SYSTEM.md section 5).
+  // The published localization publishes its belief under this name (system.md section 5).
   localizationBelief = names.floatVar("LOCALIZATION_RBT01_X");
   landmarkDeg = {
       names.floatVar("VISION_BLUE_LANDMARK_DEG"), names.floatVar("VISION_RED_LANDMARK_DEG"),

@@ -6,9 +6,9 @@
 #include <cassert>
 #include <charconv>
 
-#include <base/actions.h>
 #include <base/lined_json.h>
 #include <resources/resources.h>
+#include <simcore/world/action_codes.h>
 
 namespace pitchboard::link {
 namespace {
@@ -68,9 +68,9 @@ Result<VariableMeanings> VariableMeanings::parse(std::string_view text, std::str
     file.require("rules");
     if (const auto* rules = file.array("rules", mostRules)) {
       for (std::size_t i = 0; i < rules->size(); ++i) {
-        const JsonObject json(
-            report, (*rules)[i], "rules[" + std::to_string(i) + "]",
-            {"name", "category", "unit", "kind", "labels", "absent", "lost_by", "lost_when"});
+        const JsonObject json(report, (*rules)[i], "rules[" + std::to_string(i) + "]",
+                              {"name", "category", "unit", "kind", "labels", "description",
+                               "absent", "lost_by", "lost_when"});
         json.require("name");
         Rule rule;
         rule.name = json.text("name", "", longestText);
@@ -81,6 +81,7 @@ Result<VariableMeanings> VariableMeanings::parse(std::string_view text, std::str
           rule.kind = static_cast<telemetry::ColumnKind>(kind.value_or(0));
         }
         rule.labels = readLabels(json);
+        rule.description = json.text("description", "", longestText);
         if (json.find("absent")) rule.absent = json.number("absent", 0.0, anyNumber);
         if (json.find("lost_by")) {
           rule.lostBy = json.text("lost_by", "", longestText);
@@ -109,6 +110,13 @@ std::optional<double> VariableMeanings::absent(std::string_view name) const {
     if (rule.absent && fits(rule.name, name)) return rule.absent;
   }
   return std::nullopt;
+}
+
+std::string_view VariableMeanings::description(std::string_view name) const {
+  for (const Rule& rule : m_rules) {
+    if (!rule.description.empty() && fits(rule.name, name)) return rule.description;
+  }
+  return {};
 }
 
 void VariableMeanings::describe(telemetry::ColumnInfo& column) const {

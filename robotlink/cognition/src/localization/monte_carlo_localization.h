@@ -16,7 +16,7 @@
 // corners could never tell the two halves apart. Two things can: the published corners have colours
 // (each bearing belongs to one known corner), and the IMU, whose zero is the direction in which the
 // robot started, that is towards the opponents' goal. Robots that start facing left therefore have
-// a yaw that differs from the field's by 180 degrees (SYSTEM.md section 4, "IMU"). With
+// a yaw that differs from the field's by 180 degrees (system.md section 4, "IMU"). With
 // ImuZero::Right or ::Left the filter adds that offset. With ImuZero::Unknown both are taken as
 // equally likely, and the coloured corners decide: nobody has to configure the side.
 
@@ -65,7 +65,7 @@ struct LocalizationParameters {
   bool yawByImu = true;         ///< turning is taken from the IMU while it agrees with commands
   bool resampleAlways = false;  ///< else only when half of the particles count for nothing
 
-  /// The published filter (SYSTEM.md section 5): 5000 particles, bearings with sigma 5 degrees, IMU
+  /// The published filter (system.md section 5): 5000 particles, bearings with sigma 5 degrees, IMU
   /// yaw with sigma 30, resampling in every update, no recovery.
   static LocalizationParameters published();
 };

@@ -13,7 +13,7 @@ Point fromCm(const sim::FieldSpec& field, double x, double y) {
 template <std::size_t Count>
 void readPlaces(const Blackboard& board, const sim::FieldSpec& field,
                 const std::array<FloatVar, Count>& xs, const std::array<FloatVar, Count>& ys,
-                std::vector<Point>& places) {
+                Points& places) {
   for (std::size_t i = 0; i < Count; ++i) {
     const double x = static_cast<double>(readOr(board, xs[i], -1.0F));
     const double y = static_cast<double>(readOr(board, ys[i], -1.0F));
@@ -25,8 +25,7 @@ void readPlaces(const Blackboard& board, const sim::FieldSpec& field,
 
 }  // namespace
 
-void KnownRobots::read(const Blackboard& board, const sim::FieldSpec& field,
-                       std::vector<Point>& places) const {
+void KnownRobots::read(const Blackboard& board, const sim::FieldSpec& field, Points& places) const {
   places.clear();
   readPlaces(board, field, m_team.mateX, m_team.mateY, places);
   if (places.empty()) {  // another team's process writes these only

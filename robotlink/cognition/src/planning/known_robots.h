@@ -5,9 +5,7 @@
 // process writes them, opponents as decision remembers them. Studio frame, metres. Use from one
 // thread.
 
-#include <vector>
-
-#include <base/geometry.h>
+#include <robotlink/cognition/soccer_input.h>
 #include <simcore/world/field.h>
 
 #include "team/team_variables.h"
@@ -16,8 +14,7 @@ namespace pitchboard::link {
 
 class KnownRobots {
  public:
-  /// Into `places`, whose memory is kept.
-  void read(const Blackboard& board, const sim::FieldSpec& field, std::vector<Point>& places) const;
+  void read(const Blackboard& board, const sim::FieldSpec& field, Points& places) const;
 
  private:
   TeamVariables m_team;

@@ -2,7 +2,7 @@
 #pragma once
 
 // Where decision sends planning, and how the two say it on the blackboard: in variables of the
-// extension of the map (docs/BLACKBOARD.md), which programs that know only the published map never
+// extension of the map (docs/blackboard.md), which programs that know only the published map never
 // see. Metres and radians here, centimetres and degrees of the LOCALIZATION frame on the
 // blackboard. Use from one thread.
 

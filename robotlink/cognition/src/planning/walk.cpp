@@ -36,19 +36,20 @@ double speedOf(const sim::RobotModel& body, const Act& act) {
 }  // namespace
 
 void Walk::plan(const Surroundings& world, const Target& target) {
-  m_obstacles.clear();
+  // Robots, posts and the ball.
+  InlineVector<Obstacle, Points::capacity + 5> obstacles;
   const double bodies =
       m_field.robotRadius + m_othersRadius + (target.apart ? roomyClearance : robotClearance);
-  for (const Point& robot : world.robots) m_obstacles.push_back({robot, bodies});
+  for (const Point& robot : world.robots) obstacles.push_back({robot, bodies});
   for (const double x : {-m_field.halfLength(), m_field.halfLength()}) {
     for (const double y : {-m_field.goalWidth / 2, m_field.goalWidth / 2}) {
-      m_obstacles.push_back({{x, y}, m_field.goalPostRadius + m_field.robotRadius + postClearance});
+      obstacles.push_back({{x, y}, m_field.goalPostRadius + m_field.robotRadius + postClearance});
     }
   }
   if (target.ball) {
-    m_obstacles.push_back({*target.ball, m_field.robotRadius + m_field.ballRadius + ballClearance});
+    obstacles.push_back({*target.ball, m_field.robotRadius + m_field.ballRadius + ballClearance});
   }
-  m_path = m_planner.plan(world.pose.position, target.pose.position, m_obstacles);
+  m_path = m_planner.plan(world.pose.position, target.pose.position, obstacles);
   m_planned = world.now;
   m_plannedFor = target.pose.position;
 }

@@ -7,22 +7,22 @@
 // Use from one thread.
 
 #include <optional>
-#include <vector>
 
 #include <robotlink/cognition/path_planner.h>
+#include <robotlink/cognition/soccer_input.h>
 #include <simcore/world/field.h>
 #include <simcore/world/robot_model.h>
 
-#include "planning/act.h"
+#include <robotlink/cognition/act.h>
 #include "planning/target.h"
 
 namespace pitchboard::link {
 
 /// What a walk takes place in, of one moment.
 struct Surroundings {
-  double now = 0.0;           ///< s
-  Pose pose;                  ///< of this robot, as it believes
-  std::vector<Point> robots;  ///< all others that it knows of
+  double now = 0.0;  ///< s
+  Pose pose;         ///< of this robot, as it believes
+  Points robots;     ///< all others that it knows of
 };
 
 class Walk {
@@ -50,7 +50,6 @@ class Walk {
   double m_othersRadius;
   sim::RobotModel m_body;
   PathPlanner m_planner;
-  std::vector<Obstacle> m_obstacles;
   Path m_path;
   double m_planned = -1e9;
   Point m_plannedFor;

@@ -7,7 +7,7 @@
 
 #include <base/angles.h>
 
-#include "planning/act.h"
+#include <robotlink/cognition/act.h>
 
 namespace pitchboard::link {
 namespace {

@@ -180,13 +180,13 @@ Choice Striker::play(const WorldModel& world) {
 Choice Striker::support(const WorldModel& world, const Point& ball) {
   constexpr double middle = 0.5;  // m: there neither side has more room
   if (std::abs(ball.y) > middle) m_side = ball.y > 0.0 ? -1.0 : 1.0;
-  std::vector<Point> robots{world.pose().position};
+  Points robots{world.pose().position};
   for (const auto& mate : world.mates()) {
     if (mate && mate->takesPart() && mate->intention == Intention::Support)
       robots.push_back(mate->position);
   }
   const double passRange = std::min(2.0, kickRange(world, acts::passLeft));
-  std::vector<Point> places;
+  Points places;
   for (const Placing& placing :
        placingsFor(world.field(), ball, m_side, passRange, robots.size())) {
     places.push_back(placing.place);
@@ -216,21 +216,21 @@ Pose Striker::kickOff(const WorldModel& world) {
 /// places on the way.
 Pose Supporter::kickOff(const WorldModel& world) {
   constexpr double forgets = 5.0, settles = 1.0;  // s; until all have told that they support
-  std::vector<Point> robots{world.pose().position};
+  Points robots{world.pose().position};
   for (const auto& mate : world.mates()) {
     if (mate && mate->intention == Intention::Support) robots.push_back(mate->position);
   }
   // Of a large team three tell what they do; of the others only the places are known.
   constexpr std::size_t tells = mostTeamMates;
-  const auto supporters = std::ssize(robots) - 1;
+  const auto supporters = static_cast<std::ptrdiff_t>(robots.size()) - 1;
   if (world.matePlaces().size() > tells) {
-    robots.insert(robots.end(), world.matePlaces().begin(), world.matePlaces().end());
-    robots.erase(robots.begin() + 1, robots.begin() + 1 + supporters);
+    robots.shrink(1);
+    for (const Point& place : world.matePlaces()) robots.push_back(place);
   }
-  std::vector<Point> places = kickOffPlaces(world.field());
+  Points places = kickOffPlaces(world.field());
   // Two take the sides.
-  places.resize(std::min(places.size(), std::max<std::size_t>(2, robots.size())));
-  robots.resize(std::min(places.size(), robots.size()));
+  places.shrink(std::max<std::size_t>(2, robots.size()));
+  robots.shrink(places.size());
   if (world.now() - m_placeAsked > forgets || supporters != m_supporters) {
     m_placeBegan = world.now();
     m_supporters = supporters;

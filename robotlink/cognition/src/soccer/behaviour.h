@@ -7,6 +7,8 @@
 #include <memory>
 #include <span>
 
+#include <robotlink/cognition/cognitive_process.h>
+
 #include "soccer/skills.h"
 #include "soccer/world_model.h"
 
@@ -47,7 +49,7 @@ class Behaviour {
   Choice enter(const WorldModel& world);
   Choice waitForSetPlay(const WorldModel& world);
 
-  const BehaviourParameters m_numbers;
+  BehaviourParameters m_numbers;
   Search m_search;
   Attack m_attack;
   bool m_comesBack = false;

@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "planning/act.h"
+#include <robotlink/cognition/act.h>
 #include "soccer/world_model.h"
 
 namespace pitchboard::link {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 #include <base/angles.h>
 #include <base/repeatable_math.h>
@@ -22,9 +21,9 @@ Point around(const Point& ball, double way, double angle) {
 
 }  // namespace
 
-std::vector<Placing> placingsFor(const sim::FieldSpec& field, const Point& ball, double side,
-                                 double passRange, std::size_t robots) {
-  std::vector<Placing> places;
+Placings placingsFor(const sim::FieldSpec& field, const Point& ball, double side, double passRange,
+                     std::size_t robots) {
+  Placings places;
   const double mostX = field.halfLength() - insideLines, mostY = field.halfWidth() - insideLines;
   const auto offer = [&](Role role, const Point& wanted) {
     if (places.size() >= robots) return;
@@ -57,9 +56,9 @@ std::vector<Placing> placingsFor(const sim::FieldSpec& field, const Point& ball,
 
 std::size_t placeOf(std::span<const Point> robots, std::span<const Point> places,
                     std::optional<std::size_t> kept) {
-  std::vector<std::size_t> free(places.size());
-  std::iota(free.begin(), free.end(), std::size_t{0});
-  std::vector<bool> placed(robots.size(), false);
+  InlineVector<std::size_t, Placings::capacity> free;
+  for (std::size_t i = 0; i < places.size(); ++i) free.push_back(i);
+  std::array<bool, Placings::capacity> placed{};
   while (true) {
     std::size_t who = 0, where = 0;
     double least = 1e9;
@@ -78,11 +77,11 @@ std::size_t placeOf(std::span<const Point> robots, std::span<const Point> places
     }
     if (who == 0) return free[where];
     placed[who] = true;
-    free.erase(free.begin() + static_cast<std::ptrdiff_t>(where));
+    free.erase(free.begin() + where);
   }
 }
 
-std::vector<Point> kickOffPlaces(const sim::FieldSpec& field) {
+InlineVector<Point, 22> kickOffPlaces(const sim::FieldSpec& field) {
   const double l = field.length, w = field.width;
   return {{-0.25 * l, 0.22 * w}, {-0.25 * l, -0.22 * w}, {-0.25 * l, 0.0},
           {-0.36 * l, 0.0},      {-0.36 * l, 0.33 * w},  {-0.36 * l, -0.33 * w},

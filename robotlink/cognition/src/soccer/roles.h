@@ -7,9 +7,9 @@
 
 #include <optional>
 #include <span>
-#include <vector>
 
 #include <base/geometry.h>
+#include <base/inline_vector.h>
 #include <simcore/world/field.h>
 
 namespace pitchboard::link {
@@ -22,13 +22,15 @@ struct Placing {
   bool operator==(const Placing&) const = default;
 };
 
+using Placings = InlineVector<Placing, 22>;
+
 /// Between two of them, and to the ball.
 inline constexpr double placesApart = 1.2;
 
 /// As many places as robots, the most important first, all on the field. `side`: +1 where the left
 /// has more room, else -1. `passRange`: how far this team's passes roll, m.
-std::vector<Placing> placingsFor(const sim::FieldSpec& field, const Point& ball, double side,
-                                 double passRange, std::size_t robots);
+Placings placingsFor(const sim::FieldSpec& field, const Point& ball, double side, double passRange,
+                     std::size_t robots);
 
 /// Which place the first of `robots` takes: whoever is nearest to one takes it. `kept`, its place
 /// until now, counts as if it were nearer. There are at least as many places as robots.
@@ -36,6 +38,6 @@ std::size_t placeOf(std::span<const Point> robots, std::span<const Point> places
                     std::optional<std::size_t> kept = {});
 
 /// Where a team stands at a kick-off: ten places in its own half and outside the centre circle.
-std::vector<Point> kickOffPlaces(const sim::FieldSpec& field);
+InlineVector<Point, 22> kickOffPlaces(const sim::FieldSpec& field);
 
 }  // namespace pitchboard::link

@@ -20,7 +20,7 @@ using std::numbers::pi;
 
 /// Where the rules put the ball of a set play that is the own team's, or from where a robot sees
 /// all of the field between them.
-std::vector<Point> searchPlaces(const WorldModel& world) {
+Points searchPlaces(const WorldModel& world) {
   const sim::FieldSpec& field = world.field();
   const double l = field.halfLength(), w = field.halfWidth();
   const double areaX = l - field.goalAreaLength, areaY = field.goalAreaWidth / 2;
@@ -216,7 +216,7 @@ std::optional<Act> Attack::kick(const WorldModel& world) const {
 
 Point aimFrom(const WorldModel& world, const Point& ball) {
   const sim::FieldSpec& field = world.field();
-  const std::vector<Point> opponents = world.opponents();
+  const Points& opponents = world.opponents();
   const double heading = world.localized() ? world.pose().yaw : world.imuYaw();
   Point best = world.opponentGoal();
   double least = 1e9;

@@ -9,7 +9,7 @@
 #include <optional>
 #include <variant>
 
-#include "planning/act.h"
+#include <robotlink/cognition/act.h>
 #include "planning/target.h"
 #include "soccer/world_model.h"
 

@@ -4,6 +4,7 @@
 #include <base/try.h>
 
 #include "soccer/behaviour.h"
+#include "soccer/soccer_board.h"
 
 #include <typeinfo>
 
@@ -18,7 +19,9 @@ class SoccerDecision final : public CognitiveProcess {
         m_behaviour(std::move(behaviour)) {}
 
   void step(Blackboard& board, const Clock& clock) override {
-    m_world.update(board, clock);
+    m_board.read(board, m_world, m_input);
+    m_world.update(m_input, clock.seconds);
+    m_board.lookFor(board, m_world.looksForOpponents());
     const Choice choice = m_behaviour->choose(m_world);
     if (const Target* target = std::get_if<Target>(&choice.move)) {
       m_target.write(board, m_world.field(), turned(*target));
@@ -32,14 +35,15 @@ class SoccerDecision final : public CognitiveProcess {
     }
     constexpr double lost = 0.4;  // s: a frame that missed the ball is no reason to search
     if (choice.search && m_world.ballAge() > lost) board.write(m_variables.decisionSearchOn, 1);
-    m_world.tell(board, choice.intention, choice.target);
+    m_board.tell(board, m_world, choice.intention, choice.target);
     board.write(m_variables.decisionWorking, 1);
   }
 
   double period() const override { return 0.1; }
 
   SoccerDecision(const SoccerDecision& other)
-      : m_world(other.m_world),
+      : m_board(other.m_board),
+        m_world(other.m_world),
         m_behaviour(other.m_behaviour->clone()),
         m_variables(other.m_variables),
         m_target(other.m_target) {}
@@ -66,6 +70,8 @@ class SoccerDecision final : public CognitiveProcess {
     return target;
   }
 
+  SoccerBoard m_board;
+  SoccerInput m_input;  // of this cycle
   WorldModel m_world;
   std::unique_ptr<Behaviour> m_behaviour;
   RobotVariables m_variables;

@@ -1,43 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a robot believes about the game, from nothing but its blackboard: its pose, the ball, other
-// robots. Everything is turned so that this robot's team attacks towards +x, whichever side it
-// plays on: a behaviour is written once. Metres, radians, seconds.
+// What a robot believes about the game, from what it is told cycle by cycle (SoccerInput): its
+// pose, the ball, other robots. It does not know blackboards. Everything is turned so that this
+// robot's team attacks towards +x, whichever side it plays on: a behaviour is written once. Metres,
+// radians, seconds.
 //
 // Which goal is whose stands nowhere on the blackboard, but the IMU knows: its zero is the
-// direction of the opponents' goal (SYSTEM.md section 4), so LOCALIZATION_THETA minus IMU_EULER_Z
+// direction of the opponents' goal (system.md section 4), so LOCALIZATION_THETA minus IMU_EULER_Z
 // is near 0 for a team that attacks right and near 180 degrees for one that attacks left.
 
 #include <array>
 #include <optional>
-#include <vector>
 
 #include <base/geometry.h>
-#include <robotlink/blackboard/robot_variables.h>
-#include <robotlink/cognition/cognitive_process.h>
-#include <simcore/world/game_state.h>
-#include <simcore/world/robot_io.h>
+#include <robotlink/cognition/behaviour_parameters.h>
+#include <robotlink/cognition/soccer_input.h>
+#include <simcore/world/field.h>
+#include <simcore/world/robot_model.h>
 
 #include "soccer/ball_track.h"
-#include "team/team_variables.h"
 
 namespace pitchboard::link {
-
-/// The referee's word in COM_REFEREE.
-enum class Referee { Silent = 0, Stop = 1, Play = 2, Ready = 11, Set = 12 };
-
-struct TeamMate {
-  Point position;
-  Intention intention = Intention::None;
-  bool active = false;        ///< heard of lately and standing
-  std::optional<Point> ball;  ///< as it saw it
-  /// In the game: whoever is penalised or plays by no behaviour of these says that it is idle, or
-  /// nothing.
-  bool takesPart() const {
-    return active && intention != Intention::None && intention != Intention::Idle;
-  }
-};
 
 class WorldModel {
  public:
@@ -48,20 +32,18 @@ class WorldModel {
         m_body(body),
         m_facesLeft(facesLeft),
         m_ballMemory(parameters.ballMemory),
-        m_opponentMemory(parameters.opponentMemory) {
-    const VariableCatalog& map = VariableCatalog::extended();
-    m_setPlayWord = map.intVar("COM_SET_PLAY").value_or(IntVar{-1});
-    m_setPlayOursWord = map.intVar("COM_SET_PLAY_OURS").value_or(IntVar{-1});
-  }
+        m_opponentMemory(parameters.opponentMemory) {}
 
-  /// Once a cycle, before the behaviour. Also tells vision what to look for: the ball, and for one
-  /// cycle in a while opponents (DECISION_ACTION_VISION).
-  void update(Blackboard& board, const Clock& clock);
+  /// Once a cycle, before the behaviour.
+  void update(const SoccerInput& input, double now);
+  /// What vision shall look for until the next cycle: the ball, and for one cycle in a while
+  /// opponents.
+  bool looksForOpponents() const { return m_looksForOpponents; }
 
   double now() const { return m_now; }
   Referee referee() const { return m_referee; }
   bool fallen() const { return m_fallen; }
-  /// The set play that the referee has given, as the match tells it; None without.
+  /// The set play that the referee has given, as COM_SET_PLAY says; None without.
   sim::SetPlay setPlay() const { return m_setPlay; }
   bool setPlayIsOurs() const { return m_setPlayOurs; }
   const sim::FieldSpec& field() const { return m_field; }
@@ -95,11 +77,11 @@ class WorldModel {
 
   const std::array<std::optional<TeamMate>, mostTeamMates>& mates() const { return m_mates; }
   /// Of all team-mates that are known of, up to ten.
-  const std::vector<Point>& matePlaces() const { return m_matePlaces; }
+  const Points& matePlaces() const { return m_matePlaces; }
   /// Opponents seen within the last seconds.
-  std::vector<Point> opponents() const;
+  const Points& opponents() const { return m_opponentPlaces; }
 
-  /// To the studio's frame, whichever side this team attacks.
+  /// To the studio's frame, whichever side this team attacks; and from it, which is the same.
   Point toStudio(const Point& turned) const {
     return m_attacksLeft ? Point{-turned.x, -turned.y} : turned;
   }
@@ -107,33 +89,25 @@ class WorldModel {
 
   Point toField(const Point& local) const;
 
-  /// What team and planning shall know, in DECISION_STATE, LOCALIZATION_BALL_*, LOCALIZATION_OPP*
-  /// and DECISION_POSITION_*.
-  void tell(Blackboard& board, Intention intention, const std::optional<Point>& target) const;
-
  private:
   struct Sighting {
     Point position;
     double time = -1e9;
   };
   void findSide(double theta);
-  void readBall(const Blackboard& board);
-  void readRobots(Blackboard& board);
-  void readMates(const Blackboard& board);
-  void moveWithBody(const Blackboard& board, double seconds);
-  Point fromCm(double x_cm, double y_cm) const;
+  void seeBall(const SeenAt& ball);
+  void seeRobots(const SoccerInput& input);
+  void hearMates(const SoccerInput& input);
+  void moveWithBody(const Act& doing, double seconds);
 
   sim::FieldSpec m_field;
   sim::RobotModel m_body;
   std::optional<bool> m_facesLeft;
   double m_ballMemory, m_opponentMemory;  // s
-  RobotVariables m_variables{VariableCatalog::extended()};
-  TeamVariables m_team;
-  IntVar m_setPlayWord, m_setPlayOursWord;  // of the extension; -1: the map in use has none
   double m_now = 0.0;
   bool m_first = true;
   unsigned m_cycle = 0;
-  bool m_lookedForOpponents = false;
+  bool m_looksForOpponents = false;
   Referee m_referee = Referee::Silent;
   bool m_fallen = false;
   sim::SetPlay m_setPlay = sim::SetPlay::None;
@@ -147,8 +121,9 @@ class WorldModel {
   BallTrack m_track;
   double m_ballSeen = -1e9;
   std::array<Sighting, sim::Percepts::maxSeenRobots> m_opponents;
+  Points m_opponentPlaces;  // of those seen lately
   std::array<std::optional<TeamMate>, mostTeamMates> m_mates;
-  std::vector<Point> m_matePlaces;
+  Points m_matePlaces;
 };
 
 }  // namespace pitchboard::link

@@ -30,18 +30,18 @@ class RefereeListener {
 
   /// What the newest packet since the last call means to this robot; nothing when there was none
   /// for it. Never waits. A referee that falls silent has said its last word: it stays.
-  std::optional<int> newWord() {
-    std::optional<int> word;
-    if (!m_receiver->take(m_batch)) return word;
+  std::optional<RefereeOrder> newOrder() {
+    std::optional<RefereeOrder> order;
+    if (!m_receiver->take(m_batch)) return order;
     for (std::size_t i = 0; i < m_batch.size(); ++i) {
       const telemetry::DatagramView datagram = m_batch[i];
       const auto packet = telemetry::decodeReferee(datagram.payload);
       if (!packet) continue;
       const auto* state = std::get_if<telemetry::RefereeState>(&*packet);
       if (state == nullptr || !m_tracker.accept(*state, datagram.sender, datagram.time)) continue;
-      if (const auto meant = m_orders.take(*state, m_team, m_player)) word = meant;
+      if (const auto meant = m_orders.take(*state, m_team, m_player)) order = meant;
     }
-    return word;
+    return order;
   }
 
  private:
@@ -100,7 +100,9 @@ class Communication final : public CognitiveProcess {
 
   void step(Blackboard& board, const Clock& clock) override {
     if (m_referee) {
-      if (const auto word = m_referee->newWord()) board.write(m_variables.comReferee, *word);
+      if (const auto order = m_referee->newOrder()) {
+        m_refereeVariables.write(board, *order, m_options.tellSetPlay);
+      }
     }
     constexpr double rounding = 1e-6;
     // A match that was put back to an earlier moment.
@@ -164,6 +166,7 @@ class Communication final : public CognitiveProcess {
   std::unique_ptr<RefereeListener> m_referee;  // when there is a team to listen for
   double m_nextTelemetry = 0.0;
   RobotVariables m_variables;
+  RefereeVariables m_refereeVariables{VariableCatalog::extended()};
   std::optional<IntVar> m_request;
   std::optional<FloatVar> m_ownDistance;  // the published map has one for robots 1 to 4
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/cognition/referee_orders.h>
+#include <robotlink/cognition/told_set_play.h>
 
 namespace pitchboard::link {
 namespace {
@@ -38,23 +39,38 @@ int RefereeOrders::wordInPlay(const telemetry::RefereeState& state, int team) {
   return exclusive && ballTeam && ballTeam != team ? refereeSet : refereePlay;
 }
 
-std::optional<int> RefereeOrders::take(const telemetry::RefereeState& state, int team, int player) {
+std::optional<RefereeOrder> RefereeOrders::take(const telemetry::RefereeState& state, int team,
+                                                int player) {
   if (state.trueData()) return std::nullopt;
   const telemetry::RefereeTeam* own = state.team(team);
   if (own == nullptr) return std::nullopt;
-  int word = refereeStop;
+  const ToldSetPlay told = setPlayIn(state);
+  RefereeOrder order{refereeStop, told.kind, told.team == team};
   if (state.state == Playing) {
-    word = wordInPlay(state, team);
+    order.word = wordInPlay(state, team);
   } else {
     m_ballTeam.reset();
-    if (state.state == Ready) word = refereeReady;
-    if (state.state == Set) word = refereeSet;
+    if (state.state == Ready) order.word = refereeReady;
+    if (state.state == Set) order.word = refereeSet;
   }
   const auto players = own->players();
   const bool penalised = player >= 1 && static_cast<std::size_t>(player) <= players.size() &&
                          players[static_cast<std::size_t>(player) - 1].penalty != 0;
   const bool stands = penalised || isIn(state, timeout) || state.stopped.value_or(0) != 0;
-  return stands ? refereeStop : word;
+  if (stands) order.word = refereeStop;
+  return order;
+}
+
+RefereeVariables::RefereeVariables(const VariableCatalog& map)
+    : m_word(map.intVar("COM_REFEREE").value_or(IntVar{-1})),
+      m_setPlay(map.intVar("COM_SET_PLAY").value_or(IntVar{-1})),
+      m_setPlayIsOurs(map.intVar("COM_SET_PLAY_OURS").value_or(IntVar{-1})) {}
+
+void RefereeVariables::write(Blackboard& board, const RefereeOrder& order, bool extended) const {
+  writeIfPresent(board, m_word, order.word);
+  if (!extended) return;
+  writeIfPresent(board, m_setPlay, static_cast<int>(order.setPlay));
+  writeIfPresent(board, m_setPlayIsOurs, order.setPlayIsOurs ? 1 : 0);
 }
 
 }  // namespace pitchboard::link

@@ -16,23 +16,12 @@
 #include <string>
 
 #include <robotlink/blackboard/robot_variables.h>
+#include <robotlink/cognition/soccer_input.h>
 
 namespace pitchboard::link {
 
-constexpr int mostTeamMates = 3;    // COM_*_ROBOT1..3
 constexpr int mostMatePlaces = 10;  // LOCALIZATION_RBT02_X .. _RBT11_Y
 constexpr int mostOpponents = 11;   // LOCALIZATION_OPP01_X .. _OPP11_Y
-
-/// DECISION_STATE and COM_ACTION_ROBOTn; their words are in resources/variables.json.
-enum class Intention : int {
-  None = 0,
-  Idle = 1,
-  Search = 2,
-  Ball = 3,
-  Support = 4,
-  Keep = 5,
-  Walk = 6
-};
 
 /// COM_STATE_ROBOTn.
 enum class MateState : int { Unknown = 0, Active = 1, Down = 2 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Angles. Everywhere but in the published frame: radians, counter-clockwise positive.
+// Angles in radians, counter-clockwise positive, except in the published frame. Pure functions.
 
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,7 @@ constexpr double degreesFromRadians(double radians) {
   return radians * (180.0 / std::numbers::pi);
 }
 
-/// The same direction in (−π, π].
+/// Returns the same direction in (−π, π].
 inline double wrapToPi(double radians) {
   constexpr double pi = std::numbers::pi;
   if (radians > -pi && radians <= pi) return radians;

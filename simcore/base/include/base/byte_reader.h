@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Takes values off the front of bytes that come from a file. It never goes past their end: at the
-// first value that is not there it turns bad, and gives zeros and nothing from then on. Formats add
-// their own kinds of values to it. The bytes belong to the caller. One thread at a time.
+// Reads values one after the other from bytes of a file. It never reads past the end: at the first
+// missing value it fails, and from then on returns zeros and empty values. Formats derive their own
+// readers from it. The bytes belong to the caller. One thread at a time.
 
 #include <bit>
 #include <cstddef>
@@ -17,7 +17,7 @@ class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : m_rest(bytes), m_size(bytes.size()) {}
 
-  /// A little-endian number.
+  /// Reads a little-endian number.
   template <class T>
   T number() {
     static_assert(std::endian::native == std::endian::little, "numbers are copied as they are");
@@ -44,7 +44,7 @@ class ByteReader {
   }
   std::string_view rest() const { return m_rest; }
   std::size_t left() const { return m_rest.size(); }
-  /// Of the next value, or of the failure.
+  /// Returns the position of the next value, or of the failure.
   std::size_t offset() const { return m_ok ? m_size - m_rest.size() : m_failedAt; }
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A text as a field of a CSV file (RFC 4180). Pure.
+// Quotes a text as a field of a CSV file (RFC 4180). Pure function; any thread.
 
 #include <string>
 

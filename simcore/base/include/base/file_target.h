@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The name under which a file is to appear when it is whole. It is written beside, under
-// partPath(), and gets its name at the end: whatever fails before leaves the old file as it was and
-// nothing else in the folder. A symbolic link stays one; the file it points to is replaced. A
-// device or a pipe cannot be replaced and is written to directly. One thread.
+// Writes a file so that it appears only when it is complete. The data go to partPath() beside it,
+// which commit() renames. If anything fails before that, an old file is unchanged and nothing else
+// is left in the folder. The target of a symbolic link is replaced, not the link; devices and pipes
+// are written directly. One thread at a time.
 
 #include <cstdint>
 #include <string>
@@ -16,30 +16,30 @@
 namespace pitchboard {
 
 enum class IfExists : std::uint8_t {
-  Refuse,  ///< also when the file appears while the new one is written
+  Refuse,  ///< also if the file appears while the new one is written
   Replace
 };
 
-/// The same file on the disk, also by another spelling, a symbolic or a hard link. False when one
+/// Returns whether two paths are the same file, also by links or another spelling. False if one
 /// does not exist.
 bool isSameFile(const std::string& a, const std::string& b);
 
 class FileTarget {
  public:
-  /// `source`: the file that is read meanwhile; it is never the target. Error Conflict for the
-  /// source and for a file that exists (with Refuse), SystemError when the folder is not there or
-  /// the old file may not be written.
+  /// Prepares a target. `source` is a file that is read meanwhile and must not be overwritten.
+  /// Fails with Conflict for the source, and with Refuse for an existing file; with SystemError if
+  /// the folder is missing or the old file may not be written.
   static Result<FileTarget> at(const std::string& path, IfExists ifExists,
                                const std::string& source = {});
   FileTarget(FileTarget&& other) noexcept;
   FileTarget& operator=(FileTarget&& other) noexcept;
-  ~FileTarget();  ///< without commit(): removes what was written
+  ~FileTarget();  ///< removes what was written unless commit() was called
 
-  /// For writers that open a file by its name; they close it before commit().
+  /// The path to write to, for writers that open a file by name. Close it before commit().
   const std::string& partPath() const { return m_part; }
-  /// Begins the file. Its errors name the target.
+  /// Creates the file. Errors name the target.
   Result<NewFile> open() const;
-  /// Waits until the disk has the file, gives it its name and waits for the folder.
+  /// Flushes the file to the disk, renames it, and flushes the folder.
   Result<void> commit();
 
  private:
@@ -51,7 +51,7 @@ class FileTarget {
   bool m_direct = false;  ///< a device or a pipe
 };
 
-/// All bytes at once. Errors as FileTarget.
+/// Writes a whole file. Fails as FileTarget does.
 Result<void> writeFile(const std::string& path, std::string_view bytes, IfExists ifExists,
                        const std::string& source = {});
 

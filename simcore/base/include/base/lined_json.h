@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// JSON written by people, read so that every complaint can name file, line and key: a small tree
-// that remembers the line of each value, and an object reader that refuses whatever it was not told
-// to expect. The first error wins; after it, reads return their fallbacks.
+// Reads JSON that people write, so that every error can name file, line and key: a tree that
+// remembers the line of each value, and JsonObject, which refuses keys that it does not expect.
+// After an error, reads return their fallbacks. Plain values; one thread at a time.
 
 #include <cstdint>
 #include <initializer_list>
@@ -25,10 +25,10 @@ struct JsonNode {
   enum class Kind { Null, Boolean, Number, Text, Array, Object };
 
   Kind kind = Kind::Null;
-  int line = 1;  ///< where the value (of a member: its key) stands, from 1
+  int line = 1;  ///< line of the value (of a member: of its key), from 1
   bool boolean = false;
   double number = 0.0;                 ///< finite
-  std::optional<std::uint64_t> whole;  ///< exact value of a number written without sign and point
+  std::optional<std::uint64_t> whole;  ///< exact value of a number without sign and point
   std::string text;
   std::vector<JsonNode> items;
   std::vector<JsonMember> members;  ///< in the order of the file
@@ -43,19 +43,19 @@ struct JsonMember {
   JsonNode value;
 };
 
-/// Where complaints go. `source` is the name of the file.
+/// Collects errors. `source` is the name of the file.
 class JsonReport {
  public:
   explicit JsonReport(std::string_view source) : m_source(source) {}
 
-  /// Remembers an error as "source:line: path: text"; one of each place, at most twenty.
+  /// Adds an error as "source:line: path: text"; one per place, at most twenty.
   void fail(int line, const std::string& path, const std::string& text,
             ErrorCode code = ErrorCode::ParseError);
   bool failed() const { return !m_errors.empty(); }
   std::size_t errors() const { return m_errors.size(); }
-  /// The first one.
+  /// Returns the first error.
   const Error& error() const { return m_errors.front(); }
-  /// All of them: the first, and in its message the others, a line each.
+  /// Returns all errors: the first, with the others in its message, a line each.
   Error allErrors() const;
 
  private:
@@ -63,12 +63,12 @@ class JsonReport {
   std::vector<Error> m_errors;
 };
 
-/// Refuses more than `mostBytes`, nesting deeper than 64, a key that occurs twice in an object, and
-/// anything that is not JSON. Nothing is returned exactly when `report` has an error.
+/// Parses a text. Refuses more than `mostBytes`, nesting deeper than 64, duplicate keys, and
+/// anything that is not JSON. Returns nothing exactly if `report` has an error.
 std::optional<JsonNode> parseJson(std::string_view text, JsonReport& report,
                                   std::size_t mostBytes = std::size_t{1} << 20);
 
-/// What a number may be. `unit` in the plural, for people; empty for plain numbers.
+/// The range of a number. `unit` is in the plural, for people; empty for plain numbers.
 struct NumberRange {
   double least = 0.0;
   double most = 0.0;
@@ -78,10 +78,10 @@ struct NumberRange {
 inline constexpr NumberRange anyNumber{std::numeric_limits<double>::lowest(),
                                        std::numeric_limits<double>::max()};
 
-/// One object of the file.
+/// Reads one object of the file.
 class JsonObject {
  public:
-  /// Keys that it is not asked for are left alone.
+  /// Unknown keys are ignored.
   JsonObject(JsonReport& report, const JsonNode& node, std::string path);
   /// Keys that are not in `keys` are errors.
   JsonObject(JsonReport& report, const JsonNode& node, std::string path,
@@ -95,22 +95,22 @@ class JsonObject {
   int line() const { return m_node->line; }
   const std::string& path() const { return m_path; }
   std::string pathOf(std::string_view key) const;
-  /// Complains about one of its keys, or about the object when the key is not there.
+  /// Reports an error about one of its keys, or about the object if the key is missing.
   void fail(std::string_view key, const std::string& text) const;
-  /// Complains when the key is missing.
+  /// Reports an error if the key is missing.
   void require(std::string_view key) const;
 
-  // Each returns `fallback` when the key is missing.
+  // Each returns `fallback` if the key is missing.
   double number(std::string_view key, double fallback, const NumberRange& range) const;
   int integer(std::string_view key, int fallback, int least, int most) const;
   std::uint64_t unsignedInteger(std::string_view key, std::uint64_t fallback) const;
   bool boolean(std::string_view key, bool fallback) const;
   std::string text(std::string_view key, std::string fallback, std::size_t longest) const;
-  /// Position of the text in `known`; `what` as in "there is no team ...".
+  /// Returns the index of the text in `known`; `what` is used as in "there is no team ...".
   std::optional<std::size_t> choice(std::string_view key, std::span<const std::string_view> known,
                                     std::string_view what) const;
   const std::vector<JsonNode>* array(std::string_view key, std::size_t most) const;
-  /// "robots[3]": the path of an entry of an array.
+  /// Returns the path of an entry of an array: "robots[3]".
   std::string pathOf(std::string_view key, std::size_t entry) const;
 
  private:
@@ -119,11 +119,11 @@ class JsonObject {
   std::string m_path;
 };
 
-/// `there is no team "bleu"; did you mean "blue"?`, or all known names when none is near.
+/// Returns `there is no team "bleu"; did you mean "blue"?`, or all known names if none is similar.
 std::string unknownName(std::string_view what, std::string_view name,
                         std::span<const std::string_view> known);
 
-/// Shortest decimal form that reads back as the same double.
+/// Returns the shortest decimal text that reads back to the same double.
 std::string shortest(double value);
 
 }  // namespace pitchboard

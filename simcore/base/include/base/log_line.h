@@ -8,20 +8,20 @@
 
 namespace pitchboard {
 
-/// The numbers are those of a session file.
+/// The values are those in session files; never change them.
 enum class LogLevel : std::uint8_t { Unknown, Debug, Info, Warning, Error, Fatal };
 
 struct LogLine {
   double time = 0.0;   ///< s of the source
-  std::string origin;  ///< who says it: "simulation", "B1 decision"
+  std::string origin;  ///< who wrote it: "simulation", "B1 decision"
   std::string text;
   LogLevel level = LogLevel::Info;
-  std::uint32_t cause = 0;  ///< the decision by hand that it tells of; 0: none
+  std::uint32_t cause = 0;  ///< number of the call by hand that it reports; 0: none
   bool isWarning() const { return level >= LogLevel::Warning; }
   bool operator==(const LogLine&) const = default;
 };
 
-/// The level of a line that may be a warning.
+/// Returns the level of a line that may be a warning.
 constexpr LogLevel logLevel(bool warning) {
   return warning ? LogLevel::Warning : LogLevel::Info;
 }

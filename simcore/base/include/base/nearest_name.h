@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Finds what somebody meant who mistyped a name: for errors about files and command lines. Pure
-// functions, any thread.
+// Finds the name that was meant by a mistyped one, for errors about files and command lines. Pure
+// functions; any thread.
 
 #include <span>
 #include <string_view>
 
 namespace pitchboard {
 
-/// The known name that was probably meant by a mistyped one; empty when none is near.
+/// Returns the known name that is most similar to a mistyped one; empty if none is similar.
 std::string_view nearestName(std::string_view name, std::span<const std::string_view> known);
 
 }  // namespace pitchboard

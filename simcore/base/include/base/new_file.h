@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A file that did not exist before, written front to back. Every failure is a sentence that says
-// what to do. One thread; sync() and syncFolder() may be called in another one meanwhile. A file
-// that may be read only when it is whole is begun by FileTarget.
+// A new file that is written from front to back. Every error is a sentence that says what to do.
+// Used by one thread; sync() and syncFolder() may run on another one meanwhile. Use FileTarget for
+// files that must only appear when they are complete.
 
 #include <cstdint>
 #include <string>
@@ -16,25 +16,25 @@ namespace pitchboard {
 
 class NewFile {
  public:
-  /// Error Conflict when the file exists, SystemError when it cannot be made.
-  /// `shownAs`: the name that errors say, when it is to be another one later.
+  /// Creates a file. Fails with Conflict if it exists, with SystemError if it cannot be created.
+  /// The same; errors name `shownAs`, the later name of the file.
   static Result<NewFile> create(const std::string& path, const std::string& shownAs = {});
-  /// A device or a pipe, which exists already.
+  /// Opens a device or a pipe, which exists already.
   static Result<NewFile> openDevice(const std::string& path);
 
-  /// All or an error; after an error part of the bytes may be in the file.
+  /// Writes all bytes. After an error, part of them may be in the file.
   Result<void> write(std::string_view bytes);
-  /// Waits until the disk has everything.
+  /// Waits until everything is on the disk.
   Result<void> sync() const;
-  /// The same for the file's name in its folder: without it a new file can be gone after a power
-  /// cut.
+  /// Waits until the file's name is on the disk; without it, a new file can be lost in a power
+  /// failure.
   Result<void> syncFolder() const;
-  /// Cuts what was written behind `size`, and gives room that was kept back.
+  /// Truncates the file to `size` and releases reserved space.
   void cutAt(std::uint64_t size);
-  /// Asks for room behind the end, so that the last words fit on a disk that becomes full. Error
-  /// when the disk has no such room; file systems that cannot keep room have no objection.
+  /// Reserves space after the end, so that the last bytes still fit on a disk that becomes full.
+  /// Fails if the disk does not have that space; succeeds on file systems that cannot reserve any.
   Result<void> keepRoom(std::uint64_t bytes);
-  /// Error when the file is no longer in its folder (removed while it was written).
+  /// Fails if somebody removed the file while it was written.
   Result<void> stillThere() const;
   Result<void> close();
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Counter-based randomness: a draw is a pure function of (seed, robot, stream, tick, index), so a
-// run repeats bit for bit, any recorded moment can be re-entered, and adding a robot does not
-// change another one's noise. Generator: Philox4x32-10 (Salmon et al., SC 2011), package Random123.
+// Counter-based random numbers: each is a pure function of (seed, robot, stream, tick, index). So a
+// run repeats bit for bit, any moment can be restored, and adding a robot does not change the noise
+// of another one. The generator is Philox4x32-10 (Salmon et al., SC 2011) of the library Random123.
 
 #include <cstdint>
 
 namespace pitchboard {
 
-/// Which noise a draw belongs to; part of the key, so streams never share numbers.
+/// The kind of noise. It is part of the key, so streams never share numbers.
 enum class NoiseStream : std::uint32_t {
   Motion = 1,
   Kick = 2,
@@ -20,19 +20,19 @@ enum class NoiseStream : std::uint32_t {
   Behaviour = 7
 };
 
-/// Draws for one (robot, stream, tick), in order. A value of a few words; make one where needed.
+/// The random numbers of one (robot, stream, tick), in order. A small value, cheap to create.
 class CounterRandom {
  public:
   CounterRandom(std::uint64_t seed, int robot, NoiseStream stream, std::uint64_t tick);
 
-  /// Uniform in [0, 1).
+  /// Returns a uniform number in [0, 1).
   double uniform();
-  /// Normal with the given mean and standard deviation, from one draw; none when sigma is 0.
+  /// Returns a normal number. Uses one draw, or none if sigma is 0.
   double normal(double mean, double sigma);
 
  private:
   void refill();
-  /// 53 random bits.
+  /// Returns 53 random bits.
   std::uint64_t bits();
 
   std::uint32_t m_key[2];

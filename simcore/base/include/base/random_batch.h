@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The draws of one stream of all robots in a tick, made side by side: the very numbers that a
-// CounterRandom makes for each robot one by one, in a fraction of the time. Scratch memory that is
-// filled anew for every stream and tick; it allocates when there are more robots than ever before.
-// One thread.
+// The random numbers of one stream for all robots in a tick, computed together: exactly the numbers
+// that CounterRandom gives for each robot, in a fraction of the time. It is refilled for every
+// stream and tick, and allocates only if there are more robots than before. A value for one thread
+// at a time.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,12 +17,12 @@ namespace pitchboard {
 
 class RandomBatch {
  public:
-  /// Draws of one robot, taken in order, as from a CounterRandom; at most as many as were made.
+  /// The numbers of one robot, in order; at most as many as were made.
   class Draws {
    public:
-    /// Uniform in [0, 1).
+    /// Returns a uniform number in [0, 1).
     double uniform();
-    /// Normal with the given mean and standard deviation, from one draw; none when sigma is 0.
+    /// Returns a normal number. Uses one draw, or none if sigma is 0.
     double normal(double mean, double sigma);
 
    private:
@@ -32,10 +32,10 @@ class RandomBatch {
     const double* m_normals;
   };
 
-  /// Makes `count` numbers for each robot.
+  /// Computes `count` numbers for each robot.
   void make(std::uint64_t seed, NoiseStream stream, std::uint64_t tick, std::span<const int> robots,
             int count);
-  /// Of the robot at this place in `robots`.
+  /// Returns the numbers of the robot with this index in `robots`.
   Draws of(std::size_t robot) const {
     return {m_wholes.data() + robot * m_stride, m_normals.data() + robot * m_stride};
   }

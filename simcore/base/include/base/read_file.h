@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Reads a whole file into memory, never more than its reader can use. Also for pipes and for the
-// files of /proc, which do not know their size. Any thread.
+// Reads a whole file into memory, up to a limit. Also works for pipes and files of /proc, which do
+// not know their size. Pure functions; any thread.
 
 #include <cstddef>
 #include <string>
@@ -11,11 +11,11 @@
 
 namespace pitchboard {
 
-/// `what` begins the sentence of an error: "The profile". Error NotFound when there is no such
-/// file, Unsupported when it has more than `mostBytes`, SystemError for the rest (a folder too).
+/// Returns the content of a file; `what` begins an error: "The profile". Fails with NotFound, with
+/// Unsupported if it has more than `mostBytes`, or with SystemError (also for a folder).
 Result<std::string> readFile(const std::string& path, std::size_t mostBytes,
                              const std::string& what = "The file");
-/// The same from an open descriptor, e.g. standard input, up to its end; it stays open.
+/// The same for an open descriptor such as standard input; it stays open.
 Result<std::string> readDescriptor(int descriptor, std::size_t mostBytes, const std::string& what,
                                    const std::string& context);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Elementary functions that give the same bits on every computer. Those of the C library are chosen
-// at run time by what the processor has (fused multiply-add), and their last bits differ. Whatever
-// a simulated match depends on uses these; the `published` model keeps the C library's, which made
-// its recorded truth. sqrt, floor, remainder and the like are exact everywhere and stay those of
-// <cmath>. The work is done by the deterministic set of SLEEF, within 3.5 units in the last place
-// (exp, pow: 1). Radians; any thread.
+// Elementary functions that give the same bits on every computer. The C library chooses its
+// versions by what the processor can do (fused multiply-add), and their last bits differ.
+// Everything that a simulated match depends on uses the functions here; only the `published` model
+// uses the C library's, because its recorded truth was made with them. sqrt, floor, remainder and
+// the like are exact everywhere, so use <cmath> for them. The deterministic functions of SLEEF do
+// the work, within 3.5 units in the last place (exp, pow: 1). Radians; pure functions; any thread.
 
 #include <cmath>
 
@@ -17,7 +17,7 @@ struct SinCos {
   double cos = 1.0;
 };
 
-/// Both at once, for the price of one.
+/// Returns sine and cosine together, for the cost of one.
 SinCos sinCos(double radians);
 inline double sin(double radians) {
   return sinCos(radians).sin;
@@ -30,7 +30,7 @@ double exp(double x);
 double log(double x);
 double pow(double x, double y);
 
-/// For lengths on a field: nothing is done about squares that overflow.
+/// Returns a length on the field; it does not protect against squares that overflow.
 inline double hypot(double x, double y) {
   return std::sqrt(x * x + y * y);
 }

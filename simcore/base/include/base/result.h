@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a function that can fail for an outside reason (file, packet, argument, system call)
-// returns: a value or an Error that a person can act on. Programmer errors are assertions instead.
+// The return type of functions that can fail for an outside reason (file, packet, system call): a
+// value, or an Error that tells people what to do. Programmer errors are assertions. Plain values.
 
 #include <string>
 #include <tl/expected.hpp>
@@ -15,16 +15,16 @@ enum class ErrorCode {
   NotFound,         ///< a name, file, key or robot does not exist
   ParseError,       ///< text or bytes do not follow their format
   SystemError,      ///< the operating system refused
-  Conflict,         ///< exists already, or belongs to somebody else
-  Unsupported       ///< understood, but not something that this program does
+  Conflict,         ///< it exists already, or belongs to somebody else
+  Unsupported       ///< valid, but this program cannot do it
 };
 
 struct Error {
   ErrorCode code = ErrorCode::InvalidArgument;
   std::string message;  ///< a sentence: what happened and what to do
-  std::string context;  ///< where: file and line, offset, key; empty when the sentence says it
+  std::string context;  ///< where: file and line, offset, key; may be empty
 
-  /// "context: message", as the command-line tools print it after "error: ".
+  /// Returns "context: message", which the command line prints after "error: ".
   std::string text() const { return context.empty() ? message : context + ": " + message; }
 
   bool operator==(const Error&) const = default;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Who a robot is, for everything that shows or stores robots, whatever their source.
+// Identifies a robot for everything that shows or stores robots, whatever their source. Values.
 
 #include <algorithm>
 #include <compare>
@@ -10,11 +10,11 @@
 
 namespace pitchboard {
 
-/// One robot of a match: simulated, live or recorded.
+/// A robot of a match: simulated, live or recorded.
 struct RobotKey {
-  int team = 0;    ///< place in the source's table of teams, from 1; 0: not known yet
-  int number = 0;  ///< on the shirt; 0: no robot
-  int sender = 0;  ///< 0: the first program that uses the number; 1, 2, ...: others
+  int team = 0;    ///< index in the source's table of teams, from 1; 0: unknown
+  int number = 0;  ///< number on the shirt; 0: no robot
+  int sender = 0;  ///< 0: the first program with that number; 1, 2, ...: others
   auto operator<=>(const RobotKey&) const = default;
 };
 
@@ -26,16 +26,16 @@ struct RobotOrder {
   auto operator<=>(const RobotOrder&) const = default;
 };
 
-/// A robot that goes on under another key.
+/// A robot continues under another key.
 struct Renaming {
   RobotKey from, to;
 };
-/// What this key is after these renamings, which happen at the same time.
+/// Returns what a key becomes by these renamings, which happen at the same time.
 inline RobotKey renamed(const RobotKey& robot, const std::vector<Renaming>& renamings) {
   const auto found = std::ranges::find(renamings, robot, &Renaming::from);
   return found == renamings.end() ? robot : found->to;
 }
-/// The entries of a set or map get the keys that they then have.
+/// Renames the entries of a set or map.
 template <class Entries>
 void rename(Entries& entries, const std::vector<Renaming>& renamings) {
   Entries now;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the short names of scenarios, experiments and runtime profiles may be made of: they are
-// names of files and words of a command line, too. Pure.
+// Checks the short names of scenarios, experiments and runtime profiles, which are also names of
+// files and words on command lines. Pure functions; any thread.
 
 #include <algorithm>
 #include <cstddef>
@@ -20,7 +20,7 @@ constexpr bool isShortNameLetter(char c) {
              .find(c) != std::string_view::npos;
 }
 
-/// The short name under `key`; `fallback` when there is none. Complains about any other letter.
+/// Returns the short name under `key`, or `fallback` if there is none. Other characters are errors.
 inline std::string readShortName(const JsonObject& object, std::string_view key,
                                  std::string fallback, std::size_t longest = longestShortName) {
   std::string name = object.text(key, std::move(fallback), longest);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The system's own words for a call that failed, for the sentences of errors. Any thread.
+// Returns the system's text for a failed call, for error messages. Pure function; any thread.
 
 #include <string>
 
 namespace pitchboard {
 
-/// `error`: an errno value.
+/// `error` is a value of errno.
 std::string systemReason(int error);
 
 }  // namespace pitchboard

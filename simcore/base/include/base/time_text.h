@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Times and lengths of time as people type them: the one parser of command line and studio, and
-// the writer that fits it. Pure functions, any thread; seconds.
+// Reads and writes times and durations as people type them, on the command line and in the studio.
+// Seconds; pure functions; any thread.
 
 #include <optional>
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace pitchboard {
 
-/// What secondsFromText() reads, for --help and errors.
+/// The forms that secondsFromText() reads, for --help and errors.
 inline constexpr const char* timeForms = "seconds (78.7), m:ss (1:18.7) or h:mm:ss (0:01:18.7)";
 
-/// The seconds of "78.7", "1:18.7" or "0:01:18.7"; a minus sign in front (- or −) is understood.
-/// Exactly two digits, at most 59, follow a colon. Empty for any other text.
+/// Returns the seconds of "78.7", "1:18.7" or "0:01:18.7", also with a minus sign in front (- or
+/// −). After a colon there must be exactly two digits, at most 59. Nothing for any other text.
 std::optional<double> secondsFromText(std::string_view text);
 
-/// "0:05", "1:18.7", "1:02:03.25": what secondsFromText() reads, rounded to milliseconds. "–" if
-/// `seconds` is not finite.
+/// Returns a text that secondsFromText() reads, rounded to milliseconds: "0:05", "1:18.7". Returns
+/// "–" if `seconds` is not finite.
 std::string secondsToText(double seconds);
 
 }  // namespace pitchboard

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// TRY(result) is the value of a Result, or returns its error from the function around it, which
-// itself returns a Result:
+// TRY(result) gives the value of a Result, or returns its error from the enclosing function, which
+// must return a Result itself:
 //
 //   const auto text = TRY(readFile(path, most));
 //   TRY(check(text));
 //
-// Not inside another TRY. Uses an extension that GCC and Clang share.
+// Do not nest it. It uses an extension of GCC and Clang. Any thread.
 
 #include <type_traits>
 #include <utility>

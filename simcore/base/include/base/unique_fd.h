@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A file, a socket or an end of a pipe of the system that is closed with its owner. Moved, never
-// copied; one thread at a time, as every object of this kind.
+// Owns a file descriptor (file, socket, end of a pipe) and closes it when it is destroyed. It can
+// be moved but not copied. One thread at a time.
 
 namespace pitchboard {
 
 class UniqueFd {
  public:
   UniqueFd() = default;
-  /// Takes over what open(), socket() and the like returned; below 0: nothing.
+  /// Takes over the result of open(), socket() and so on; a negative one is no descriptor.
   explicit UniqueFd(int value) : m_value(value) {}
   UniqueFd(UniqueFd&& other) noexcept : m_value(other.release()) {}
   UniqueFd& operator=(UniqueFd&& other) noexcept {
@@ -20,13 +20,13 @@ class UniqueFd {
 
   int get() const { return m_value; }
   explicit operator bool() const { return m_value >= 0; }
-  /// Gives it away open; the caller closes it.
+  /// Returns the open descriptor and gives up ownership.
   int release() {
     const int value = m_value;
     m_value = -1;
     return value;
   }
-  /// Closes what was held. errno stays as it is, so that a failure can still be told.
+  /// Closes the descriptor. errno is preserved, so that a failure can still be reported.
   void reset(int value = -1);
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The units that messages, columns and curves name, and how they become others of their kind. Pure;
-// any thread.
+// The units of messages, columns and curves, and conversions between units of one kind. Constant
+// data and pure functions; any thread.
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ enum class UnitKind : std::uint8_t { None, Length, Angle, AngularRate, Voltage, 
 struct Unit {
   std::string_view name;
   UnitKind kind;
-  double factor;  ///< to m, rad, rad/s, V, s, 1
+  double factor;  ///< factor to m, rad, rad/s, V, s, 1
 };
 
 inline constexpr std::array<Unit, 19> units{
@@ -43,13 +43,13 @@ inline constexpr std::array<Unit, 19> units{
      {"%", UnitKind::Share, 0.01},
      {"1", UnitKind::Share, 1.0}}};
 
-/// Null for a unit that is not known.
+/// Returns the unit of this name, or null.
 constexpr const Unit* unitNamed(std::string_view name) {
   const auto found = std::ranges::find(units, name, &Unit::name);
   return found == units.end() ? nullptr : &*found;
 }
 
-/// What a value is multiplied by; nothing when one of them is not known, or is of another kind.
+/// Returns the factor between two units; nothing if one is unknown or they are of different kinds.
 constexpr std::optional<double> unitFactor(std::string_view from, std::string_view to) {
   const Unit *a = unitNamed(from), *b = unitNamed(to);
   if (a == nullptr || b == nullptr || a->kind != b->kind) return std::nullopt;

@@ -2,10 +2,10 @@
 #pragma once
 
 // A typed view over a robot's blackboard: 512 words of 4 bytes, int variable i at word i, float
-// variable j at word 125 + j (SYSTEM.md section 2). The memory is a System V segment (shared with a
-// robot's own processes) or plain heap memory (accelerated runs). Words are read and written
-// atomically and relaxed: a reader never sees half a float; there is no order between variables.
-// Any thread and any process may use the same words at the same time.
+// variable j at word 125 + j (system.md section 2). The memory is a System V segment, shared with a
+// robot's processes, or heap memory for fast runs. Words are read and written atomically (relaxed):
+// a reader never sees half a float, but there is no order between variables. Any thread and any
+// process may use the same words at the same time.
 
 #include <atomic>
 #include <bit>
@@ -19,8 +19,8 @@
 
 namespace pitchboard::link {
 
-/// Index of an int variable (IntVar) or of a float variable (FloatVar). The same number names one
-/// of each, so the type is part of the name.
+/// Index of an int variable (IntVar) or of a float variable (FloatVar). The same number can mean
+/// one of each, so the type belongs to the index.
 struct IntVar {
   int index = 0;
   auto operator<=>(const IntVar&) const = default;
@@ -40,7 +40,7 @@ class Blackboard {
   static constexpr int intVariables = words;
   static constexpr int floatVariables = words - floatOffset;
 
-  /// Zeroed heap memory.
+  /// Creates a blackboard of zeros in heap memory.
   static Blackboard onHeap();
 
   Blackboard(Blackboard&&) noexcept;
@@ -60,7 +60,7 @@ class Blackboard {
     word(floatOffset + variable.index)
         .store(std::bit_cast<std::uint32_t>(value), std::memory_order_relaxed);
   }
-  /// Writes `value` only where `expected` still stands; says whether it did.
+  /// Writes `value` only if the variable still is `expected`; returns whether it was.
   bool replace(IntVar variable, int expected, int value) {
     std::uint32_t old = std::bit_cast<std::uint32_t>(expected);
     return word(variable.index)
@@ -68,12 +68,12 @@ class Blackboard {
                                  std::memory_order_relaxed);
   }
 
-  /// All 512 words, each read atomically (not all at one instant).
+  /// Reads all 512 words, each atomically, but not all at one instant.
   void copyWords(std::span<std::uint32_t, words> out) const;
 
-  /// System V key, or 0 for heap memory.
+  /// Returns the System V key, or 0 for heap memory.
   int key() const;
-  /// This object made the segment (and removes it when it goes).
+  /// Returns whether this object created the segment, which it then removes when destroyed.
   bool created() const;
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The variables that the bridge and the reference processes use, resolved once from a catalog into
-// indices. A team's catalog may lack some: readOr() gives 0 for those, writeIfPresent() does
-// nothing.
+// The variables that the bridge and the reference processes use, as indices that are looked up once
+// in a catalog. A team's catalog may lack some: readOr() returns a fallback for those, and
+// writeIfPresent() does nothing. Plain values; any thread.
 
 #include <array>
 #include <vector>
@@ -24,13 +24,13 @@ struct RobotVariables {
   FloatVar imuEulerX, imuEulerY, imuEulerZ, imuGyroX, imuGyroY, imuGyroZ, imuAccelX, imuAccelY,
       imuAccelZ, visionBallDist, visionBallAngle, visionPanDeg, visionTiltDeg, localizationBelief;
   std::array<FloatVar, 4> landmarkDeg;  ///< blue, red, yellow, purple
-  /// VISION_RBT01.. _DIST / _ANGLE; the published map ends at 11, which is nothing missing.
+  /// VISION_RBT01_DIST, _ANGLE and so on. The published map ends at 11, which is no error.
   std::array<FloatVar, 22> robotDist, robotAngle;
   std::vector<std::string> missing;  ///< names that the catalog does not have
 };
 
-// How bridge and processes use them: an absent variable reads as `fallback` and is never written.
-// (Blackboard::read and write take the index as it is.)
+// Access for bridge and processes: an absent variable reads as `fallback` and is never written.
+// (Blackboard::read and write require a valid index.)
 constexpr bool isPresent(IntVar variable) {
   return variable.index >= 0;
 }
@@ -50,7 +50,7 @@ inline void writeIfPresent(Blackboard& board, IntVar variable, int value) {
 inline void writeIfPresent(Blackboard& board, FloatVar variable, float value) {
   if (isPresent(variable)) board.write(variable, value);
 }
-/// Says whether `expected` stood there and was replaced.
+/// Returns whether the variable was `expected` and was replaced.
 inline bool replaceIfPresent(Blackboard& board, IntVar variable, int expected, int value) {
   return isPresent(variable) && board.replace(variable, expected, value);
 }

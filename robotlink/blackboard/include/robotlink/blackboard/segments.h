@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What shared memory there is on this computer, for choosing what to attach. Any thread.
+// Lists the shared memory of this computer, for choosing what to attach. Pure function; any thread.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace pitchboard::link {
 
-/// Every segment that has a key, of any size and owner, in order of key.
+/// Returns every segment that has a key, of any size and owner, in order of keys.
 std::vector<SegmentInfo> segmentsOfThisComputer();
 
 }  // namespace pitchboard::link

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// System V shared-memory segments that hold blackboards: attach, create, list, remove. The
-// published convention: key 100 × robot number, 2048 bytes, mode 0600, whoever comes first creates
-// it. Errors name the key and say what to do.
+// System V shared memory of blackboards: attach, create, list, remove. The published convention is
+// key 100 × robot number, 2048 bytes, mode 0600, and whoever comes first creates it. Errors name
+// the key and say what to do. Any thread.
 
 #include <sys/types.h>
 #include <string>
@@ -14,14 +14,14 @@
 
 namespace pitchboard::link {
 
-/// What is to happen to a segment of the given key.
+/// What to do with the segment of a key.
 enum class AttachMode {
-  AttachOrCreate,  ///< as a robot's process: attach to what is there, else create
-  AttachOnly,      ///< fail when there is none
-  ReadOnly         ///< attach without the right to write (write() is then a programmer error)
+  AttachOrCreate,  ///< attach if it exists, otherwise create it, as robots' processes do
+  AttachOnly,      ///< fail if it does not exist
+  ReadOnly         ///< attach without the right to write (then never call write())
 };
 
-/// Key of a robot's blackboard. `keyBase` is 0 for real robots; tests and second studios shift it.
+/// Returns the key of a robot's blackboard. `keyBase` is 0 for real robots and match 0.
 constexpr int blackboardKey(RobotId robot, int keyBase = 0) {
   return keyBase + 100 * robot.value;
 }
@@ -33,43 +33,43 @@ struct SegmentInfo {
   unsigned mode = 0;  ///< permission bits
   uid_t owner = 0;
   pid_t creator = 0;
-  pid_t lastUser = 0;            ///< process of the last attach or detach
-  unsigned long attached = 0;    ///< processes attached now
+  pid_t lastUser = 0;            ///< process that last attached or detached
+  unsigned long attached = 0;    ///< number of attached processes
   bool blackboardSized = false;  ///< exactly 2048 bytes
-  bool orphan = false;           ///< blackboard-sized, ours, nobody attached, its creator is gone
+  bool orphan = false;           ///< blackboard-sized, ours, not attached, its creator has ended
 };
 
 class SystemVSegments {
  public:
-  /// Attaches or creates. Refuses, with the reason, a segment of another size, another owner or
-  /// without permission. A Blackboard that created its segment removes it when destroyed.
+  /// Attaches or creates. Fails with the reason for a segment of another size, another owner or
+  /// without permission. A Blackboard that created its segment removes it when it is destroyed.
   static Result<Blackboard> open(int key, AttachMode mode);
 
-  /// Segments whose key is a multiple of 100 from 100 to 6400 above `keyBase`, in order of key.
+  /// Returns segments with keys `keyBase` + 100, 200, ... 6400, in order of keys.
   static std::vector<SegmentInfo> list(int keyBase = 0);
   static Result<SegmentInfo> info(int key);
-  /// Creates a zeroed segment that stays when this process ends; Conflict when there is one.
+  /// Creates a segment of zeros that outlives this process. Fails with Conflict if it exists.
   static Result<void> create(int key);
   static Result<void> remove(int key);
 };
 
-/// Any segment of this computer, to be looked at and never written: of any size and, where its mode
-/// lets us, of any owner. The kernel keeps its memory as long as this lives, also when its key is
-/// gone. Any thread.
+/// Read-only access to any segment of this computer, of any size and, if its mode permits, of any
+/// owner. The kernel keeps the memory as long as this object lives, even if the segment is removed.
+/// Any thread.
 class SegmentView {
  public:
-  /// `bytes`: the size that it must have; 0: any. Errors name the key and say what to do.
+  /// Attaches. `bytes` is the required size, 0 for any. Errors name the key and say what to do.
   static Result<SegmentView> attach(int key, std::size_t bytes = 0);
   SegmentView(SegmentView&& other) noexcept;
   SegmentView& operator=(SegmentView&& other) noexcept;
   ~SegmentView();
 
   std::size_t bytes() const { return m_bytes; }
-  /// A word, read atomically; 0 beyond the end.
+  /// Reads a word atomically; 0 beyond the end.
   std::uint32_t word(std::size_t index) const;
-  /// False once it was removed, or another one has its key.
+  /// Returns false once it was removed or another segment has its key.
   bool isThere() const;
-  /// Whether anybody else has it attached, also after it was removed.
+  /// Returns whether another process has it attached, even after it was removed.
   bool isShared() const;
 
  private:
@@ -79,9 +79,9 @@ class SegmentView {
   std::size_t m_bytes = 0;
 };
 
-/// The right to play the simulated vision, control and IMU of one key. Two simulators on one
-/// blackboard would fight over every word; the second is refused. Held by an abstract Unix socket
-/// name, so it is freed by the kernel whatever happens to its owner.
+/// The right to simulate vision, control and IMU on the blackboard of one key, so that two
+/// simulators never write the same words; the second one is refused. It is the name of an abstract
+/// Unix socket, so the kernel frees it if its owner ends in any way.
 class BridgeClaim {
  public:
   static Result<BridgeClaim> take(int key);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Names of the blackboard's variables: data, because every team edits its map. The default is
-// resources/blackboard.json (the published map); others are read from a team's own blackboard.h
-// (both header forms) or SharedMemory.py.
+// A catalog maps the names of variables to their places on the blackboard. It is data, because
+// every team edits its map: the default is resources/blackboard.json (the published map), and
+// others are read from a team's blackboard.h or SharedMemory.py. Plain values; any thread.
 
 #include <optional>
 #include <span>
@@ -24,7 +24,7 @@ struct Variable {
   bool operator==(const Variable&) const = default;
 };
 
-/// Where a segment has its variables: ints from word 0 on, floats from another one on.
+/// The layout of a segment: ints begin at word 0, floats at another one.
 struct SegmentLayout {
   static constexpr std::size_t mostBytes = std::size_t{1} << 20;
   std::size_t bytes = Blackboard::bytes;
@@ -35,30 +35,30 @@ struct SegmentLayout {
 
 struct CatalogEntry;  // a variable and the line it was read from; private to the readers
 
-/// A value that never changes once read: every variable has a name, and a word of its own.
+/// An immutable catalog in which every variable has a unique name and a word of its own.
 class VariableCatalog {
  public:
-  /// The published map of 83 int and 122 float variables.
+  /// Returns the published map of 83 int and 122 float variables.
   static const VariableCatalog& published();
-  /// The published map and its extension (docs/BLACKBOARD.md).
+  /// Returns the published map with its extension (docs/blackboard.md).
   static const VariableCatalog& extended();
 
-  // Each fails with file, line (or JSON path) and what is wrong; `source` names the file.
+  // Each fails with file, line (or JSON path) and the problem; `source` is the name of the file.
   static Result<VariableCatalog> fromJson(std::string_view text, std::string_view source);
   static Result<VariableCatalog> fromHeader(std::string_view text, std::string_view source);
   static Result<VariableCatalog> fromPython(std::string_view text, std::string_view source);
   /// Reads a file and chooses the format by its extension (.json, .h/.hpp, .py).
   static Result<VariableCatalog> fromFile(const std::string& path);
-  /// The same for a segment that is only looked at and may be laid out in another way: of the size
-  /// in `layout`, or as the file's "segment" says, which is then put there.
+  /// The same for a segment that is only read and may have another layout: `layout` is the default,
+  /// and is replaced by the file's "segment" if there is one.
   static Result<VariableCatalog> fromFile(const std::string& path, SegmentLayout& layout);
 
-  /// With those variables of the extension whose name and word are free here.
+  /// Adds the variables of the extension whose names and words are free here.
   VariableCatalog withExtension() const;
-  /// In the form of blackboard.json.
+  /// Returns the catalog in the format of blackboard.json.
   std::string toJson() const;
 
-  /// Ints by index, then floats by index.
+  /// Returns ints in order of index, then floats in order of index.
   std::span<const Variable> variables() const { return m_variables; }
   const Variable* find(std::string_view name) const;
   std::optional<IntVar> intVar(std::string_view name) const;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What blackboard variables mean to a reader (unit, category, words for codes), from
-// resources/variables.json. Values; any thread.
+// What blackboard variables mean to people: unit, category, texts of codes, and a description, all
+// read from resources/variables.json. Pitchboard applies them by name, so a team's own variables
+// get a unit and a category, too. Plain values; any thread.
 
 #include <map>
 #include <optional>
@@ -17,22 +18,25 @@ namespace pitchboard::link {
 
 class VariableMeanings {
  public:
-  /// Those of resources/variables.json. Read once; any thread.
+  /// Returns the rules of resources/variables.json, which are read once.
   static const VariableMeanings& published();
-  /// Error ParseError with "source:line: path".
+  /// Reads rules from a text. Fails with ParseError and "source:line: path".
   static Result<VariableMeanings> parse(std::string_view text, std::string_view source);
 
-  /// Fills everything but name and type.
+  /// Fills category, unit, kind, labels and lostBy of a column that has a name.
   void describe(telemetry::ColumnInfo& column) const;
-  /// Of a session that was recorded before files said which variables can be lost: those that this
-  /// program would record so (telemetry::ColumnInfo::lostBy).
+  /// Fills `lostBy` of a group from a session whose file does not say which variables can hold an
+  /// old value, as this program would record it. Does nothing if any column says it already.
   void describeLost(telemetry::GroupInfo& group) const;
-  /// The value of this variable that says "not seen"; nothing where each is a value.
+  /// Returns the value of this variable that means "not seen", or nothing if every value counts.
   std::optional<double> absent(std::string_view name) const;
+  /// Returns what the variable is for, in one sentence for people without a full stop.
+  std::string_view description(std::string_view name) const;
 
  private:
   struct Rule {
     std::string name;  // with * for any text
+    std::string description;
     std::optional<std::string> category, unit;
     std::optional<telemetry::ColumnKind> kind;
     std::map<std::int32_t, std::string> labels;

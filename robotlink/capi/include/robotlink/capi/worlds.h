@@ -79,6 +79,8 @@ class Worlds {
   Result<void> setBehaviour(RobotId robot, const std::string& behaviour);
   /// The beginning of the scenario with this seed; of all: world i with the seed plus i.
   Result<void> reset(int world, std::uint64_t seed);
+  /// The same of some, each with a seed of its own.
+  Result<void> reset(std::span<const int> worlds, std::span<const std::uint64_t> seeds);
   /// So many ticks of every world; a world whose scenario is over stops there and stands still.
   Result<void> step(int ticks);
   /// "goal", "ball_out", "duration", "full_time"; empty while the world goes on.
@@ -101,10 +103,17 @@ class Worlds {
   // Moving by hand, in metres, radians and m/s; `world` may be `all`.
   Result<void> placeRobot(int world, RobotId robot, const Pose& pose);
   Result<void> placeBall(int world, const Point& place, const Velocity& velocity);
+  /// Many at once: one place for each of `worlds`. Nothing is moved when a world is not there.
+  Result<void> placeRobots(std::span<const int> worlds, RobotId robot, std::span<const Pose> poses);
+  Result<void> placeBalls(std::span<const int> worlds, std::span<const Point> places,
+                          std::span<const Velocity> velocities);
 
   Result<WorldSnapshot> snapshot(int world) const;
   /// Also into another world, and into other worlds of the same scenario.
   Result<void> restore(int world, const WorldSnapshot& snapshot);
+  /// The same state in each of `worlds`, from which each goes on with the noise of its own seed.
+  Result<void> restore(std::span<const int> worlds, std::span<const std::uint64_t> seeds,
+                       const WorldSnapshot& snapshot);
 
  private:
   struct Parts;

@@ -66,6 +66,8 @@ struct ProcessOptions {
   int teamPortBase = 1230;               ///< team messages go to this + 1..4
   /// communication: our team's number in the GameController; absent = do not listen to one.
   std::optional<int> refereeTeam;
+  /// communication: also writes the set play that the referee gives, for a decision of ours.
+  bool tellSetPlay = false;
   std::optional<int> shirt;  ///< number in the GameController; absent = the robot's
   int refereePort = 3838;
   int channelPortBase = 10000;  ///< robots of a team hear each other on this + `team`

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The published naive behaviour (SYSTEM.md section 6): turn to the ball, walk to it, kick it.
+// The published naive behaviour (system.md section 6): turn to the ball, walk to it, kick it.
 
 #include <memory>
 #include <optional>

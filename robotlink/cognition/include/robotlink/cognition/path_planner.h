@@ -5,12 +5,12 @@
 // graph (Lozano-Perez and Wesley, 1979) searched by A* (Hart, Nilsson and Raphael, 1968). Each
 // circle stands for a regular polygon round it, whose corners are the places where a path may bend.
 // Only circles that are in the way of some path so far get corners, so that a free line costs one
-// test. Metres, the studio's frame. No state but scratch memory: one planner per thread.
+// test. Metres, the studio's frame. Scratch memory is the thread's. Any thread.
 
 #include <span>
-#include <vector>
 
 #include <base/geometry.h>
+#include <base/inline_vector.h>
 
 namespace pitchboard::link {
 
@@ -22,8 +22,8 @@ struct Obstacle {
 
 struct Path {
   /// From the start to the target, both included; at least two points. Empty only when start or
-  /// target are not finite.
-  std::vector<Point> points;
+  /// target are not finite. What of a longer way does not fit is planned when the robot is nearer.
+  InlineVector<Point, 32> points;
   double length = 0.0;     ///< m
   bool targetFree = true;  ///< false: the target lay in an obstacle, its rim is the end
   bool complete = true;    ///< false: no way; the path ends where it comes nearest
@@ -42,26 +42,10 @@ class PathPlanner {
   /// A start inside an obstacle (robots do touch) is no error: that obstacle shrinks until the
   /// start lies on its rim, so the path leads away. A target inside one moves to its rim. Without
   /// any way, the path leads to the reachable bend that is nearest to the target.
-  Path plan(const Point& start, const Point& target, std::span<const Obstacle> obstacles);
+  Path plan(const Point& start, const Point& target, std::span<const Obstacle> obstacles) const;
 
  private:
-  struct Node {
-    Point point;
-    double cost;
-    int parent;
-    bool open, closed;
-  };
-  bool within(const Point& p) const;
-  int firstHit(const Point& from, const Point& to) const;
-  void activate(std::size_t obstacle);
-  Point freeTarget(const Point& target, const Point& start, bool& free) const;
-  bool search(std::vector<int>& hit);
-
   double m_halfLength, m_halfWidth;
-  std::vector<Obstacle> m_obstacles;
-  std::vector<char> m_active;
-  std::vector<Node> m_nodes;  // 0 start, 1 target, then corners
-  int m_end = 1;              // node where the last search ended
 };
 
 }  // namespace pitchboard::link

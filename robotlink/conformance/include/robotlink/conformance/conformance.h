@@ -2,7 +2,7 @@
 #pragma once
 
 // Runs a recorded trace of the published simulator through our `published` model and compares every
-// value of every frame. Format of a trace: docs/CONFORMANCE.md (a JSON file with the initial state
+// value of every frame. Format of a trace: docs/conformance.md (a JSON file with the initial state
 // and a schedule, and the recorded rows beside it as .csv.gz).
 
 #include <string>

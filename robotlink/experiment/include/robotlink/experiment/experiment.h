@@ -2,10 +2,12 @@
 #pragma once
 
 // An experiment: a scenario, what is varied in it, how often it is played, what is measured and
-// what must hold. A JSON file (docs/EXPERIMENTS.md); a situation test is a small one with
-// assertions. Here it is expanded: conditions and grids are a list of scenarios, runs have numbers.
-// Plain values; any thread. Metres, seconds, degrees in settings as in the file.
+// what must hold. A JSON file (docs/experiments.md); a situation test is a small one with
+// assertions, a tournament is one whose conditions are matches between teams. Here it is expanded:
+// conditions and grids are a list of scenarios, runs have numbers. Plain values; any thread.
+// Metres, seconds, degrees in settings as in the file.
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -56,6 +58,7 @@ struct Condition {
   Scenario scenario;                 ///< with the settings; without stop conditions
   std::string json;                  ///< the same as text, for what is drawn for each run
   std::vector<PlacedByHand> placed;  ///< the experiment's and its own, in order of time
+  bool teamPrograms = false;         ///< a team's own programs play, too
 };
 
 /// The first that is met ends a run.
@@ -103,6 +106,48 @@ struct Assertion {
   bool operator==(const Assertion&) const = default;
 };
 
+/// A team of a tournament: what is different in the scenario when it plays.
+struct TournamentTeam {
+  /// For a key of a robot: "behaviour", "behaviour.takes_ball", "model".
+  struct Setting {
+    int shirt = 0;  ///< 0: all of its robots
+    ScenarioSetting setting;
+    bool operator==(const Setting&) const = default;
+  };
+  std::string name;
+  int number = 0;               ///< the referee's; 0: that of its colour
+  std::string runtime;          ///< as runtimeChoiceToText() writes it; empty: the scenario's
+  std::vector<Setting> robots;  ///< a later one wins
+  int line = 1;
+  bool operator==(const TournamentTeam&) const = default;
+};
+
+/// Two teams that play each other: indices. The first one plays blue first.
+struct Pairing {
+  std::size_t first = 0, second = 1;
+  bool operator==(const Pairing&) const = default;
+};
+
+/// What must hold of a team's matches: "low95(goal_difference) > 0".
+struct TeamAssertion {
+  std::string text;
+  std::size_t team = 0;
+  std::optional<std::size_t> opponent{};  ///< nothing: against everybody
+  int line = 1;
+  bool operator==(const TeamAssertion&) const = default;
+};
+
+/// Matches between teams. Each pairing is a condition of the experiment, or two of them, one behind
+/// the other, with the sides swapped.
+struct Tournament {
+  std::vector<TournamentTeam> teams;
+  std::vector<Pairing> pairings;
+  bool swapSides = true;
+  bool wholeMatches = false;  ///< a match without a final whistle is wrong
+  std::vector<TeamAssertion> assertions;
+  bool operator==(const Tournament&) const = default;
+};
+
 enum class Record : std::uint8_t { Nothing, Failed, All, Chosen };
 
 struct Experiment {
@@ -122,14 +167,15 @@ struct Experiment {
   std::vector<GivenFigure> given;
   std::vector<Assertion> assertions;
   Record record = Record::Nothing;
-  std::vector<std::size_t> recorded;  ///< numbers of runs, with Record::Chosen
-  bool separateProcesses = false;     ///< reference processes as programs, in lock-step
-  bool teamPrograms = false;          ///< a team's own programs play, too: runs do not repeat
-  double speed = 10.0;                ///< times real time of runs with own programs, at most
-  std::size_t pathsShown = 30;        ///< runs of a condition that the report draws
+  std::vector<std::size_t> recorded;       ///< numbers of runs, with Record::Chosen
+  bool separateProcesses = false;          ///< reference processes as programs, in lock-step
+  double speed = 10.0;                     ///< times real time of runs with own programs, at most
+  std::size_t pathsShown = 30;             ///< runs of a condition that the report draws
+  std::optional<Tournament> tournament{};  ///< whose matches the conditions are
   std::string text;  ///< the file with its scenario inside: what a results folder keeps
 
   std::size_t allRuns() const { return runs * conditions.size(); }
+  bool hasTeamPrograms() const { return std::ranges::any_of(conditions, &Condition::teamPrograms); }
 };
 
 /// Which run a number is; numbers go from 1 to allRuns().
@@ -144,7 +190,8 @@ std::uint64_t seedOf(const Experiment& experiment, const RunPlace& run);
 /// What is different from the file, as a command line says it.
 struct ExperimentChanges {
   std::optional<std::uint64_t> seed;
-  std::optional<std::size_t> runs;
+  std::optional<std::size_t> runs;       ///< of each condition
+  std::optional<std::size_t> matches{};  ///< of each pairing of a tournament
 };
 
 struct ExperimentName {

@@ -3,10 +3,10 @@
 
 // The folder of an experiment's results. While it is played it holds experiment.json (the file with
 // its scenario inside) and runs.jsonl, a line for each run that has ended; when all are there, also
-// runs.csv, summary.json, report.md, report.html and junit.xml. Those files depend on the
-// experiment only: not on the order of runs, threads, interruptions, shards, clock or folder. How
-// fast runs with separate processes were played differs every time, and stands in times.csv. One
-// thread at a time; a second program that opens the folder is refused.
+// runs.csv, summary.json, report.md, report.html and junit.xml; of a tournament table.csv, too.
+// Those files depend on the experiment only: not on the order of runs, threads, interruptions,
+// shards, clock or folder. How fast runs with separate processes were played differs every time,
+// and stands in times.csv. One thread at a time; a second program that opens the folder is refused.
 
 #include <optional>
 #include <string>
@@ -43,6 +43,8 @@ class ExperimentFolder {
   Result<void> finish();
 
  private:
+  friend Result<void> markUnrepeatable(const std::string& folder, const Experiment& experiment,
+                                       std::size_t number);
   friend Result<ExperimentFolder> mergeFolders(const std::vector<std::string>& parts,
                                                const std::string& into,
                                                const Experiment& experiment);
@@ -68,6 +70,10 @@ Result<ResultTable> resultsOf(const std::string& folder, const Experiment& exper
 /// One run; NotFound when it has not been played.
 Result<RunResult> resultOf(const std::string& folder, const Experiment& experiment,
                            std::size_t number);
+/// Marks a run of a folder as one that does not repeat, because it ended differently when it was
+/// played again, and writes the tables and reports anew. Conflict while a program plays into it.
+Result<void> markUnrepeatable(const std::string& folder, const Experiment& experiment,
+                              std::size_t number);
 /// Joins the folders of shards into a new one. Error Conflict for folders of different experiments,
 /// and where one run has two results.
 Result<ExperimentFolder> mergeFolders(const std::vector<std::string>& parts,

@@ -12,6 +12,7 @@
 
 #include <robotlink/experiment/run_result.h>
 #include <robotlink/experiment/statistics.h>
+#include <robotlink/experiment/tournament.h>
 
 namespace pitchboard::link {
 
@@ -25,7 +26,12 @@ struct ResultTable {
     /// By metric, then by index of the run; NaN where there is none.
     std::vector<std::vector<double>> columns;
     std::vector<char> played;
-    std::map<std::string, std::size_t> ends;  ///< RunResult::endedBy -> how often
+    std::map<std::string, std::size_t> ends;  ///< MatchResult::endedBy -> how often
+    struct Outcome {
+      int goals = 0, goalsAgainst = 0;  ///< of the experiment's team
+      bool repeatable = true;
+    };
+    std::vector<Outcome> outcomes;  ///< by index of the run
     struct Drawn {
       std::size_t number = 0;
       std::string endedBy;
@@ -33,6 +39,7 @@ struct ResultTable {
     };
     std::vector<Drawn> drawn;  ///< in order of number
     std::size_t count() const;
+    std::size_t countUnrepeatable() const;
   };
   std::vector<OfCondition> conditions;
 };
@@ -41,6 +48,7 @@ struct ConditionSummary {
   std::string name;
   std::size_t runs = 0;
   std::map<std::string, std::size_t> ends;
+  std::size_t unrepeatable = 0;  ///< runs that would end differently when played again
   std::vector<Summary> metrics;
 };
 
@@ -69,6 +77,8 @@ struct ExperimentSummary {
   std::vector<ConditionDifference> differences;  ///< each condition against the first
   std::vector<GivenComparison> comparisons;
   std::vector<CheckedAssertion> assertions;
+  std::optional<TournamentTable> tournament{};
+  /// Every assertion does, and nothing went wrong in a match of a tournament.
   bool holds() const;
 };
 

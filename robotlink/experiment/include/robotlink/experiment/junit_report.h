@@ -2,8 +2,8 @@
 #pragma once
 
 // Assertions as JUnit XML, which continuous integration reads: a test suite for each condition of
-// an experiment, a test for each of its assertions; a suite with an error for a file that could not
-// be read or played. Pure; any thread.
+// an experiment (one for a tournament), a test for each of its assertions; a suite with an error
+// for a file that could not be read or played. Pure; any thread.
 
 #include <span>
 #include <string>

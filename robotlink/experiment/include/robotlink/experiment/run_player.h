@@ -26,7 +26,8 @@ class RunMeasure;
 struct PlaySettings {
   std::string robotProgram;  ///< pitchboard-robot, for separate processes
   /// Where playRuns() puts sessions of runs that cannot be played again because a team's own
-  /// programs play in them: the results folder, and the name and version for the files.
+  /// programs play in them: the results folder, and the name and version for the files, also of
+  /// recordAgain().
   std::string folder{}, program{};
   /// Set by anybody: runs that are being played end without a result.
   const std::atomic<bool>* cancelled = nullptr;
@@ -50,7 +51,7 @@ class RunPlayer {
   double wallSeconds() const { return m_wall; }
   double simulatedSeconds() const { return m_simulated; }
   /// How many times as fast as real time the last run was played, once its programs were there;
-  /// nothing unless they are separate processes.
+  /// nothing unless they are separate processes or a team's own.
   std::optional<double> timesRealTime() const { return m_timesRealTime; }
 
  private:
@@ -66,6 +67,12 @@ class RunPlayer {
   double m_wall = 0.0, m_simulated = 0.0;
   std::optional<double> m_timesRealTime;
 };
+
+/// A run of a results folder, played again into a session file. Error Conflict if a run that the
+/// results call repeatable ends in another state: they say so from then on.
+Result<RunResult> recordAgain(const std::string& folder, const Experiment& experiment,
+                              std::size_t number, const std::string& path,
+                              const PlaySettings& settings);
 
 struct PlayedRun {
   RunResult result;

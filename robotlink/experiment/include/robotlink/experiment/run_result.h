@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What one run of an experiment gave: a value for each metric, how it ended, its state hash, and
-// for the first runs of a condition the ways on the field. Plain values. Metres, seconds.
+// What one run of an experiment gave: a value for each metric, how it ended for its teams, its
+// state hash, and for the first runs of a condition the ways on the field. Plain values. Metres,
+// seconds.
 
 #include <cstdint>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include <base/geometry.h>
 #include <robotlink/experiment/experiment.h>
+#include <robotlink/frame/match_result.h>
 
 namespace pitchboard::link {
 
@@ -36,8 +38,8 @@ struct RunPath {
 struct RunResult {
   std::size_t number = 1;
   std::uint64_t seed = 0;
-  std::string endedBy;  ///< "goal", "goal_against", "ball_out", "fell", "stuck", "time",
-                        ///< "full_time"
+  /// endedBy: "goal", "goal_against", "ball_out", "fell", "stuck", "time" or "full_time".
+  MatchResult match;
   std::uint64_t ticks = 0;
   std::uint64_t hash = 0;      ///< of the last state
   std::vector<double> values;  ///< NaN: there is none, such as the time to a goal without one

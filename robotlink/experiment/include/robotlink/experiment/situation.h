@@ -2,7 +2,7 @@
 #pragma once
 
 // A moment as a test: the scenario that starts from it, and what must hold in some runs of it. The
-// file is an experiment like any other (docs/EXPERIMENTS.md). Plain values; any thread. Metres,
+// file is an experiment like any other (docs/experiments.md). Plain values; any thread. Metres,
 // seconds, degrees as in the file.
 
 #include <span>

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <base/geometry.h>
-#include <base/ids.h>
+#include <simcore/world/team_color.h>
 #include <telemetry/wire/gamecontroller.h>
 #include <telemetry/wire/link_health.h>
 

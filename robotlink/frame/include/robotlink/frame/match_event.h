@@ -28,6 +28,8 @@ enum class MatchEventKind : std::uint8_t {
   Fall,                ///< robot
   GotUp,               ///< robot
   UnknownAction,       ///< robot; value: the code
+  BallSeen,            ///< robot; after it was lost
+  BallLost,            ///< robot; not seen for BallSight::lostAfter
   GameState,           ///< detail: "PLAYING"; value: seconds left, where there is a clock
   MatchOver,           ///< detail: the scenario's stop condition that is met
   Half,                ///< value: 1 or 2
@@ -56,13 +58,14 @@ enum class MatchEventKind : std::uint8_t {
   ProcessGivenUp,      ///< robot, process; it ends again and again and is not started any more
   ProcessRealTime,     ///< robot, process; it does not follow the match's speed; detail: why
   ProcessNotAttached,  ///< robot, process; the match does not wait for it; detail: how long it has
+  CycleLate,           ///< robot; its program did not finish a cycle in time; detail: for how long
   PortLost,            ///< value: the port; detail: why it cannot be received
   PortBack,            ///< value: the port
   Undone,              ///< what `cause` had led to before, all of it, was taken back
   Bookmark,            ///< detail: the user's note
   Other                ///< detail: what a later version, or a file of another one, calls it
 };
-inline constexpr std::size_t matchEventKindCount = 40;
+inline constexpr std::size_t matchEventKindCount = 43;
 
 /// Half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };
@@ -90,6 +93,7 @@ enum class EventShape : std::uint8_t {
   Kick,
   Fall,
   BallOut,
+  BallLost,
   GameState,
   Died,
   Started,
@@ -98,7 +102,7 @@ enum class EventShape : std::uint8_t {
   Warning,
   Bookmark
 };
-inline constexpr std::size_t eventShapeCount = 12;
+inline constexpr std::size_t eventShapeCount = 13;
 
 struct MatchEventInfo {
   MatchEventKind kind;

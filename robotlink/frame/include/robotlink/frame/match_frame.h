@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a person sees of a match at one moment, whatever its source: simulated, live or recorded.
-// Plain values; frames are immutable once handed out.
+// Everything that is shown of a match at one moment, whether simulated, live or recorded. Plain
+// values; frames are immutable once they are published, and any thread may read them.
 
 #include <algorithm>
 #include <cstdint>
@@ -25,10 +25,10 @@
 
 namespace pitchboard::link {
 
-/// Where a frame comes from. The same values everywhere; what is not known says so.
+/// The source of a frame.
 enum class FrameOrigin : std::uint8_t { Simulated, Live, Recorded };
 
-/// What hardly ever changes while a match goes on: its frames share one value.
+/// Facts that seldom change during a match; its frames share one value.
 struct FrameSettings {
   sim::FieldSpec field;
   sim::NoiseParameters noise;
@@ -47,56 +47,57 @@ struct RefereeDesk {
 
 struct MatchFrame {
   FrameOrigin origin = FrameOrigin::Simulated;
-  /// False: nobody knows the true poses. The robots' poses are then what they believe.
+  /// False if the true poses are unknown. The robots' poses are then what they believe.
   bool truthKnown = true;
-  bool ballKnown = true;     ///< false: snapshot.ball means nothing
-  std::uint64_t serial = 0;  ///< grows with every frame
+  bool ballKnown = true;     ///< false: ignore snapshot.ball
+  std::uint64_t serial = 0;  ///< increases with every frame
   sim::GameSnapshot snapshot;
   std::vector<RobotFrame> robots;
-  Teams teams;                                     ///< what RobotKey::team counts
-  std::vector<telemetry::RobotDrawings> drawings;  ///< of the robots' programs (docs/DRAWINGS.md)
-  std::string drawingProblem;                      ///< why the last one was not drawn; or empty
-  std::optional<RefereeView> referee;              ///< once one was heard
-  std::string refereeRules;                 ///< of a simulated match; empty: without a referee
-  std::shared_ptr<const RefereeDesk> desk;  ///< null: nobody can call
-  std::vector<TeamBall> teamBalls;          ///< of teams of which at least two robots agree
+  Teams teams;                                     ///< the table that RobotKey::team refers to
+  std::vector<telemetry::RobotDrawings> drawings;  ///< drawings of robots (docs/drawings.md)
+  std::string drawingProblem;                      ///< why the last drawing was refused; or empty
+  std::optional<RefereeView> referee;              ///< once a referee was received
+  std::string refereeRules;  ///< rule set of a simulated match; empty without referee
+  std::shared_ptr<const RefereeDesk> desk;  ///< null if calls are not possible
+  std::vector<TeamBall> teamBalls;          ///< of teams in which at least two robots agree
   double speed = 0.0;             ///< simulated seconds per second, measured over the last second
   double ticksPerSecond = 0.0;    ///< measured
   double tickMicroseconds = 0.0;  ///< mean time of a tick, measured
   bool paused = false;
-  bool finished = false;  ///< a stop condition of the scenario is met; it stands still
+  bool finished = false;  ///< a stop condition is met; the match has stopped
   std::shared_ptr<const FrameSettings> settings =
       std::make_shared<const FrameSettings>();  ///< never null
-  /// Of a match that shares blackboards with other programs of this computer.
+  /// True if other programs of this computer share the blackboards.
   std::optional<int> matchNumber;
-  /// What the slowest of a team's own programs manages, times real time; nothing: all keep up.
+  /// Speed of the slowest team program, times real time; nothing if all keep up.
   std::optional<double> slowestTeamProgram;
-  bool inLockStep = true;           ///< separate reference processes are waited for in every tick
+  bool nobodyPlays = false;         ///< SimulatedMatch::nobodyPlays()
+  bool inLockStep = true;           ///< the match waits for separate processes in every tick
   std::string finishedBy;           ///< "goal", "ball_out", "duration"; empty unless finished
-  std::uint64_t droppedEvents = 0;  ///< nobody took them in time
+  std::uint64_t droppedEvents = 0;  ///< events that nobody took in time
   std::uint64_t droppedLogLines = 0;
 
-  /// This robot; null when it is not there.
+  /// Returns this robot, or null.
   const RobotFrame* robot(const RobotKey& key) const {
     const auto found = std::ranges::find(robots, key, &RobotFrame::key);
     return found == robots.end() ? nullptr : &*found;
   }
-  /// The robot of a simulated match with this blackboard; null when it is not there.
+  /// Returns the robot of a simulated match with this blackboard, or null.
   const RobotFrame* robot(RobotId slot) const {
     const auto found = std::ranges::find(robots, slot, &RobotFrame::slot);
     return found == robots.end() ? nullptr : &*found;
   }
-  /// This key, or the next sender's that no robot has.
+  /// Returns this key, or the next one with a free sender.
   RobotKey freeKey(RobotKey key) const {
     while (robot(key) != nullptr) ++key.sender;
     return key;
   }
-  /// Puts the robots in the order in which they are listed.
+  /// Sorts the robots in the order of lists.
   void sortRobots() {
     std::ranges::stable_sort(robots, {},
                              [this](const RobotFrame& robot) { return orderOf(robot.key, teams); });
   }
-  /// For orders to robots of a simulated match: their slots, without those that are not there.
+  /// Returns the slots of these robots of a simulated match; missing robots are left out.
   std::vector<RobotId> slotsOf(const std::vector<RobotKey>& keys) const {
     std::vector<RobotId> found;
     for (const RobotKey& key : keys) {

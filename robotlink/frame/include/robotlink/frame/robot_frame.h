@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// All that is known of one robot at one moment, whatever its source: how it stands, what it
-// believes and sees, how it is heard, what it has in mind, which of its processes run. Plain values
-// in metres, radians and seconds; what nobody knows is empty.
+// Everything that is known of a robot at one moment, whatever the source: pose, belief, what it
+// sees, its link, cognition debug data, processes. Plain values in metres, radians and seconds;
+// unknown values are empty. Any thread.
 
 #include <array>
 #include <chrono>
@@ -21,63 +21,63 @@
 
 namespace pitchboard::link {
 
-/// One of the processes that were started for a robot.
+/// A process that was started for a robot.
 struct ProcessSummary {
-  int id = 0;        ///< for orders to it
+  int id = 0;        ///< identifies it in orders
   std::string name;  ///< "decision"
   ProcessState state = ProcessState::Waiting;
-  int pid = 0;  ///< 0 while it does not run
+  int pid = 0;  ///< process number; 0 while it does not run
   int restarts = 0;
-  std::string detail;                               ///< how it ended, why it does not run
-  std::vector<std::string> lastLines;               ///< the newest last
-  std::chrono::steady_clock::time_point started{};  ///< the last time
-  double cpu = 0.0;                                 ///< share of a core, of the last second
+  std::string detail;                               ///< how it ended, or why it does not run
+  std::vector<std::string> lastLines;               ///< last output, the newest line last
+  std::chrono::steady_clock::time_point started{};  ///< when it was last started
+  double cpu = 0.0;                                 ///< share of a core in the last second
   std::uint64_t memoryBytes = 0;
-  std::optional<double> heartbeatAge{};  ///< s since a sign of life; nothing: nobody watches
-  bool foreign = false;                  ///< a program of the team
-  double speed = 0.0;                    ///< times real time, that it is to keep; 0: ours
-  double achieved = 0.0;                 ///< what it manages of that; 0: not known yet
-  std::string whyRealTime;               ///< why its clocks do not follow the match; empty: they do
-  std::uint64_t missedCycles = 0;        ///< of a team's program that could not keep up
+  std::optional<double> heartbeatAge{};  ///< s since the last sign of life; nothing if unwatched
+  bool foreign = false;                  ///< it is a team program
+  double speed = 0.0;                    ///< speed that it should keep, times real time; 0: ours
+  double achieved = 0.0;                 ///< speed that it reaches; 0 if not known yet
+  std::string whyRealTime;               ///< why its clocks keep real time; empty if they do not
+  std::uint64_t missedCycles = 0;        ///< cycles that a team program missed
   bool operator==(const ProcessSummary&) const = default;
 };
 
 /// A ball as a robot sees it.
 struct SeenBall {
-  Point place;            ///< on the field, from where it believes to stand
+  Point place;            ///< on the field, seen from the believed pose
   double distance = 0.0;  ///< m
-  double bearing = 0.0;   ///< rad, left of its nose
+  double bearing = 0.0;   ///< rad, left positive
   bool operator==(const SeenBall&) const = default;
 };
 
-/// What stands on a received blackboard.
+/// The content of a received blackboard.
 struct BoardContents {
-  std::shared_ptr<const std::vector<std::string>> names;  ///< null: none is received
-  std::vector<double> values;  ///< of each name; exact for every int32 and float32
+  std::shared_ptr<const std::vector<std::string>> names;  ///< null if none is received
+  std::vector<double> values;  ///< one per name; exact for every int32 and float32
 };
 
-/// What is known of a robot besides where it truly is (buildRobot()).
+/// What is known of a robot besides its true pose; made by buildRobot().
 struct RobotView {
-  /// Where it believes to stand. Of a robot whose true pose is known: while its localization works.
+  /// Believed pose. If the true pose is known, only while localization works.
   std::optional<Pose> belief;
-  std::optional<double> sigma;                ///< m, of the belief
-  std::optional<SeenBall> ball;               ///< nothing while it is not heard any more
+  std::optional<double> sigma;                ///< m, uncertainty of the belief
+  std::optional<SeenBall> ball;               ///< nothing while the robot is offline
   std::optional<int> decided;                 ///< DECISION_ACTION_A
-  std::optional<telemetry::Battery> battery;  ///< nothing: it tells no voltage
+  std::optional<telemetry::Battery> battery;  ///< nothing if it sends no voltage
   /// Communication (of a simulated robot) or control, vision, localization, decision, IMU.
   std::array<telemetry::ProcessHeartbeat, telemetry::processCount> lamps{};
-  std::optional<telemetry::LinkHealth> link;  ///< of one that is heard, or whose blackboard is read
-  std::optional<Penalty> penalty;             ///< as its referee says
-  std::vector<ReceivedValue> values;          ///< of its message: all, in their order
-  std::optional<int> boardKey;                ///< of its blackboard: System V key, 0: heap
-  BoardContents board;                        ///< of one that is attached, or sent by its robot
+  std::optional<telemetry::LinkHealth> link;  ///< of a live or attached robot
+  std::optional<Penalty> penalty;             ///< from the referee
+  std::vector<ReceivedValue> values;          ///< all values of its message, in order
+  std::optional<int> boardKey;                ///< key of its blackboard; 0: on the heap
+  BoardContents board;                        ///< if attached, or sent by its robot
   std::string behaviour;
-  std::string ownName;    ///< what its team calls it (team setups)
-  std::string runtime;    ///< who runs, as it was chosen for it; empty: nothing was
-  bool ofOthers = false;  ///< its processes were started by somebody else, if by anybody
+  std::string ownName;    ///< its name in the team setup
+  std::string runtime;    ///< the runtime that was chosen for it; may be empty
+  bool ofOthers = false;  ///< its processes, if any, were not started by us
   std::optional<CognitionDebug>
-      cognitionDebug;  ///< of one that tells it (MatchOptions::cognitionDebug)
-  /// Shared by many frames: processes seldom change. Read with processes().
+      cognitionDebug;  ///< particles and path, if it sends them (MatchOptions::cognitionDebug)
+  /// Shared by many frames, because processes seldom change. Read it with processes().
   std::shared_ptr<const std::vector<ProcessSummary>> processList;
 
   /// Those that were started for it, in order.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Robots whose blackboard lies on this computer: any System V segment, looked at and never written,
-// each sampled by a thread of its own at its own rate, at fixed times. LiveWatch shows them as it
-// shows robots that are heard; beside a simulated match they are rows. A segment that is removed is
-// said, and taken up when it comes again.
+// Robots whose blackboard is on this computer: any System V segment, which is only read. A thread
+// of its own samples each at a fixed rate. LiveWatch shows them like robots on the network; beside
+// a simulated match they are rows. If a segment is removed this is reported, and sampling continues
+// when it exists again.
 
 #include <algorithm>
 #include <cstdint>
@@ -25,8 +25,8 @@ namespace pitchboard::link {
 struct AttachedBoard {
   static constexpr double slowest = 0.1, fastest = 1000.0;
   int key = 100;
-  std::string catalogFile;  ///< empty: the published map
-  std::size_t bytes = 0;    ///< of the segment; 0: as the catalog says
+  std::string catalogFile;  ///< variable map; empty: the published one
+  std::size_t bytes = 0;    ///< size of the segment; 0: as the catalog says
   int robot = 0;            ///< number on the shirt; 0: key / 100
   double rate = 60.0;       ///< samples per second
   TeamColor team = TeamColor::Blue;
@@ -34,19 +34,19 @@ struct AttachedBoard {
   int number() const { return robot > 0 ? robot : std::max(1, key / 100); }
 };
 
-/// "100,catalog=FILE,size=4096,robot=3,rate=100,team=red". Errors name the part.
+/// Reads "100,catalog=FILE,size=4096,robot=3,rate=100,team=red". Errors name the wrong part.
 Result<AttachedBoard> parseAttachedBoard(std::string_view text);
-/// Text that parseAttachedBoard() reads back, if the catalog's path has no comma.
+/// Returns a text that parseAttachedBoard() reads back, if the catalog's path has no comma.
 std::string attachedBoardText(const AttachedBoard& board);
-/// Refuses a number out of range, two boards of one key, and a catalog that cannot be read.
+/// Fails for a number out of range, two boards with one key, or a catalog that cannot be read.
 Result<void> validate(const std::vector<AttachedBoard>& boards);
 
-/// Names of their groups of rows, as a simulation would call the robots ("B3"); of two with one
-/// name the second one has its key behind it. So has one whose name is among `taken`.
+/// Returns the names of their groups, as in a simulation ("B3"). If a name occurs twice or is among
+/// `taken`, the key is appended.
 std::vector<std::string> boardNames(const std::vector<AttachedBoard>& boards,
                                     const std::vector<std::string>& taken = {});
 
-/// How a robot is heard whose blackboard is read `rate` times a second; `gone`: it was removed.
+/// Returns the link of a robot whose blackboard is read `rate` times a second, or is `gone`.
 telemetry::LinkHealth boardLink(double age, double rate, bool gone);
 
 /// A sample of a blackboard, as RowView.
@@ -56,21 +56,21 @@ struct BoardRow {
   std::vector<double> values{};
 };
 
-/// How one board is doing.
+/// The state of one board.
 struct AttachedStatus {
   AttachedBoard board;
   bool attached = false;
-  std::string problem;  ///< why it is not attached; empty when it is
+  std::string problem;  ///< why it is not attached; empty if it is
   std::uint64_t samples = 0, missed = 0;
-  double rate = 0.0;  ///< samples per second reached over the last second
+  double rate = 0.0;  ///< samples per second, measured over the last second
 };
 
-/// Takes the rows of a board; called with each batch.
+/// Takes the rows of a board; called for each batch.
 using BoardRowsTaker =
     std::function<void(const telemetry::GroupInfo& group, std::span<const BoardRow> rows)>;
 
-/// Where attached blackboards are shown: as robots of Live, or as rows beside those of a simulated
-/// match, of whose robots they are none.
+/// How attached blackboards are shown: as robots of Live, or as rows beside a simulated match, to
+/// whose robots they do not belong.
 enum class AttachedTo : std::uint8_t { Live, Match };
 
 class AttachedRobots {
@@ -80,12 +80,12 @@ class AttachedRobots {
                           VariableCatalog catalog = VariableCatalog::published());
   ~AttachedRobots();
 
-  /// Attaches these and no others; a board that stays as it is goes on. They must be valid.
-  /// `taken`: names that their groups must not have.
+  /// Attaches exactly these valid boards; unchanged ones continue.
+  /// `taken` are names that their groups must not have.
   void set(const std::vector<AttachedBoard>& boards, const std::vector<std::string>& taken = {});
-  /// Each board that was ever attached as a robot, for joinBoards(), with the name of its group.
+  /// Returns each board that was ever attached as a robot, with the name of its group.
   std::vector<RobotFrame> robots(const sim::FieldSpec& field) const;
-  /// The rows since the last call.
+  /// Returns the rows since the last call.
   void takeRows(const BoardRowsTaker& take);
   std::vector<AttachedStatus> status() const;
 
@@ -97,7 +97,7 @@ class AttachedRobots {
   std::vector<std::unique_ptr<Reader>> m_readers;
 };
 
-/// Puts rows of boards into a sink; a group for each board.
+/// Passes rows of boards to a sink, with a group per board.
 class BoardRowKeeper {
  public:
   explicit BoardRowKeeper(std::shared_ptr<telemetry::RowSink> sink) : m_sink(std::move(sink)) {}

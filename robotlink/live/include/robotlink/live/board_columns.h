@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A blackboard as a row: the variables of a catalog as columns (ints by index, then floats by
-// index), with unit, category and words from resources/variables.json.
+// Converts a blackboard to a row: the variables of a catalog become columns (ints by index, then
+// floats by index), with unit, category and texts from resources/variables.json.
 
 #include <array>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace pitchboard::link {
 
-/// A value that does not change; any thread.
+/// An immutable value; any thread.
 class BoardColumns {
  public:
   explicit BoardColumns(const VariableCatalog& catalog) : BoardColumns(catalog.variables()) {}
@@ -23,13 +23,13 @@ class BoardColumns {
 
   const std::vector<telemetry::ColumnInfo>& columns() const { return m_columns; }
   std::size_t size() const { return m_words.size(); }
-  /// The words of the columns, in their order; `out` has size() words. A float that says "not seen"
-  /// (VariableMeanings::absent) is NaN, so that it is a hole in every curve.
+  /// Reads the words of the columns into `out`, which has size() words. A float that means "not
+  /// seen" (VariableMeanings::absent) becomes NaN, so that every curve has a gap.
   void read(const Blackboard& board, std::span<std::uint32_t> out) const;
   /// The same for words that were read elsewhere.
   void makeHoles(std::span<std::uint32_t> words) const;
-  /// What stood on the blackboard where the row of a float has this word: a hole is "not seen"
-  /// again, every other word is itself.
+  /// Converts a word of a float column back to the blackboard: NaN becomes "not seen", every other
+  /// word is unchanged.
   static std::uint32_t boardWord(std::string_view name, std::uint32_t word);
 
  private:

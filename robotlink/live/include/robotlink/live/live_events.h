@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <robotlink/frame/ball_sight.h>
 #include <robotlink/live/live_watch.h>
 
 namespace pitchboard::link {
@@ -31,6 +32,7 @@ class LiveEvents {
     std::optional<Penalty> penalty;
     bool batteryLow = false;
     double lowFraction = 0.0;  // when it became low
+    BallSight ball;
   };
   void compareReferee(const RefereeView& now, double time, std::vector<MatchEvent>& out);
   void compareRobot(const RobotFrame& received, double time, std::vector<MatchEvent>& out);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one path of a live match from datagrams and samples of blackboards to robots, events, health,
-// drawings and rows. The watch feeds it from sockets, the command line also from files. It has no
-// thread, no socket and no clock; times are seconds since a moment of the source. Not thread-safe.
+// The path of a live match from datagrams and samples of blackboards to robots, events, link
+// health, drawings and rows. LiveWatch feeds it from sockets, the command line also from files. It
+// has no thread, socket or clock; times are seconds since a moment of the source. Not thread-safe.
 
 #include <map>
 #include <memory>
@@ -21,7 +21,7 @@
 
 namespace pitchboard::link {
 
-/// Hands rows to any number of sinks. Each one learns of a group with its first row.
+/// Passes rows to any number of sinks. A group is added to a sink with its first row.
 class RowFan : public telemetry::RowSink {
  public:
   void add(std::shared_ptr<telemetry::RowSink> sink) { m_sinks.push_back({std::move(sink), {}}); }
@@ -45,28 +45,28 @@ class RowFan : public telemetry::RowSink {
 
 class LivePipeline {
  public:
-  /// `zero`: the moment that counts as 0 s. The options must be valid.
+  /// `zero` is the moment that counts as 0 s. The options must be valid.
   LivePipeline(LiveOptions options, telemetry::WallTime zero);
 
   const LiveOptions& options() const { return m_options; }
-  /// Robots and counters stay.
+  /// Changes the options; robots and counters are kept.
   void setOptions(LiveOptions options, telemetry::WallTime now);
   /// Forgets robots, referee and counters.
   void clear(telemetry::WallTime now);
-  /// Forgets one robot, or one of two programs that send its number.
+  /// Forgets a robot, or one of two programs with its number.
   void forget(const RobotKey& robot, telemetry::WallTime now);
 
-  /// A datagram of any port; the port says whether it is the referee's.
+  /// Takes a datagram. The port decides whether it comes from the referee.
   void take(const telemetry::DatagramView& datagram);
-  /// The frame of this moment, with the robots of `boards`, whose rows are taken.
+  /// Returns the frame of this moment. The robots of `boards` are added, and their rows taken.
   MatchFrame frame(telemetry::WallTime now, AttachedRobots* boards = nullptr);
-  /// By how much the computer's clock was set since the beginning, and how the ports are doing.
+  /// Takes by how much the computer's clock was set since the beginning, and the ports' states.
   void noticeClock(telemetry::Duration setBy, double time);
   void noticePorts(const telemetry::ReceiverStatus& network, double time);
 
-  /// What is new since the last call; without the frame.
+  /// Returns what is new since the last call, without the frame.
   LiveNews takeNews() { return std::exchange(m_news, {}); }
-  /// What the pipeline knows; the watch adds what it knows.
+  /// Returns the status that the pipeline knows; the watch completes it.
   LiveDetails details(telemetry::WallTime now) const;
 
   void observe(std::shared_ptr<LiveObserver> observer, telemetry::WallTime now);

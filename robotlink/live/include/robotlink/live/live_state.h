@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// All that frames of a live match are made of: what is known of robots and referee, as the
-// datagrams so far say it. The watch keeps such books; written into a session from time to time
-// they let a recording show every moment as it was seen, because the same datagrams then make the
-// same frames. Not thread-safe; a plain value for its owner.
+// The complete state from which frames of a live match are made: what is known of robots and
+// referee after the datagrams so far. Sessions store it from time to time, so that a recording
+// shows every moment as it was, because the same datagrams then make the same frames. A plain
+// value, not thread-safe.
 
 #include <map>
 #include <memory>
@@ -24,35 +24,35 @@ struct LiveState {
   telemetry::TeamMonitor monitor;
   telemetry::RefereeTracker referee;
   telemetry::DrawingStore drawings;
-  /// Who drew the datagram that was taken last; empty: nobody that can be shown.
+  /// Returns the robot whose drawing was taken last; empty if it cannot be shown.
   std::optional<RobotKey> lastDrawer;
 
-  /// As MonitorOptions, and what is drawn goes on with its robot: monitor.renamings().
+  /// Changes the monitor's options; drawings follow their robots: monitor.renamings().
   void setTeams(const telemetry::MonitorOptions& options);
-  /// A datagram of a robot's port, that came so many seconds after the watch began: its drawing and
-  /// its message. Nothing: it had no message.
+  /// Takes a datagram of a robot's port that arrived at this time (s since the watch began), with
+  /// its drawing and message. Returns nothing if it had no message.
   std::optional<telemetry::TeamMonitor::Verdict> takeRobot(const telemetry::DatagramView& datagram,
                                                            double time);
   static telemetry::RefereeTracker::Options refereeOptions(const LiveOptions& options);
-  /// A datagram of the referee's port that decoded to this.
+  /// Takes a decoded datagram of the referee's port.
   void takeReferee(const telemetry::RefereePacket& packet, const telemetry::DatagramView& datagram);
-  /// The frame of this moment, all but its serial; `time`: seconds since the watch began.
+  /// Returns the frame at `time` (s since the watch began), without serial.
   MatchFrame frame(const LiveOptions& options, const telemetry::TeamStatus& team,
                    double time) const;
-  /// As they are known by now.
+  /// Returns the teams as they are known now.
   Teams teams(const LiveOptions& options) const;
   /// Forgets robots, referee and counters.
   void clear(const LiveOptions& options);
 
-  /// As a JSON object with "time", the books and those options that frames depend on.
+  /// Returns a JSON object with "time", the state, and the options on which frames depend.
   std::string text(const LiveOptions& options, double time, telemetry::WallTime zero) const;
-  /// Books and options of a text; `zero` may be another one than when it was written, if the times
-  /// that follow count from it as well. Error ParseError.
+  /// Restores state and options from a text. `zero` may differ from that of the text, if all later
+  /// times count from it. Fails with ParseError.
   struct Read;
   static Result<Read> read(std::string_view json, telemetry::WallTime zero);
 
  private:
-  /// Datagrams after which the tracker is as it is now.
+  /// Datagrams that bring the tracker into its present state.
   struct Kept {
     telemetry::WallTime time;
     telemetry::Sender sender;

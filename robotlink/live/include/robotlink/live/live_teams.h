@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What Live makes of team setups: whose a robot is, in which colour, under which name its rows
-// stand, and in which units its blackboard variables are. Pure functions; any thread.
+// Applies team setups in Live: the team and colour of a robot, the name of its group of rows, and
+// the units of its blackboard variables. Pure functions; any thread.
 
 #include <map>
 #include <optional>
@@ -14,26 +14,26 @@
 
 namespace pitchboard::link {
 
-/// Field and units of variables, for decoders.
+/// Returns the field and the units of variables, for decoders.
 telemetry::Surroundings surroundingsOf(const sim::FieldSpec& field);
 
-/// The options of the monitor with the field of Live in them.
+/// Returns the options of the monitor, with the field of Live.
 telemetry::MonitorOptions monitorOptions(const LiveOptions& options);
 
-/// Chooses our team by what a person typed: the referee's number ("12"; "0": none) or a colour
-/// ("red"). Error InvalidArgument.
+/// Chooses our team by text: a number in the GameController ("12"; "0": none) or a colour ("red").
+/// Fails with InvalidArgument.
 Result<void> chooseOurTeam(LiveOptions& options, std::string_view text);
-/// The referee's number of our team, chosen by number or colour; 0: not known.
+/// Returns our team's number in the GameController, chosen by number or colour; 0 if unknown.
 int ourNumber(const LiveOptions& options, const telemetry::RefereeState* referee);
-/// Who plays, as setups and the referee say it; null: none was heard.
+/// Returns the teams, as setups and referee (null: none) name them.
 Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee);
 
-/// The colour that a robot is drawn in; one is chosen where nobody knows it.
+/// Returns the colour in which a robot is drawn; one is chosen if it is unknown.
 TeamColor drawnColour(const LiveOptions& options, const RobotKey& robot, const Teams& teams);
-/// What its team calls it; empty: nothing.
+/// Returns the name that its team gives it; may be empty.
 std::string ownNameOf(const LiveOptions& options, const RobotKey& robot);
 
-/// How the groups of rows are called and described; `boards`: LiveRowsOptions::boards.
+/// Returns how groups of rows are named and described; `boards` as in LiveRowsOptions.
 telemetry::LiveRowsOptions rowsOptions(const LiveOptions& options, Teams teams,
                                        telemetry::WallTime zero,
                                        std::map<RobotKey, std::string> boards = {});

@@ -35,7 +35,7 @@ struct LiveOptions {
   int portBase = 1240;        ///< robot n sends to portBase + n
   int robots = 16;            ///< ports after the base
   int refereePort = 3838;
-  /// Robot n sends its variables to this port + n (docs/AGENT.md); 0: none are received.
+  /// Robot n sends its variables to this port + n (docs/agent.md); 0: none are received.
   int variablesPortBase = telemetry::pb2PortBase;
   int refereeVersion = 0;                    ///< the only one to be shown; 0: the highest
   telemetry::SenderFilter refereeSenders{};  ///< who may be the referee; the robots' is in `team`

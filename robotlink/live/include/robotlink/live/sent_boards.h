@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Blackboards that robots send (pitchboard-agent, docs/AGENT.md): variables come one by one, late,
+// Blackboards that robots send (pitchboard-agent, docs/agent.md): variables come one by one, late,
 // twice or not at all; here they become samples again, with our times. Part of a LivePipeline, on
 // its thread.
 

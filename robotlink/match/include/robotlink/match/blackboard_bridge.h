@@ -10,15 +10,15 @@
 
 namespace pitchboard::link {
 
-/// Stateless but for the variable map; one may serve many robots. Call from the simulation thread.
+/// Stateless except for the map of variables, so one can serve many robots. Match thread only.
 class BlackboardBridge {
  public:
   explicit BlackboardBridge(const RobotVariables& variables) : m_variables(variables) {}
 
   sim::RobotCommand read(const Blackboard& board) const;
 
-  /// In the published order: control and IMU, landmark vision, ball and robot vision. A finished
-  /// action is cleared only if it still stands, so that a newer one is never lost.
+  /// Writes in the published order: control and IMU, landmark vision, ball and robot vision. It
+  /// clears a finished action only if that is still there, so that a newer one is never lost.
   void publish(const sim::Percepts& percepts, Blackboard& board) const;
   // publish() = publishBody() + publishSight(); conformance runs look at the blackboard in between.
   void publishBody(const sim::Percepts& percepts, Blackboard& board) const;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What programs of this computer draw on the field of a simulated match: datagrams to the match's
-// drawing port on 127.0.0.1 (docs/DRAWINGS.md), stamped with the match's time. It changes nothing
-// in the match. Owned by the SimulatedMatch, on its thread; the socket has a thread of its own.
+// Receives the drawings of a simulated match: datagrams from programs on this computer to the
+// match's drawing port on 127.0.0.1 (docs/drawings.md), stamped with the match's time in s. It
+// never changes the match. SimulatedMatch owns and calls it; the socket has a thread of its own.
 
 #include <memory>
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace pitchboard::link {
 
-/// A datagram with a drawing in it, as it came.
+/// A datagram with a drawing, as it arrived.
 struct ReceivedDrawing {
   double time = 0.0;  ///< s of the match
   telemetry::Sender sender;
@@ -24,13 +24,13 @@ struct ReceivedDrawing {
 
 class MatchDrawings {
  public:
-  /// A port that is taken is tried again; problem() says so.
+  /// Starts receiving. If the port is in use, it is tried again, and problem() says so.
   explicit MatchDrawings(int port);
 
-  /// Takes what has come since the last call, as of this time; never waits.
+  /// Takes the datagrams since the last call and stamps them with this time. Never waits.
   void hear(double time, std::vector<ReceivedDrawing>& out);
   const telemetry::DrawingStore& store() const { return m_store; }
-  /// Why nothing is heard, or the last drawing was refused; empty: all is well.
+  /// Returns why nothing is received or the last drawing was refused; empty if all is well.
   const std::string& problem() const;
 
  private:

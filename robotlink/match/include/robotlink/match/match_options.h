@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How a match is to be played. Plain values.
+// How a match is played: who decides, at which speed. Plain values; any thread.
 
 #include <optional>
 #include <string>
@@ -14,11 +14,11 @@ namespace pitchboard::link {
 enum class Cognition {
   Separate,  ///< System V blackboards; the processes of every robot's runtime profile are started
   Inline,    ///< heap blackboards, reference processes inside this program, in lock-step
-  None       ///< System V blackboards, nothing started: every robot is somebody else's
+  None       ///< System V blackboards; nothing is started, the user starts all programs
 };
 
-/// How separate reference processes keep time with a match that is played at ×1. At every other
-/// speed, and for a single step, they go in lock-step.
+/// How separate reference processes run at ×1. At every other speed, and for a single step, they
+/// run in lock-step.
 enum class RobotsPace {
   LockStep,  ///< the match waits for them in every tick: the same result every time
   Free       ///< as on the field, jitter included
@@ -27,28 +27,28 @@ enum class RobotsPace {
 struct MatchOptions {
   Cognition cognition = Cognition::Inline;
   bool systemV = false;         ///< with Inline: System V blackboards, for watching
-  std::optional<int> match;     ///< number of the match; nothing: the next free one
-  std::optional<int> keyBase;   ///< key = this + 100 × robot number; nothing: the match's
-  std::string robotProgram;     ///< pitchboard-robot; needed where processes run separately
+  std::optional<int> match;     ///< number of the match; nothing: the next free number
+  std::optional<int> keyBase;   ///< key = this + 100 × robot number; nothing: from the match
+  std::string robotProgram;     ///< path of pitchboard-robot; needed for separate processes
   ProcessOptions process;       ///< for the processes; the ports are the match's
-  bool cognitionDebug = false;  ///< hear particles and paths, for display
+  bool cognitionDebug = false;  ///< receive particles and paths, for display
   RobotsPace pace = RobotsPace::LockStep;
-  /// Times real time, with which it begins; 0 = as fast as possible. MatchRunner plays at it,
-  /// others say it by setPlaying().
+  /// Initial speed, times real time; 0: as fast as possible. MatchRunner uses it; others call
+  /// setPlaying().
   double speed = 1.0;
-  /// The match slows down to what a team's own programs manage.
+  /// Slow the match down to what team programs manage.
   bool waitForTeamPrograms = true;
-  /// Reference processes are told where their team attacks; else they find out.
+  /// Tell reference processes where their team attacks; otherwise they find out.
   bool tellSides = true;
-  /// Of robots of which neither the scenario nor their behaviour says who runs.
+  /// The runtime of robots for which neither scenario nor behaviour names one.
   RuntimeChoice runtime;
-  /// With Inline: the referee of the match sends packets to process.refereePort of this computer,
-  /// as it always does where processes run separately.
+  /// With Inline: let the referee send packets to process.refereePort of this computer, as it
+  /// always does if there are separate processes or team programs.
   bool sendReferee = false;
-  /// Instead of its own referee, the match obeys a GameController that is heard on this port.
+  /// Obey a GameController that sends to this port, instead of the match's own referee.
   std::optional<int> obeyReferee;
-  /// Robots answer that GameController (RGrt), so that its screen shows them online: to this port
-  /// of its computer, or 0 for the port of the packets' version. Nothing: they stay silent.
+  /// Let robots answer that GameController (RGrt), so that it shows them online: on this port of
+  /// its computer, or 0 for the port of the packets' version. Nothing: they do not answer.
   std::optional<int> answerReferee{};
 };
 

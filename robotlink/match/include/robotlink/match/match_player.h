@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Plays a SimulatedMatch: the one loop of ticks, for the runner's thread, for programs that play a
-// match in their own, and for recording. Keeps the pace, measures the ticks and shows them to the
-// observers. For the thread that made the match; owns the match.
+// The loop of ticks of a SimulatedMatch, for the runner's thread, for programs that play on their
+// own thread, and for recording. It keeps the pace, measures ticks and calls observers. It owns the
+// match and must be used by the thread that created the match.
 
 #include <chrono>
 #include <cstdint>
@@ -23,44 +23,45 @@ class MatchPlayer {
   static constexpr double unlimitedSpeed = 0.0;
   static constexpr std::uint64_t noLastTick = std::numeric_limits<std::uint64_t>::max();
 
-  /// Plays as fast as possible until setSpeed().
+  /// Until setSpeed() is called, it plays as fast as possible.
   explicit MatchPlayer(SimulatedMatch match) : m_match(std::move(match)) {}
 
   SimulatedMatch& match() { return m_match; }
   const SimulatedMatch& match() const { return m_match; }
   std::uint64_t currentTick() const { return m_match.simulation().state().tick; }
 
-  /// Shows it the present moment and every tick from now on. They are called in this order.
+  /// Adds an observer, which sees the present moment and every later tick, in order of addition.
   void observe(std::shared_ptr<TickObserver> observer);
   void stopObserving(const std::shared_ptr<TickObserver>& observer);
   std::span<const std::shared_ptr<TickObserver>> observers() const { return m_observers; }
 
-  /// 1 = real time, from `now` on; slower while a team's own programs cannot keep up
+  /// Sets the speed from `now` on; 1 is real time. It is slower while team programs cannot keep up
   /// (MatchOptions::waitForTeamPrograms).
   void setSpeed(double timesRealTime, Clock::time_point now);
 
   struct Played {
     std::uint64_t ticks = 0;
     Clock::duration busy{};
-    Clock::time_point next{};  ///< when to play on; in the past: at once
+    Clock::time_point next{};  ///< when to call again; in the past: at once
   };
-  /// Plays what is due at `now`, for some milliseconds at most and not past `lastTick`. First it
-  /// waits until a team's programs are there: see awaitPrograms().
+  /// Plays the ticks that are due at `now`, for some milliseconds at most and not beyond
+  /// `lastTick`. At the beginning it waits for team programs: see awaitPrograms().
   Played play(Clock::time_point now, std::uint64_t lastTick = noLastTick);
-  /// A team's program is not there yet (ProcessPace::awaitsPrograms()): do not go on, ask again
-  /// soon. The first time it plays a tick, so that there is something to be seen.
+  /// Returns true while a team program has not attached yet (ProcessPace::awaitsPrograms()): call
+  /// again soon. The first call plays a tick, so that there is something to see.
   bool awaitPrograms(Clock::time_point now);
-  /// One tick, whatever the pace.
+  /// Plays one tick now.
   void tick();
-  /// Looks after the robots' processes, and tells the observers what they wrote and what happened
-  /// to them. About 20 times a second, also while the match stands still.
+  /// Watches the robots' processes, and tells observers what they printed and what happened to
+  /// them. Call it about 20 times a second; while the match is paused four times, and when
+  /// ProcessManager::descriptor() is readable.
   void lookAfterProcesses(Clock::time_point now);
-  /// Tells the observers what has happened between ticks: processes that ended, orders by hand,
-  /// and what was drawn.
+  /// Tells observers what happened between ticks: ended processes, edits by hand, and drawings.
+  /// Call it after such changes.
   void tellEvents();
-  /// Shows the observers a moment without a tick.
+  /// Shows observers the present moment without a tick.
   void showMoment();
-  /// Tells them that the next tick does not go on from what they have seen.
+  /// Tells observers that the next tick does not follow from what they have seen.
   void worldChanged();
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Plays a SimulatedMatch on a thread of its own at a chosen pace. Commands go in (carried out
-// between two ticks, in order), values come out (the latest frame wins; events and log lines are
-// queued, bounded and counted). All public functions may be called from any thread.
+// Plays a SimulatedMatch on a thread of its own, at a chosen speed. Commands run between two ticks,
+// in order. Results are values: only the newest frame is kept; events and log lines are queued up
+// to a limit, and what exceeds it is counted. All public functions may be called from any thread.
 
 #include <chrono>
 #include <cstdint>
@@ -23,27 +23,27 @@
 
 namespace pitchboard::link {
 
-/// Whether a command changed the world (not only blackboards and processes): then the next tick
-/// does not go on from what observers have seen.
+/// Whether a command changed the world, not only blackboards and processes. If so, the next tick
+/// does not follow from what observers have seen.
 enum class Changed { No, Yes };
 
 class MatchRunner {
  public:
   static constexpr double unlimitedSpeed = MatchPlayer::unlimitedSpeed;
 
-  /// Makes the match on the runner's thread (its processes must belong to that thread) and starts
-  /// paused or playing. Fails with the reason when the match cannot be made. `observers` see the
-  /// match from its first moment.
+  /// Creates the match on the runner's thread, to which its processes belong, and starts it paused
+  /// or playing. Fails with the reason if the match cannot be created. `observers` see the match
+  /// from its first moment.
   static Result<std::unique_ptr<MatchRunner>> start(
       const Scenario& scenario, const MatchOptions& options, bool paused = false,
       const VariableCatalog& catalog = VariableCatalog::published(),
       std::vector<std::shared_ptr<TickObserver>> observers = {});
-  ~MatchRunner();  ///< stops, ends processes, joins
+  ~MatchRunner();  ///< stops the match, ends its processes, joins the thread
 
   void setPaused(bool paused);
-  /// One tick, then pause.
+  /// Plays one tick, then pauses.
   void stepOnce();
-  /// 1 = real time; unlimitedSpeed = as fast as possible.
+  /// Sets the speed: 1 is real time, unlimitedSpeed as fast as possible.
   void setSpeed(double timesRealTime);
   /// Plays at full speed up to this tick, then pauses; for tests and repeatable pictures.
   void runTo(std::uint64_t tick);
@@ -51,25 +51,29 @@ class MatchRunner {
   /// goes on as before: paused, or at its speed. setPaused(), stepOnce() and runTo() end it.
   /// `wanted` is called on the runner's thread.
   void skip(std::function<bool(const MatchEvent&)> wanted, std::uint64_t mostTicks);
-  /// Waits until the match stands still (paused, or over); false when it still plays after that.
+  /// Waits until the match is paused or over. Returns false if it still plays after that time.
   bool waitUntilStill(std::chrono::milliseconds timeout) const;
 
-  /// Carried out on the runner's thread between two ticks, also while paused.
+  /// Queues a command for the runner's thread. It runs between two ticks, also while paused.
   using Command = std::function<Changed(SimulatedMatch&)>;
   void post(Command command);
-  /// The same, and waits for it. Not from within a command.
+  /// The same, and waits until it has run. Do not call it from within a command.
   void execute(const Command& command);
-  /// Waits for it as well; it changes nothing.
+  /// Waits, too, for a function that changes nothing.
   void read(const std::function<void(const SimulatedMatch&)>& look);
 
-  /// Shows it the present moment and every tick from now on, until stopObserving(). Waits for the
-  /// tick in progress; so does stopObserving(). Neither from within a command.
+  /// Adds an observer, which sees the present moment and every later tick until stopObserving().
+  /// Both wait for the tick in progress. Do not call them from within a command.
   void observe(const std::shared_ptr<TickObserver>& observer);
   void stopObserving(const std::shared_ptr<TickObserver>& observer);
 
-  /// The newest frame, or nothing when `knownSerial` is already the newest.
-  std::shared_ptr<const MatchFrame> latest(std::uint64_t knownSerial = 0) const;
-  /// Both give what came since the last call, at most the newest 10 000.
+  /// `tell` is called on the runner's thread when there is a new frame, event or log line, once until
+  /// latest(), takeEvents() or takeLog() is called. Empty: nobody is told, but a call may be under
+  /// way.
+  void setNews(std::function<void()> tell);
+  /// Returns the newest frame, or null if `knownSerial` is the newest.
+  std::shared_ptr<const MatchFrame> latest(std::uint64_t knownSerial = 0);
+  /// Both return what came since the last call, at most the newest 10 000.
   std::vector<MatchEvent> takeEvents();
   std::vector<LogLine> takeLog();
 

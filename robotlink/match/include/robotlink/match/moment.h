@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A recorded moment of a simulated match: the exact state of the world, what stood on the robots'
-// blackboards and, where it is known, what their processes remembered. Plain values.
+// A recorded moment of a simulated match: the exact state of the world, the robots' blackboards
+// and, if known, what their processes remembered. Plain values; any thread.
 
 #include <cstdint>
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace pitchboard::link {
 
-/// One word of a blackboard, as its bits.
+/// A word of a blackboard, as bits.
 struct BoardWord {
   int index = 0;
   std::uint32_t bits = 0;
@@ -26,14 +26,14 @@ struct BoardWord {
 struct MomentRobot {
   RobotId id;
   std::string behaviour;
-  std::vector<BoardWord> words;  ///< those that are known; the others are left as they are
+  std::vector<BoardWord> words;  ///< known words; the others stay unchanged
   void writeTo(Blackboard& board) const;
 };
 
 struct Moment {
   sim::WorldState state;
   std::vector<MomentRobot> robots;
-  /// Null: of the processes nothing is known but what they wrote on their blackboards.
+  /// Null if nothing is known of the processes except their blackboards.
   std::shared_ptr<const MomentPast> past;
   /// Null when nothing is known of this robot.
   const MomentRobot* robot(RobotId id) const;

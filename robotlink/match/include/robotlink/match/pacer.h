@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Keeps simulated time just ahead of the wall clock at a chosen speed, as MuJoCo's simulate does:
-// a backlog that the machine cannot work off is dropped, so it never tries to catch up for ever.
-// A value; the caller gives the time.
+// Keeps simulated time just ahead of the wall clock at a chosen speed, as MuJoCo's simulate does.
+// If the computer is too slow, the backlog is dropped, so that the match does not try to catch up.
+// A plain value, not thread-safe; the caller passes the time.
 
 #include <chrono>
 #include <cstdint>
@@ -16,20 +16,20 @@ class Pacer {
   static constexpr std::chrono::milliseconds mostBacklog{100};
   static constexpr std::chrono::milliseconds shortestSleep{1};
 
-  /// From here on `ticksPerSecond` ticks per second of wall clock.
+  /// Starts at this tick and time, with `ticksPerSecond` per second of wall clock.
   void start(Time now, std::uint64_t tick, double ticksPerSecond) {
     m_start = now;
     m_startTick = tick;
     m_ticksPerSecond = ticksPerSecond;
   }
 
-  /// The tick that the simulation should have reached.
+  /// Returns the tick that the simulation should have reached.
   std::uint64_t target(Time now) const {
     const double elapsed = std::chrono::duration<double>(now - m_start).count();
     return m_startTick + static_cast<std::uint64_t>(elapsed * m_ticksPerSecond);
   }
 
-  /// Called with what was reached when time for this round is up.
+  /// Call it with the tick that was reached when the time for a round is up.
   void forgive(Time now, std::uint64_t tick) {
     const std::uint64_t wanted = target(now);
     const double behind = wanted > tick ? static_cast<double>(wanted - tick) / m_ticksPerSecond : 0;
@@ -38,7 +38,7 @@ class Pacer {
     }
   }
 
-  /// When to look again: at the next tick, but not at once.
+  /// Returns when to ask again: at the next tick, but not at once.
   Time wake(Time now, std::uint64_t tick) const {
     const double seconds = static_cast<double>(tick + 1 - m_startTick) / m_ticksPerSecond;
     const Time due = m_start + std::chrono::ceil<std::chrono::steady_clock::duration>(

@@ -29,8 +29,7 @@ class ProcessPace {
   bool waitForTeamPrograms;
 
   /// Starts again what died, notices what is silent, tells the clocks of team programs the match's
-  /// time and the speed that it reached. About 20 times a second, also while the match stands
-  /// still.
+  /// time and the speed that it reached. As often as MatchPlayer::lookAfterProcesses().
   void lookAfterProcesses(Time now);
   /// How it is played from now on: times real time, 0 = as fast as possible; standing still.
   void setPlaying(double speed, bool still, Time now);

@@ -94,6 +94,8 @@ class RobotSlots {
   const sim::RobotModel* model(RobotId id) const;
   /// How long its programs may be silent, s.
   static double silentAfter(const RobotSlot& slot);
+  /// Other programs see a robot's blackboard and may decide for it.
+  bool haveTeamPrograms() const;
   /// Robots whose processes nobody here has started, so that they do not stop with the match.
   std::vector<sim::RobotIdentity> ofOthers() const;
 
@@ -146,6 +148,8 @@ class RobotSlots {
   Result<RuntimeProfile> runtimeFor(const std::string& behaviour, RuntimeChoice choice) const;
   Result<void> setBehaviour(RobotSlot& slot, const std::string& behaviour) const;
   bool sharesBoard(const RobotSlot& slot) const;
+  /// Its reference processes are programs of their own.
+  bool isSeparate(const RobotSlot& slot) const;
   Result<void> identify();
   Result<void> checkShirt(const sim::RobotIdentity& identity) const;
   Result<IntVar> cycleOf(const RobotSlot& slot) const;

@@ -19,6 +19,7 @@
 #include <robotlink/cognition/referee_orders.h>
 #include <robotlink/cognition/team_channel.h>
 #include <simcore/world/robot_io.h>
+#include <simcore/world/team_color.h>
 #include <simcore/world/world_state.h>
 
 namespace pitchboard::link {

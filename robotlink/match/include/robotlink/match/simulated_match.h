@@ -14,7 +14,7 @@
 #include <robotlink/blackboard/blackboard.h>
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/cognition/process_registry.h>
-#include <robotlink/frame/match_event.h>
+#include <robotlink/frame/match_result.h>
 #include <robotlink/match/match_options.h>
 #include <robotlink/match/process_pace.h>
 #include <robotlink/match/robot_slots.h>
@@ -48,6 +48,9 @@ class SimulatedMatch {
   bool finished() const { return !finishedBy().empty(); }
   /// "goal", "ball_out", "duration" or "full_time"; empty while none is met.
   std::string_view finishedBy() const;
+  /// The match has no game, is five seconds old, and no robot has walked or been told to play
+  /// (COM_REFEREE): somebody forgot to.
+  bool nobodyPlays() const;
 
   /// Appends what has happened since the last call, at most the newest 1000: in the simulation,
   /// to the clock, to processes (as the supervisor knows them), and the end of the match.
@@ -91,6 +94,8 @@ class SimulatedMatch {
   /// the match does not wait for, or that did not finish a cycle in time, or while processes run
   /// freely.
   bool isRepeatable() const;
+  /// How it stands now; at the end, how it ended.
+  MatchResult result() const;
 
   /// What the reference processes remember after this tick; null when none run inside.
   std::shared_ptr<const RobotsMemory> robotsMemory() const;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Writes numbers, noise and robot models as JSON that people read: only what differs from a
-// built-in one, degrees for radians. Any thread.
+// Writes numbers, noise and robot models as JSON for people: only what differs from a built-in one,
+// in degrees instead of radians. Pure functions; any thread.
 
 #include <array>
 #include <nlohmann/json_fwd.hpp>
@@ -16,20 +16,20 @@
 
 namespace pitchboard::link {
 
-/// Degrees that radiansFromDegrees() turns into exactly `radians` where such a double exists (the
-/// shortest to write), else the nearest.
+/// Returns the shortest degrees that radiansFromDegrees() converts to exactly `radians`, or the
+/// nearest if there are none.
 double fileDegrees(double radians);
 
-/// The form in which whole numbers have no decimal point, as people write them.
+/// Returns a number as people write it: whole numbers without a decimal point.
 nlohmann::ordered_json jsonNumber(double value);
 nlohmann::ordered_json noiseToJson(const sim::NoiseParameters& noise);
 nlohmann::ordered_json robotModelToJson(const sim::RobotModel& model);
 
-/// Numbers as they stand in a file, by key.
+/// Numbers by key, as they stand in a file.
 using KeyedNumbers = std::vector<std::pair<std::string_view, double>>;
 nlohmann::ordered_json numbersToJson(const KeyedNumbers& numbers);
 
-/// What differs from `base`.
+/// Returns what differs from `base`.
 template <class Values, class Number, std::size_t N>
 KeyedNumbers differences(const std::array<sim::Parameter<Values, Number>, N>& parameters,
                          const Values& value, const Values& base) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Noise presets are data (resources/noise): none, published, paper, realistic; robot: each robot
-// has that of its model. Angles are degrees in files, radians in memory. Any thread.
+// Reads noise presets, which are data (resources/noise): none, published, paper, realistic, and
+// robot (that of each robot's model). Angles are degrees in files, radians in memory. Any thread.
 
 #include <optional>
 #include <string>
@@ -18,11 +18,11 @@ namespace pitchboard::link {
 std::vector<std::string> noisePresets();
 Result<sim::NoiseParameters> noisePreset(std::string_view name);
 
-/// Noise as a preset's name or an object; nothing when the key is missing.
+/// Reads noise as the name of a preset or an object; nothing if the key is missing.
 std::optional<sim::NoiseParameters> readNoise(const JsonObject& parent, JsonReport& report,
                                               std::string_view key);
 
-/// In noise: the numbers are those of each robot's model.
+/// The key that says that each robot has the noise of its model.
 inline constexpr std::string_view noiseOfModelKey = "of_model";
 
 }  // namespace pitchboard::link

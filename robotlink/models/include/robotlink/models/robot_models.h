@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Kinds of robots are data (resources/robots): what a robot can do and how it sees, by name, as an
-// object of a scenario file, or as a file (docs/ROBOTS.md). Any thread.
+// Reads and writes robot models, which are data (resources/robots): by name, as an object of a
+// scenario, or from a file (docs/scenarios.md, "Robot models"). Plain values; any thread.
 
 #include <optional>
 #include <string>
@@ -15,22 +15,22 @@
 
 namespace pitchboard::link {
 
-/// The built-in names, "published" first.
+/// Returns the built-in names, "published" first.
 std::vector<std::string> robotModels();
 struct RobotModelText {
-  std::string title;        ///< a few words, for choosers
-  std::string description;  ///< which robot it is and where its numbers come from
+  std::string title;        ///< a short title for lists
+  std::string description;  ///< the real robot, and the source of its numbers
 };
-/// What people read of a built-in model; its name when it has no title.
+/// Returns the title of a built-in model, or its name if it has none.
 RobotModelText robotModelText(std::string_view name);
-/// A built-in name, or the object that "model" has in a scenario file. Errors name `source`.
+/// Reads a built-in name, or an object as "model" of a scenario. Errors name `source`.
 Result<sim::RobotModel> robotModelFromText(std::string_view nameOrJson, std::string_view source);
-/// A built-in name, or else a file with such an object.
+/// Reads a built-in name, or a file with such an object.
 Result<sim::RobotModel> loadRobotModel(const std::string& nameOrPath);
-/// The name of a built-in model, else an object on one line; reading it gives an equal model.
+/// Returns the name of a built-in model, or an object on one line; it reads back to an equal one.
 std::string robotModelToText(const sim::RobotModel& model);
 
-/// A model as a built-in name or an object; nothing when the key is missing.
+/// Reads a model as a built-in name or an object; nothing if the key is missing.
 std::optional<sim::RobotModel> readRobotModel(const JsonObject& parent, JsonReport& report,
                                               std::string_view key);
 

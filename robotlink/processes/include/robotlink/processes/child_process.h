@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One running child process. It never outlives this process, however that ends: our programs get a
-// parent-death signal, a team's program has a keeper (see keeper.h). Use it from the thread that
-// started it, which must live as long as the child: the kernel sends the signal when that THREAD
-// ends.
+// A running child process. It never outlives this process, however that ends: our programs get a
+// parent-death signal, and team programs have a keeper (keeper.h). Use it from the thread that
+// started it, which must live as long as the child, because the kernel sends the signal when that
+// THREAD ends.
 //
-// Every child leads a process group of its own, reads /dev/null, and has its standard output and
-// error collected line by line. When it ends, what it started itself ends with it: the rest of its
-// group is killed, and of a team's program also what left the group.
+// Every child leads a process group of its own and reads /dev/null; its standard output and error
+// are collected line by line. When it ends, everything that it started ends, too: the rest of its
+// group is killed, and for a team program also what left the group.
 
 #include <sys/types.h>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,13 +25,13 @@ namespace pitchboard::link {
 
 struct ChildSpec {
   RobotId robot;
-  std::string name;                  ///< for people: "decision"
-  std::vector<std::string> command;  ///< program (looked for in PATH without a '/') and arguments
-  std::string directory{};           ///< to run in; empty: ours
-  std::vector<std::pair<std::string, std::string>> environment{};  ///< added
-  int inherited = -1;                                              ///< its descriptor 3
-  int stopSignal = 15;                                             ///< SIGTERM; SIGKILL follows it
-  bool foreign = false;  ///< a team's program: may start others that leave its group
+  std::string name;                  ///< a name for people: "decision"
+  std::vector<std::string> command;  ///< program (searched in PATH if it has no '/') and arguments
+  std::string directory{};           ///< working directory; empty: ours
+  std::vector<std::pair<std::string, std::string>> environment{};  ///< additional variables
+  int inherited = -1;                                              ///< becomes its descriptor 3
+  int stopSignal = 15;                                             ///< SIGTERM; SIGKILL follows
+  bool foreign = false;  ///< a team program, which may start others that leave its group
   bool operator==(const ChildSpec&) const = default;
 };
 
@@ -43,19 +44,22 @@ class ChildProcess {
     bool failed = false;
   };
 
-  /// Fails when the program cannot be executed (the reason of the system in the sentence). Returns
-  /// once the program is running. `robotProgram` (pitchboard-robot) keeps a team's program.
+  /// Starts a program and returns when it runs. Fails with the system's reason if it cannot be
+  /// executed. `robotProgram` (pitchboard-robot) runs the keeper of a team program.
   static Result<ChildProcess> start(const ChildSpec& spec, const std::string& robotProgram);
 
   pid_t pid() const { return m_pid; }
-  /// It and what it started, as far as that lives.
+  /// Returns the processes of this child that are alive: itself, and what it started.
   std::vector<pid_t> all() const;
-  /// To its process group; SIGSTOP, SIGCONT and SIGKILL also to what left the group.
+  /// Sends a signal to its process group; SIGSTOP, SIGCONT and SIGKILL also to what left the group.
   void signal(int number) const;
-  /// Collects its output and its end without waiting; call it regularly, because a child that
-  /// writes much waits when nobody reads. Lines have at most maxLineBytes; the rest of a longer one
-  /// is dropped. Once it has ended, the object is of no use any more.
+  /// Collects output and notices its end, without waiting. Call it regularly, because a child that
+  /// writes much blocks if nobody reads. Lines are cut at maxLineBytes. After the end, the object
+  /// cannot be used any more.
   std::optional<End> poll(std::vector<std::string>& lines);
+  /// Tells this set (epoll) when it has written something and when it has ended, each time once,
+  /// with `id`. False where the system cannot: then poll() it regularly.
+  bool tell(int epoll, std::uint64_t id) const;
 
  private:
   ChildProcess(Spawned child, UniqueFd keeper, pid_t pid);
@@ -63,6 +67,7 @@ class ChildProcess {
   void endLine(std::vector<std::string>& lines);
 
   Spawned m_child;    // the keeper of a team's program
+  UniqueFd m_ended;   // readable once that has ended
   UniqueFd m_keeper;  // to it; empty: there is none
   pid_t m_pid = 0;
   std::string m_partial;  // the line that has no end yet

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The guard of a match: a small process that outlives it. When the match is killed, the guard
-// removes the segments that nobody uses any more. The match tells it of them over a socket, a
-// packet for each; the end of the socket without "done" means that the match was killed.
+// The guard of a match: a small process that outlives it. If the match is killed, the guard removes
+// the segments that nobody uses. The match names them over a socket, a packet for each; if the
+// socket ends without "done", the match was killed.
 
 #include <string>
 #include <string_view>
 
 namespace pitchboard::link {
 
-/// The hidden command of pitchboard-robot that runs it.
+/// The hidden command of pitchboard-robot that runs the guard.
 inline constexpr std::string_view guardCommand = "guard";
 
 namespace guardWords {
@@ -20,7 +20,7 @@ inline std::string segment(int key, int shmid) {
 }
 }  // namespace guardWords
 
-/// Reads `input` to its end and does what is then to be done. The only thread of its program.
+/// Reads `input` to its end, then cleans up. It is the only thread of its program.
 void runGuard(int input);
 
 }  // namespace pitchboard::link

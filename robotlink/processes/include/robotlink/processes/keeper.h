@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The keeper of a team's program: a small process between us and it, to which the kernel gives
-// every process that the program started and left behind (PR_SET_CHILD_SUBREAPER). It starts the
-// program, ends as the program ended, and leaves nothing running, whatever the program's children
-// did to their group, session and environment. It also ends all of them when we are gone.
+// The keeper of a team program: a small process between us and it, to which the kernel hands every
+// process that the program started and left behind (PR_SET_CHILD_SUBREAPER). It starts the program,
+// ends as the program ended, and leaves nothing running, whatever the program's children did to
+// their group, session and environment. It also ends all of them if we end.
 
 #include <string>
 #include <string_view>
@@ -14,20 +14,20 @@
 
 namespace pitchboard::link {
 
-/// The hidden command of pitchboard-robot that runs it.
+/// The hidden command of pitchboard-robot that runs the keeper.
 inline constexpr std::string_view keepCommand = "keep";
 
 struct Kept {
-  Spawned keeper;    ///< its output is the program's
-  UniqueFd control;  ///< a byte is the number of a signal; its end kills all
+  Spawned keeper;    ///< its output is that of the program
+  UniqueFd control;  ///< each byte is a signal to send; closing it kills all
   pid_t program = 0;
 };
 
-/// Starts a program and its keeper, run by `robotProgram`. Errors are those of spawn().
+/// Starts a program with its keeper, which `robotProgram` runs. Fails as spawn() does.
 Result<Kept> spawnKept(const SpawnRequest& request, const std::string& robotProgram);
 
-/// The keeper; `words` come from spawnKept(). The only thread of its process. Returns only if the
-/// program cannot be started.
+/// Runs the keeper; `words` come from spawnKept(). It is the only thread of its process, and
+/// returns only if the program cannot be started.
 void keep(const std::vector<std::string>& words);
 
 }  // namespace pitchboard::link

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which processes management starts, and how: the section [Pitchboard Management] of a robot's INI
-// file (docs/ROBOTS.md). Any thread.
+// Reads which processes management starts, and how: the section [Pitchboard Management] of a
+// robot's INI file (docs/robot-programs.md). Plain values; any thread.
 
 #include <map>
 #include <string>
@@ -16,29 +16,29 @@ namespace pitchboard::link {
 
 struct ManagementTiming {
   using Seconds = RestartRule::Seconds;
-  Seconds startInterval{0.2};  ///< between the starts of two processes
+  Seconds startInterval{0.2};  ///< time between the starts of two processes
   Seconds silentAfter{5.0};
   RestartRule restart;
 };
 
 struct ManagementConfig {
-  /// Names in the order of starting: reference processes and those that have a command.
+  /// Names in the order of starting: reference processes, and those with a command.
   std::vector<std::string> processes;
-  /// By name: program and arguments of a team's own process; {robot} and {key} stand for numbers.
+  /// Program and arguments of team programs, by name; {robot} and {key} are replaced.
   std::map<std::string, std::vector<std::string>> commands;
   ManagementTiming timing;
 };
 
-/// Without a section of its own a file starts `reference`: names of the processes that this program
-/// can start without a command, in their order. Errors name file and line: unknown keys, names
-/// without a command, times that are not positive.
+/// Reads the section. Without it, a file starts `reference`, the processes that this program can
+/// start without a command, in their order. Errors name file and line: unknown keys, names without
+/// a command, times that are not positive.
 Result<ManagementConfig> managementFromIni(const IniFile& file,
                                            const std::vector<std::string>& reference);
 
-/// Words, divided by blanks; "double quotes" hold a word with blanks together.
+/// Splits a text at blanks; "double quotes" keep a word with blanks together.
 std::vector<std::string> commandWords(std::string_view text);
 
-/// NAME_WORKING of a process "name", absent when the catalog has none.
+/// Returns NAME_WORKING of a process "name"; absent if the catalog has none.
 IntVar workingFlagOf(const std::string& process,
                      const VariableCatalog& catalog = VariableCatalog::published());
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How the reference processes of a simulated match take their time from it. Match and processes
-// share one piece of nameless memory (memfd), which the process inherits as descriptor 3 and which
-// is gone with the last of them; processes that know nothing of it do not see it. Every process has
-// a place in it. The match gives a turn: "it is this time now, do one cycle"; the process does it
-// and says so. In lock-step the match waits for that, running freely it does not. Nobody thinks
-// without a turn: while the match is paused, stepped or looked back at, time stands still.
+// The memory over which a simulated match gives turns to its reference processes. Match and
+// processes share anonymous memory (memfd), which a process inherits as descriptor 3 and which is
+// freed with the last of them. Every process has a slot in it. The match gives a turn ("it is this
+// time now, do one cycle"), and the process does its cycle and says so. In lock-step the match
+// waits for that; running freely it does not. Without a turn nothing happens: while the match is
+// paused or the past is shown, time stands still.
 //
-// In lock-step the messages of a team travel here, too, in the order in which the match asks for
+// In lock-step the messages of a team also travel here, in the order in which the match asks for
 // them, so that they arrive at the same tick in every run. Use each class from one thread.
 
 #include <atomic>
@@ -26,9 +26,9 @@
 
 namespace pitchboard::link {
 
-struct TurnMemory;  // the shared memory; private to the file
+struct TurnMemory;  // layout of the shared memory; private to the file
 
-/// The mapping of the memory, and the descriptor behind it.
+/// The mapping of the memory, with its descriptor.
 class TurnPages {
  public:
   TurnPages(TurnMemory* memory, UniqueFd descriptor)
@@ -44,29 +44,29 @@ class TurnPages {
   UniqueFd m_fd;
 };
 
-/// The match's side.
+/// The side of the match.
 class MatchTurns {
  public:
   static Result<std::unique_ptr<MatchTurns>> create();
 
-  /// For a process to be started; cleared. Conflict when there is none left.
+  /// Takes a cleared slot for a new process. Fails with Conflict if there is none left.
   Result<int> takePlace();
-  /// Its process has ended.
+  /// Frees the slot of a process that has ended.
   void giveBack(int place);
-  /// To be inherited by the process.
+  /// Returns the descriptor that the process inherits.
   int descriptor() const { return m_pages->descriptor(); }
 
-  /// Seconds between two cycles; nothing until the process is ready.
+  /// Returns the seconds between two cycles; nothing until the process is ready.
   std::optional<double> period(int place) const;
-  /// The last turn given was taken to its end (also before the first).
+  /// Returns whether the last turn is complete; true before the first one.
   bool isDone(int place) const;
-  /// Waits until it is ready or done, `longest` at most; says whether it is.
+  /// Waits at most `longest` until the process is ready or done; returns whether it is.
   bool waitUntilReady(int place, std::chrono::milliseconds longest) const;
   bool waitUntilDone(int place, std::chrono::milliseconds longest) const;
 
-  /// Only to a process that is ready and done. `messages` matter in lock-step.
+  /// Gives a turn to a process that is ready and done. `messages` matter in lock-step.
   void give(int place, double seconds, bool lockStep, std::span<const std::string> messages = {});
-  /// What it posted to its team in its last turn in lock-step.
+  /// Returns what it sent to its team in its last turn in lock-step.
   std::vector<std::string> takePosted(int place);
 
  private:
@@ -75,31 +75,31 @@ class MatchTurns {
   std::vector<bool> m_taken;
 };
 
-/// A turn as the process gets it.
+/// A turn as the process receives it.
 struct Turn {
-  double seconds = 0.0;  ///< of the match
+  double seconds = 0.0;  ///< time of the match
   bool lockStep = false;
 };
 
-/// The process's side.
+/// The side of a process.
 class ProcessTurns {
  public:
-  /// What a process inherits the memory as.
+  /// The descriptor as which a process inherits the memory.
   static constexpr int descriptor = 3;
 
-  /// `place` as its starter told.
+  /// `place` is the slot that the match passed to the process.
   static Result<std::shared_ptr<ProcessTurns>> join(int place);
 
-  /// Ready for turns, one every so many seconds of the match.
+  /// Announces that it is ready for turns, one every so many seconds of the match.
   void ready(double period);
-  /// The next turn, or nothing after `longest`.
+  /// Waits for the next turn; returns nothing after `longest`.
   std::optional<Turn> wait(std::chrono::milliseconds longest);
-  /// The turn is over.
+  /// Ends the turn.
   void done();
-  /// Between wait() and done().
+  /// Call these between wait() and done().
   bool inLockStep() const { return m_turn.lockStep; }
   std::vector<std::string> messages() const;
-  /// At most 16 messages of 512 bytes a turn; more are dropped.
+  /// Sends a message: at most 16 of 512 bytes per turn; more are dropped.
   void post(std::string_view message);
 
  private:

@@ -33,8 +33,6 @@
 
 namespace pitchboard::link {
 
-struct ProcessUse;
-
 struct ManagedProcess {
   enum class Watch { Nobody, Variable, Sleeps, Caller };
   using Seconds = RestartRule::Seconds;
@@ -126,7 +124,7 @@ class ProcessManager {
   static constexpr std::size_t maxLines = 10'000;
 
   /// `robotProgram` (pitchboard-robot) runs the guard, and the keepers of foreign programs.
-  explicit ProcessManager(std::string robotProgram = {}) : m_program(std::move(robotProgram)) {}
+  explicit ProcessManager(std::string robotProgram = {});
   ProcessManager(const ProcessManager&) = delete;
   ProcessManager& operator=(const ProcessManager&) = delete;
   ~ProcessManager();  ///< ends all
@@ -150,6 +148,9 @@ class ProcessManager {
   /// second; it waits only while a silent process is being ended (at most half a second). An error
   /// is a program that could not be executed at its first start; it is tried again, too.
   Result<void> step(Time now);
+  /// Readable when a process has ended or has written something, until the next step(); -1 where
+  /// the system cannot tell.
+  int descriptor() const { return m_epoll.get(); }
 
   // By hand; an unknown id is nobody.
   void start(int id, Time now);
@@ -168,6 +169,7 @@ class ProcessManager {
 
   /// All, in the order in which they were added. A new `version()` tells that something changed.
   std::vector<ProcessStatus> statuses() const;
+  bool isEmpty() const { return m_entries.empty(); }
   std::uint64_t version() const { return m_version; }
   const ProcessStatus* status(int id) const;
   /// It, or a program that it started, has attached to this System V segment. True where the system
@@ -185,6 +187,8 @@ class ProcessManager {
     ManagedProcess process;
     Blackboard* board = nullptr;
     std::optional<ChildProcess> child;  // while it runs
+    bool tells = false;                 // the child, m_epoll
+    bool hasNews = false;
     bool everStarted = false;
     Time due{};  // of the next start
     Time lastSign{}, stoppedSince{};
@@ -209,6 +213,7 @@ class ProcessManager {
   Entry* find(int id);
   Result<void> startDue(Time now);
   Result<void> startNow(Entry& entry, Time now);
+  void takeTold();
   std::optional<ChildProcess::End> poll(Entry& entry);
   void end(const std::vector<Entry*>& entries);
   void ended(Entry& entry, Time now, bool died, const std::string& detail, bool byHand);
@@ -216,7 +221,7 @@ class ProcessManager {
   void watch(Entry& entry, Time now);
   void watchFile(Entry& entry, Time now);
   void sample(Entry& entry, Time now);
-  void measurePace(Entry& entry, const ProcessUse& use, double seconds, double ownSeconds);
+  void measurePace(Entry& entry, std::uint64_t newSleeps, double share, double ownSeconds);
   void giveClock(Entry& entry, ChildSpec& spec, Time now);
   void askForSpeed(Entry& entry, Time now);
   void steer(Entry& entry, Time now) const;
@@ -230,6 +235,7 @@ class ProcessManager {
   void changed() { ++m_version; }
 
   std::string m_program;
+  UniqueFd m_epoll;  // told by children
   UniqueFd m_guard;  // to the guard; empty: there is none
   pid_t m_guardPid = 0;
   std::vector<Entry> m_entries;

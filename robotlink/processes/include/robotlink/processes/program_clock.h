@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The clock of a team's program, which knows nothing of the match: libpitchboard_time.so, loaded
-// into the program, makes its clocks and waits run at the match's speed. It reads offset and rate
-// from a page of memory that only this class writes, so that both can change while the program
-// runs. Its time goes on from where it was, and stands still in a pause. At a rate of 1 the library
-// passes every call through as it is. One thread.
+// The clock of a team program, which knows nothing of the match: libpitchboard_time.so, which is
+// loaded into the program, makes its clocks and waits run at the match's speed. The library reads
+// offset and rate from a page of memory that only this class writes, so both can change while the
+// program runs. Its time never jumps and stands still in a pause. At a rate of 1 the library passes
+// every call through unchanged. One thread at a time.
 
 #include <chrono>
 #include <memory>
@@ -24,25 +24,25 @@ class ProgramClock {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// The file name of the library, without its folder.
+  /// The file name of the library, without folder.
   static constexpr const char* library = "libpitchboard_time.so";
 
-  /// NotFound if the library is not where the programs of this installation look for it.
+  /// Fails with NotFound if the library is not where this installation expects it.
   static Result<std::unique_ptr<ProgramClock>> create();
   ~ProgramClock();
   ProgramClock(const ProgramClock&) = delete;
   ProgramClock& operator=(const ProgramClock&) = delete;
 
-  /// The environment of a program that is started now. Its clocks begin with those of the computer.
+  /// Returns the environment for a program that starts now, with the computer's time.
   std::vector<std::pair<std::string, std::string>> start(double rate, Time now);
-  /// Times real time; 0 in a pause.
+  /// Sets the rate, times real time; 0 in a pause.
   void setRate(double rate, Time now);
   double rate() const;
-  /// The program's own time since start(), s.
+  /// Returns the program's own time since start(), in s.
   double seconds(Time now) const;
 
-  /// The rate of a clock that is to go at `speed`, but is behind (s): a little faster, until it is
-  /// right. One that is right to 20 ms of the computer's time goes at `speed` itself.
+  /// Returns the rate of a clock that should run at `speed` but is `behind` by some s: slightly
+  /// faster, until it is right. Within 20 ms of the computer's time it is `speed` itself.
   static double rateFor(double behind, double speed);
 
  private:

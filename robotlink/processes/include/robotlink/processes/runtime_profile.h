@@ -2,8 +2,8 @@
 #pragma once
 
 // Who runs for a robot: a list of processes, how each is started, watched and ended. JSON
-// (docs/ROBOTS.md), built in or a file of a team; separate processes and those that run inside
-// understand the same profile. Plain values; times are seconds of the wall. Any thread.
+// (docs/robot-programs.md), built in or a file of a team; separate processes and those that run
+// inside understand the same profile. Plain values; times are seconds of the wall. Any thread.
 
 #include <chrono>
 #include <map>
@@ -67,8 +67,10 @@ struct RuntimeProfile {
   std::vector<ProfileProcess> processes;      ///< in the order of starting
   bool hearsReferee = false;  ///< one of them writes COM_REFEREE; else a refereed match does
   /// Variable in which one of them says that it has finished its cycle, so that the match waits for
-  /// it (docs/ROBOTS.md); may hold ${...}; empty: nobody is waited for.
+  /// it (docs/robot-programs.md); may hold ${...}; empty: nobody is waited for.
   std::string cycle;
+  /// The pitchboard-robot of its reference processes, which are separate then; empty: the match's.
+  std::string program;
   /// It has programs that are not ours, or leaves the robot to somebody else's.
   bool hasOwn() const;
   /// Its decision is ours, which knows the extension of the map.

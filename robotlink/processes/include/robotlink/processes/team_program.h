@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where this program and the programs that were installed with it are. Any thread.
+// Finds this program and the programs that were installed with it. Pure functions; any thread.
 
 #include <string>
 
@@ -9,11 +9,11 @@
 
 namespace pitchboard::link {
 
-/// The file that this process runs.
+/// Returns the path of the running program.
 Result<std::string> teamProgram();
 
-/// The program `name` in the same folder; only the name, which is then looked for in PATH, when the
-/// system does not tell the folder.
+/// Returns the path of the program `name` in the same folder, or only the name, which is then
+/// searched in PATH, if the folder is unknown.
 std::string besideTeamProgram(const std::string& name);
 
 }  // namespace pitchboard::link

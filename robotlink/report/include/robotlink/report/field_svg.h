@@ -2,7 +2,7 @@
 #pragma once
 
 // The field with the trajectories of many runs, for reports of experiments, which are made without
-// the studio. Pictures of a moment are painted by the studio (docs/SESSIONS.md).
+// the studio. Pictures of a moment are painted by the studio (docs/sessions.md).
 
 #include <span>
 #include <string>
@@ -12,16 +12,16 @@
 
 namespace pitchboard::link {
 
-/// Where something moved on the field, m; its end is marked.
+/// The path of something on the field in m; its end is marked.
 struct FieldTrajectory {
   std::vector<Point> points;
-  std::string colour;  ///< of SVG
+  std::string colour;  ///< a colour of SVG
   double opacity = 1.0;
   double width = 0.03;  ///< m
 };
 
-/// An SVG document in the colours of the dark palette; 1 unit = 1 cm. Later trajectories are
-/// painted over earlier ones.
+/// Returns an SVG document in the colours of the dark palette; 1 unit is 1 cm. Later trajectories
+/// are painted over earlier ones.
 std::string fieldSvg(const sim::FieldSpec& field, std::span<const FieldTrajectory> trajectories);
 
 }  // namespace pitchboard::link

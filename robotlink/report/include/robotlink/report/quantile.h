@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The quantile of sorted values, in their unit. Pure; any thread.
+// Computes quantiles of sorted values. Pure function; any thread.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace pitchboard::link {
 
-/// Linear between neighbours (numpy's default, R's type 7); NaN without any. `share` 0 to 1.
+/// Interpolates linearly (numpy's default, R's type 7); NaN for no values. `share` is 0 to 1.
 double quantile(const std::ranges::random_access_range auto& sorted, double share) {
   const std::size_t count = std::size(sorted);
   if (count == 0) return std::numeric_limits<double>::quiet_NaN();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A match on one page: an HTML file that needs nothing but itself (style, curves and the picture
-// are in it), for a browser of any kind, light or dark, and for printing.
+// The report of a match: a single HTML file with style, curves and picture inside, for any browser,
+// light or dark, and for printing. Plain values; any thread.
 
 #include <span>
 #include <string>
@@ -16,25 +16,25 @@
 namespace pitchboard::link {
 
 struct ReportContent {
-  std::string title;               ///< of the match
+  std::string title;               ///< title of the match
   telemetry::SessionInfo session;  ///< source, seed, wall time; an empty program is left out
   SessionStatistics statistics;
   std::vector<MatchEvent> events;
-  /// The field at a moment of the caller's choice: SVG text, or the bytes of a PNG. Empty: none.
+  /// A picture of the field: SVG text, or the bytes of a PNG; empty if there is none.
   std::string picture;
   std::string pictureCaption;
-  std::vector<std::string> notes;  ///< what a reader must know, e.g. that the recording broke off
+  std::vector<std::string> notes;  ///< notes for readers, e.g. that the recording was cut off
 };
 
-/// Takes other robots out of it: their figures and events (session_choice.h).
+/// Removes other robots, with their figures and events (session_choice.h).
 void keepRobots(ReportContent& content, std::span<const std::string> robots);
 
-/// The page. Everything that came from a file or the network is escaped; an SVG picture is shown as
-/// an image, so that nothing in it can run.
+/// Returns the page. Texts from files or the network are escaped, and an SVG picture is shown as an
+/// image, so that nothing in it can run.
 std::string reportHtml(const ReportContent& content);
 
-/// Writes it. `source`: the session, which is never the target. Errors as FileTarget; the old file
-/// stays then.
+/// Writes the page. `source` is the session, which is refused as target. Fails as FileTarget does;
+/// an existing file is unchanged then.
 Result<void> writeReport(const std::string& path, const ReportContent& content,
                          IfExists ifExists = IfExists::Refuse, const std::string& source = {});
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What every page of ours has: its style sheet (colours as in docs/DESIGN_LANGUAGE.md), text that
-// cannot become markup, numbers that do not follow the locale. Pure; any thread.
+// Shared parts of our HTML pages: the style sheet (colours as in docs/design-language.md), escaped
+// text, numbers that do not depend on the locale. Pure functions; any thread.
 
 #include <string>
 #include <string_view>
 
 namespace pitchboard::link {
 
-/// "61.5", "0", "—" for nothing.
+/// Returns a number such as "61.5" or "0", or "—" for nothing.
 std::string fixed(double value, int decimals);
-/// For text and attributes of HTML, XML and SVG.
+/// Escapes text for content and attributes of HTML, XML and SVG.
 std::string escaped(std::string_view text);
 
 inline constexpr std::string_view reportStyle = R"css(

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include <base/ids.h>
 #include <base/robot_key.h>
 #include <robotlink/session/row_walk.h>
+#include <simcore/world/team_color.h>
 #include <simcore/world/world_state.h>
 #include <telemetry/wire/team_monitor.h>
 
@@ -47,9 +47,11 @@ struct RobotSummary {
 
 struct TeamSummary {
   TeamColor team = TeamColor::Blue;
-  std::string name{};        ///< "RoboFEI"; empty: it has none
-  std::optional<int> score;  ///< at the end; nothing when it is not known
-  int scored = 0;            ///< in this time
+  std::string name{};           ///< "RoboFEI"; empty: it has none
+  std::optional<int> number{};  ///< the referee's; nothing without one
+  std::optional<int> score;     ///< at the end; nothing when it is not known
+  std::vector<int> byHalf{};    ///< goals of each half; empty where the first one was not seen
+  int scored = 0;               ///< in this time
   double ballSeconds = 0.0;
   std::uint32_t kicks = 0, falls = 0;
   double distance = 0.0;          ///< m

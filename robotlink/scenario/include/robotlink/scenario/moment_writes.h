@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Scripted writes of a scenario that goes on from a later moment. Private to robotlink.
+// Scripted writes of a scenario that continues from a later moment. Private to robotlink.
 
 #include <algorithm>
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace pitchboard::link {
 
-/// Writes of the past stand at time 0, each variable's last; those of robots for which `plays` says
-/// no are left out.
+/// Returns the writes: past ones are at time 0, only the last of each variable. Those of robots for
+/// which `plays` returns false are left out.
 template <class Plays>
 std::vector<BlackboardWrite> writesFrom(const std::vector<BlackboardWrite>& writes, double now,
                                         Plays&& plays) {

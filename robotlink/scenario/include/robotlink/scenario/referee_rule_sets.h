@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The built-in rule sets of the referee (resources/rules/*.json), and how rules are written in
-// files: the name of a set, or an object with the name and what differs. Any thread.
+// Reads and writes referee rules: the name of a built-in set (resources/rules/*.json), or an object
+// with the name and what differs. Plain values; any thread.
 
 #include <optional>
 #include <string>
@@ -15,16 +15,16 @@
 namespace pitchboard::link {
 
 struct RuleSetInfo {
-  std::string name;  ///< as in files; "published" is no referee
+  std::string name;  ///< its name in files; "published" means no referee
   std::string title;
   std::string description;
 };
 
-/// "published" first.
+/// Returns the built-in sets, "published" first.
 std::vector<RuleSetInfo> refereeRuleSets();
-/// Nothing for "published". Errors name the known sets, or file, line and key.
+/// Reads rules; nothing for "published". Errors name the known sets, or file, line and key.
 Result<std::optional<sim::RefereeRules>> refereeRuleSet(std::string_view name);
-/// A file of rules as in resources/rules. Errors: "my.json:14: ready_time: ...".
+/// Reads a file of rules as in resources/rules. Errors: "my.json:14: ready_time: ...".
 Result<sim::RefereeRules> refereeRulesFromJson(std::string_view text, std::string_view source);
 
 }  // namespace pitchboard::link

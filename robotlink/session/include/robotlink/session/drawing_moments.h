@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What robots of a simulated match have drawn, at any moment of the past: made again from their
-// datagrams, which a DrawingMemory keeps of a match that is played, and a session file of one that
-// was recorded. (Of a live match LiveMoments does the same.) Times are seconds of the match.
+// The drawings of a simulated match at any past moment, rebuilt from the datagrams. A DrawingMemory
+// keeps those of a running match, a session file those of a recorded one. (LiveMoments does the
+// same for live matches.) Times are seconds of the match.
 
 #include <robotlink/match/tick_observer.h>
 #include <robotlink/session/live_memory.h>
 
 namespace pitchboard::link {
 
-/// Goes through one history; fast when moments follow each other. One thread.
+/// Rebuilds moments of one history; fast if they follow each other. One thread at a time.
 class DrawingMoments {
  public:
   std::vector<telemetry::RobotDrawings> at(const LiveHistory& history, double time);
@@ -21,10 +21,10 @@ class DrawingMoments {
   bool m_begun = false;
 };
 
-/// A datagram that was drawn, as a session keeps it.
+/// Returns a datagram with a drawing in the form of a session.
 LiveRecord drawingRecord(const ReceivedDrawing& drawing);
 
-/// Of a match, which it observes.
+/// Keeps the drawings of a match, which it observes.
 class DrawingMemory : public TickObserver, public RecordMemory {
  public:
   explicit DrawingMemory(std::size_t bytes = std::size_t{64} << 20) : RecordMemory(bytes) {}

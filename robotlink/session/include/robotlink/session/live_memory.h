@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What is kept of a live match besides rows: every datagram as it came, the referee's packets
-// decoded, and now and then all that is known. A recording writes it into its file; a LiveMemory
-// holds what has just happened, for looking back and for saving it.
+// Records of a live match besides its rows: every datagram, the referee's packets decoded, and from
+// time to time the whole LiveState. A recording writes them into its file; a LiveMemory keeps the
+// recent ones for looking back and for saving them.
 
 #include <deque>
 #include <mutex>
@@ -13,7 +13,7 @@
 
 namespace pitchboard::link {
 
-/// Makes records of what a watch tells, in its thread.
+/// Makes records of what a watch reports, on the watch's thread.
 class LiveRecords : public LiveObserver {
  public:
   void received(const LiveDatagram& datagram) override;
@@ -27,14 +27,14 @@ class LiveRecords : public LiveObserver {
   std::optional<telemetry::RefereeState> m_refereeNews;  // not in a frame yet
 };
 
-/// The newest records that fit into so many bytes, about in order of time: what is looked back to.
+/// The newest records that fit into a number of bytes, roughly in order of time, for looking back.
 /// Any thread.
 class RecordMemory : public LiveHistory {
  public:
   explicit RecordMemory(std::size_t bytes) : m_room(bytes) {}
 
   void remember(LiveRecord record);
-  /// What was put back is not the past.
+  /// Records of a restored state do not belong to the past.
   void forgetAfter(double time);
 
   void walk(std::span<const telemetry::SessionStream> streams, telemetry::TimeRange range,
@@ -49,10 +49,10 @@ class RecordMemory : public LiveHistory {
   std::size_t m_bytes = 0;
 };
 
-/// Of a live match.
+/// The memory of a live match.
 class LiveMemory : public LiveRecords, public RecordMemory {
  public:
-  /// `rows`: where the rows go; null: nowhere.
+  /// `rows` receives the rows; null: nobody does.
   explicit LiveMemory(std::shared_ptr<telemetry::RowSink> rows = nullptr,
                       std::size_t bytes = std::size_t{128} << 20)
       : RecordMemory(bytes), m_rows(std::move(rows)) {}

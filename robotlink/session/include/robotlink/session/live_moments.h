@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Moments of a live match as they were seen: made again from the datagrams, on top of what was
-// known before them (LiveState), wherever both are kept. Times are seconds of the source.
+// Rebuilds moments of a live match as they were shown, from a LiveState and the datagrams that
+// followed, wherever these are kept. Times are seconds of the source.
 
 #include <functional>
 #include <memory>
@@ -18,27 +18,27 @@
 
 namespace pitchboard::link {
 
-/// Something that was kept of a live match: a datagram, or a message that is JSON.
+/// A record of a live match: a datagram, or a JSON message.
 struct LiveRecord {
   telemetry::SessionStream stream = telemetry::SessionStream::Telemetry;
   double time = 0.0;
-  telemetry::SessionDatagram datagram;  ///< of Telemetry and RefereeRaw
-  std::string json;                     ///< of other streams
+  telemetry::SessionDatagram datagram;  ///< for Telemetry and RefereeRaw
+  std::string json;                     ///< for other streams
 };
 
-/// Where they are kept. One thread, unless a class says otherwise.
+/// Where records are kept. One thread at a time, unless a class says otherwise.
 class LiveHistory {
  public:
   virtual ~LiveHistory() = default;
-  /// What there is of these streams in the closed range, in the order in which it was kept, until
-  /// the visitor says false.
+  /// Visits the records of these streams in the closed range, in the order in which they were kept,
+  /// until the visitor returns false.
   virtual void walk(std::span<const telemetry::SessionStream> streams, telemetry::TimeRange range,
                     const std::function<bool(const LiveRecord&)>& visit) const = 0;
-  /// Nothing is older.
+  /// Returns the time of the oldest record.
   virtual double begin() const = 0;
 };
 
-/// Of a session file. The reader belongs to the caller and stays.
+/// The records of a session file. The reader belongs to the caller and must outlive this.
 class SessionHistory : public LiveHistory {
  public:
   explicit SessionHistory(const telemetry::SessionReader& session) : m_session(session) {}
@@ -50,21 +50,21 @@ class SessionHistory : public LiveHistory {
   const telemetry::SessionReader& m_session;
 };
 
-/// What a part of a session must open with, so that its moments are those of the session
-/// (telemetry::ExportSelection); nothing for other sessions than live ones.
+/// Returns the messages with which a part of a live session must begin, so that its moments are
+/// those of the session (telemetry::ExportSelection); nothing for other sessions.
 std::vector<std::pair<telemetry::SessionStream, std::string>> openingAt(
     const telemetry::SessionReader& session, double time);
 
-/// Goes through one history; fast when moments follow each other. One thread.
+/// Rebuilds moments of one history; fast if they follow each other. One thread at a time.
 class LiveMoments {
  public:
   LiveMoments();
   ~LiveMoments();
 
-  /// The frame of this moment; origin is Recorded, the serial is left at 0. Nothing before the
-  /// first books.
+  /// Returns the frame of this moment, with the origin Recorded and serial 0. Nothing before the
+  /// first state.
   std::optional<MatchFrame> frameAt(const LiveHistory& history, double time);
-  /// The books of this moment, as LiveState::text().
+  /// Returns the state of this moment, as LiveState::text().
   std::optional<std::string> snapshotAt(const LiveHistory& history, double time);
 
  private:

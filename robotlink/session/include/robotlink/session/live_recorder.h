@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Records what is heard of real robots into a session file: rows, every message and referee packet
-// as it arrived, referee packets decoded, events; the profile is attached. Nothing
-// waits for the disk (SessionWriter).
+// Records live robots into a session file: rows, every message and referee packet as it arrived,
+// the referee's packets decoded, events, and the profile as an attachment. Nothing waits for the
+// disk (SessionWriter).
 
 #include <memory>
 #include <optional>
@@ -15,27 +15,28 @@
 
 namespace pitchboard::link {
 
-/// How the referee stands in a session: one JSON object with "time", the packet (names:
-/// docs/LIVE.md) and what RefereeView makes of it ("sender", "ourTeam", the teams' "playersLeft",
+/// Returns the referee's state as in a session: a JSON object with "time", the packet (names in
+/// docs/live.md) and what RefereeView derives from it ("sender", "ourTeam", the teams'
+/// "playersLeft",
 /// ...).
 std::string refereeToJson(const telemetry::RefereeState& packet, const RefereeView& referee,
                           double time);
 
-/// What a session of live robots says about itself; `zero` as in LiveRecorder::create().
+/// Returns the description of a live session; `zero` as in LiveRecorder::create().
 telemetry::SessionInfo liveSessionInfo(const LiveOptions& live, telemetry::WallTime zero,
                                        const std::string& program);
 
 class LiveRecorder : public LiveRecords {
  public:
-  /// `zero`: the moment that counts as 0 s, as in LiveObserver's times. Errors as
-  /// SessionWriter::create(). Hand it to observe() of a watch or a pipeline, which makes its rows.
+  /// Creates the file. `zero` is the moment that counts as 0 s, as in LiveObserver. Fails as
+  /// SessionWriter::create() does. Pass it to observe() of a watch or a pipeline.
   static Result<std::shared_ptr<LiveRecorder>> create(const std::string& path,
                                                       const LiveOptions& live,
                                                       telemetry::WallTime zero,
                                                       const RecorderOptions& options = {});
   ~LiveRecorder() override;
 
-  // The watch's thread.
+  // Called on the watch's thread.
   void happened(const MatchEvent& event) override;
   std::shared_ptr<telemetry::RowSink> rows() override { return m_writer; }
 
@@ -56,7 +57,7 @@ class LiveRecorder : public LiveRecords {
   std::shared_ptr<telemetry::SessionWriter> m_writer;
 };
 
-/// A record of any kind, into a session.
+/// Writes a record of any kind into a session.
 void appendRecord(telemetry::SessionWriter& writer, const LiveRecord& record);
 
 }  // namespace pitchboard::link

@@ -2,8 +2,8 @@
 #pragma once
 
 // Records a simulated match into a session file while it is played: rows, events, log lines, and
-// pieces that can be entered again exactly; the scenario and the
-// catalog are attached. The match never waits: the file has a thread of its own (SessionWriter).
+// checkpoints that can be restored exactly. Scenario and catalog are attachments. The match never
+// waits, because the file has a thread of its own (SessionWriter).
 
 #include <memory>
 #include <optional>
@@ -19,44 +19,44 @@
 
 namespace pitchboard::link {
 
-/// Names of what is attached to a session.
+/// Names of the attachments of a session.
 inline constexpr const char* scenarioAttachment = "scenario.json";
 inline constexpr const char* catalogAttachment = "catalog.json";
 inline constexpr const char* profileAttachment = "profile.json";
 
 struct RecorderOptions {
   telemetry::SessionWriterOptions writer;
-  /// Name and version of the program, for the file.
+  /// Name and version of the program, which are written into the file.
   std::string program = "pitchboard";
 };
 
-/// What the session is to say of a simulated match: title, seed, start.
+/// Returns the description of a simulated match: title, seed, start.
 telemetry::SessionInfo sessionInfo(const Scenario& scenario, const RecorderOptions& options);
 
-/// The same of a match that may have been played already; its source was at 0 s when `now` minus
-/// its time.
+/// The same for a match that has been playing; its second 0 was at `now` minus its time in wall
+/// time.
 telemetry::SessionInfo sessionInfo(const SimulatedMatch& match, std::string_view program,
                                    telemetry::WallTime now);
-/// The scenario and the catalog, as files of the session.
+/// Attaches scenario and catalog to a session.
 void attachMatch(telemetry::SessionWriter& writer, const Scenario& scenario,
                  const VariableCatalog& catalog);
 
 class MatchRecorder : public TickObserver {
  public:
-  /// Error Conflict when the file exists, SystemError when it cannot be made. Hand it to
-  /// MatchRunner::observe() (or make it one of the first observers); it records from that moment
-  /// on. Its rows are those of `sampler`, which observes the same match before it.
+  /// Creates the file. Fails with Conflict if it exists, with SystemError if it cannot be created.
+  /// Pass it to MatchRunner::observe() (or make it one of the first observers): it records from
+  /// then on. Its rows are those of `sampler`, which must observe the same match before it.
   static Result<std::shared_ptr<MatchRecorder>> create(const std::string& path,
                                                        const Scenario& scenario,
                                                        const VariableCatalog& catalog,
                                                        std::shared_ptr<MatchSampler> sampler,
                                                        const RecorderOptions& options = {});
-  /// Into a session that was made and described by the caller.
+  /// Records into a session that the caller created and described.
   MatchRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
                 std::shared_ptr<MatchSampler> sampler);
   ~MatchRecorder() override;
 
-  // The match's thread.
+  // Called on the match's thread.
   void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) override;
   void happened(std::span<const MatchEvent> events) override;
   void drew(std::span<const ReceivedDrawing> drawings) override;
@@ -67,7 +67,7 @@ class MatchRecorder : public TickObserver {
   // Any thread.
   telemetry::SessionStatus status() const { return m_writer->status(); }
   const std::string& path() const { return m_writer->path(); }
-  /// A bookmark or another event of the user's.
+  /// Records a bookmark or another event of the user.
   void append(const MatchEvent& event);
   /// Call after MatchRunner::stopObserving(): writes the last piece and the summary.
   Result<void> finish();
@@ -84,17 +84,17 @@ class MatchRecorder : public TickObserver {
   std::vector<ReceivedDrawing> m_drawings;
 };
 
-/// What has just happened, from memory into a new session file: the rows of the last `seconds` of
-/// the store, the pieces of the archive, the events and log lines of that time. Times stay those of
-/// the source. Errors as SessionWriter::create(); NotFound when there is no row yet.
+/// Saves the last `seconds` from memory into a new session file: rows of the store, checkpoints of
+/// the archive, events and log lines. Times stay those of the source. Fails as
+/// SessionWriter::create() does, and with NotFound if there is no row yet.
 struct RecentPast {
   const telemetry::SeriesStore* rows = nullptr;
-  const StateArchive* archive = nullptr;  ///< null: a live source
-  const LiveMemory* received = nullptr;   ///< null: a simulated one
-  const LiveHistory* drawn = nullptr;     ///< by programs of a simulated match; null: nothing
+  const StateArchive* archive = nullptr;  ///< null for a live source
+  const LiveMemory* received = nullptr;   ///< null for a simulated source
+  const LiveHistory* drawn = nullptr;     ///< drawings of a simulated match; null if there are none
   std::vector<MatchEvent> events;
   std::vector<LogLine> log;
-  std::string scenario, catalog, profile;  ///< JSON texts; empty: there is none
+  std::string scenario, catalog, profile;  ///< JSON texts; empty if there is none
 };
 Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seconds,
                                             const RecentPast& past,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Samples a simulated match, once for all who want its rows: after each tick one row for every
-// robot (its whole blackboard, truth, belief errors) and one for the match. The groups are named
-// like the robots ("B1") and "match"; a robot's attributes hold its identity: "robot" (number of
+// Samples a simulated match once for all who want its rows: after each tick a row for every robot
+// (its whole blackboard, truth, belief errors) and one for the match. The groups are named like the
+// robots ("B1") and "match"; a robot's attributes identify it: "robot" (number of
 // its blackboard), "team", "number" (on the shirt), "key" (System V, 0: heap), "imu180" (0 or 1),
-// "behaviour". The match's attributes: "physics", "seed", "tick_rate". Columns: docs/PLOTS.md.
+// "behaviour". The match's attributes: "physics", "seed", "tick_rate". Columns: docs/plots.md.
 
 #include <algorithm>
 #include <memory>
@@ -23,22 +23,22 @@ struct MatchSamplerOptions {
   int everyNth = 1;  ///< ticks per row; at least 1
 };
 
-/// One for each match, before the other observers. Called on the match's thread. Allocates when
-/// robots come, go or change; otherwise only what the sinks need (the series store: once in 64 rows
-/// of a group).
+/// There is one per match, before the other observers, called on the match's thread. It allocates
+/// if robots are added, removed or changed; otherwise only the sinks do (the series store once in
+/// 64 rows of a group).
 class MatchSampler : public TickObserver {
  public:
   static constexpr const char* matchGroup = "match";
 
-  /// Without a sink it waits for the first to be added.
+  /// If there is no sink, sampling starts when the first one is added.
   explicit MatchSampler(std::shared_ptr<telemetry::RowSink> sink = {},
                         MatchSamplerOptions options = {});
   ~MatchSampler() override;
 
   void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) override;
 
-  // The match's thread, as all of this.
-  /// Gives it the row of the present moment, and from now on the same rows as the others.
+  // All of this is called on the match's thread.
+  /// Adds a sink, which gets the row of the present moment and then the same rows as the others.
   void add(std::shared_ptr<telemetry::RowSink> sink, const SimulatedMatch& match);
   void remove(const std::shared_ptr<telemetry::RowSink>& sink);
   void setEveryNth(int ticks) { m_options.everyNth = std::max(1, ticks); }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Reads recorded moments: from memory (StateArchive and SeriesStore) or from a session file. Any
-// thread that may read those.
+// Reads recorded moments from memory (StateArchive and SeriesStore) or from a session file. Any
+// thread that may read these.
 
 #include <cstdint>
 #include <span>
@@ -19,22 +19,22 @@ namespace pitchboard::link {
 class SimulatedMatch;
 class StateArchive;
 
-/// What rows say of a robot's blackboard: every word of `catalog` that the group has a column for.
+/// Returns a robot's blackboard from rows: every word of `catalog` for which there is a column.
 std::vector<BoardWord> boardWords(const telemetry::GroupInfo& group,
                                   std::span<const std::uint32_t> words,
                                   const VariableCatalog& catalog);
 
-/// The present moment of a match, with what its processes remember as far as `archive`, which sees
-/// the match, knows. On the match's thread.
+/// Returns the present moment of a match, with what its processes remember if `archive`, which
+/// observes the match, knows it. Call it on the match's thread.
 Moment presentMoment(const SimulatedMatch& match, const StateArchive& archive);
 
-/// The moment at a tick, with the blackboards from the rows at that time. Error NotFound when the
-/// tick is not in the archive; missing rows only leave blackboards out.
+/// Returns the moment at a tick, with the blackboards from the rows at that time. Fails with
+/// NotFound if the tick is not in the archive; if rows are missing, blackboards are left out.
 Result<Moment> momentFromMemory(const StateArchive& archive, const telemetry::SeriesStore& rows,
                                 std::uint64_t tick, const VariableCatalog& catalog);
 
-/// The moment at or before `seconds` of a session file. Error NotFound when the file has no state
-/// of a simulated match there (a live recording, or another program's file).
+/// Returns the moment at or before `seconds` of a session file. Fails with NotFound if the file has
+/// no checkpoint there, as in a live recording or another program's file.
 Result<Moment> momentFromSession(const telemetry::SessionReader& session, double seconds,
                                  const VariableCatalog& catalog);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// From a moment to a simulation: whatever frame a person looks at (live, recorded, simulated)
-// becomes a scenario that starts from it.
+// Makes a scenario from any frame, whether live, recorded or simulated, so that a match can start
+// from it. Plain values; any thread.
 
 #include <string>
 #include <vector>
@@ -15,28 +15,28 @@ namespace pitchboard::link {
 struct MomentOptions {
   enum class Poses : std::uint8_t { True, Believed };
   enum class Ball : std::uint8_t { True, Perceived };
-  Poses poses = Poses::True;  ///< Believed is taken where the truth is not known
-  Ball ball = Ball::True;     ///< Perceived likewise
-  /// Given to robots whose own is not known (live ones). A name of behaviours(), or noBehaviour.
+  Poses poses = Poses::True;  ///< believed poses are used where the truth is unknown
+  Ball ball = Ball::True;     ///< the perceived ball is used if the truth is unknown
+  /// The behaviour of robots whose behaviour is unknown. A name of behaviours(), or noBehaviour.
   std::string behaviour = "striker";
-  /// Physics, noise, stop conditions, scripted writes and the referee's rules are taken over from
-  /// here; the field too, unless the frame has one of another size. Its game, if it has one, is
-  /// that of this moment; without one the referee's packet in the frame says it in whole seconds.
+  /// Physics, noise, stop conditions, scripted writes and rules come from this scenario, and so
+  /// does the field unless that of the frame has another size. Its game, if any, is that of this
+  /// moment; otherwise the game comes from the referee's packet in the frame, in whole seconds.
   const Scenario* base = nullptr;
-  /// The map of the match that will start: what robots had on received blackboards is written
-  /// there, but for the referee's words.
+  /// The catalog of the match that will start. Received blackboards of robots are written there,
+  /// except for the variables of the referee.
   const VariableCatalog* catalog = &VariableCatalog::published();
 };
 
 struct MomentScenario {
   Scenario scenario;
-  /// What could not be taken over as it was, in sentences: "B2 stood outside the walls and was
-  /// moved inside." Empty: nothing.
+  /// Sentences about what could not be carried over: "B2 stood outside the walls and was moved
+  /// inside."
   std::vector<std::string> notes;
 };
 
-/// Always a scenario that a match can be made of: numbers that no match has are corrected and
-/// noted.
+/// Always returns a valid scenario: values that no match can have are corrected, and listed in the
+/// notes.
 MomentScenario scenarioFromMoment(const MatchFrame& frame, const MomentOptions& options = {});
 
 }  // namespace pitchboard::link

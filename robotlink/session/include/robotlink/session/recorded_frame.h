@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Rebuilds what a person saw at a recorded moment: of a simulated match from its rows (in the
-// series store or a session file), of a live match from its datagrams. Whatever a recording does
-// not have stays empty in the frame; unknown columns are passed over. Not thread-safe: one object
-// for one source, in one thread.
+// Rebuilds the frame of a recorded moment: for a simulated match from its rows (in the series store
+// or a session file), for a live match from its datagrams. What a recording does not have stays
+// empty in the frame; unknown columns are ignored. Not thread-safe: use one object per source, on
+// one thread.
 
 #include <map>
 #include <memory>
@@ -20,22 +20,22 @@
 
 namespace pitchboard::link {
 
-/// What rows do not say: from the scenario that the session holds, or its field; the published
-/// field where there is none.
+/// What rows do not contain: it comes from the session's scenario or field, or is the published
+/// field if there is none.
 FrameSettings backdropOf(const telemetry::SessionReader& session);
 
 class RecordedFrames {
  public:
-  /// `robots`: of a session only these are shown (session_choice.h); empty: all.
+  /// `robots` chooses which robots of a session are shown (session_choice.h); empty: all.
   explicit RecordedFrames(FrameSettings settings = {}, std::vector<std::string> robots = {});
   ~RecordedFrames();
 
-  /// The frame at `time` (s of the source): of a simulation that of the rows at or before it, in
-  /// which a robot is there while it has rows; of a live match the one that was seen, made of its
-  /// datagrams. origin is Recorded, serial grows.
+  /// Returns the frame at `time` (s of the source). In a simulation it is that of the rows at or
+  /// before `time`, and robots exist while they have rows; in a live match it is the frame that was
+  /// shown. Its origin is Recorded, and the serial increases.
   MatchFrame frameAt(const telemetry::SeriesStore& rows, double time);
   MatchFrame frameAt(const telemetry::SessionReader& session, double time);
-  /// Only the robots whose blackboards were received (attached or sent), for joinBoards().
+  /// Builds only robots whose blackboards were received (attached or sent), for joinBoards().
   std::vector<RobotFrame> boardsAt(const telemetry::SeriesStore& rows, double time);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A column of recorded rows found by name once and then read from every row. Private to robotlink.
+// A column of recorded rows, found once by name and read from every row. Private to robotlink.
 
 #include <bit>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <string_view>
 
-#include <base/ids.h>
+#include <simcore/world/team_color.h>
 #include <telemetry/series/series_types.h>
 #include <telemetry/wire/meanings.h>
 
@@ -17,10 +17,10 @@ namespace pitchboard::link {
 
 struct RowSlot {
   telemetry::ColumnType type = telemetry::ColumnType::Float64;
-  int index = -1;  ///< among the words or among the values; -1: there is no such column
+  int index = -1;  ///< index in the words or the values; -1 if there is no such column
 
   bool present() const { return index >= 0; }
-  /// NaN where there is no such column.
+  /// Returns the value, or NaN if there is no such column.
   double read(const telemetry::RowView& row) const {
     const auto at = static_cast<std::size_t>(index);
     const bool isWord = type != telemetry::ColumnType::Float64;
@@ -35,15 +35,15 @@ struct RowSlot {
     const double value = read(row);
     return std::isfinite(value) ? value : fallback;
   }
-  /// Of a value from a file: never outside int.
+  /// Returns a value from a file as int, limited to its range.
   int readInt(const telemetry::RowView& row, int fallback = 0) const {
     const double value = read(row);
     return std::abs(value) <= 2147483647.0 ? static_cast<int>(value) : fallback;
   }
 };
 
-/// The first of these names that the group has. Several, because a blackboard and a message call
-/// the same thing differently.
+/// Finds the first of these names that the group has; a blackboard and a message may have different
+/// names for the same value.
 inline RowSlot findSlot(const telemetry::GroupInfo& group,
                         std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
@@ -57,7 +57,7 @@ inline RowSlot findSlot(const telemetry::GroupInfo& group,
   return {};
 }
 
-/// The blackboard variable of this meaning.
+/// Finds the blackboard variable of this meaning.
 inline RowSlot findSlot(const telemetry::GroupInfo& group, telemetry::FieldMeaning meaning) {
   return findSlot(group, {telemetry::info(meaning).variable});
 }
@@ -67,16 +67,12 @@ inline std::string_view attribute(const telemetry::GroupInfo& group, std::string
   return found == group.attributes.end() ? std::string_view() : std::string_view(found->second);
 }
 
-/// The colour of a robot's rows; blue where they name none.
+/// Returns the colour of a robot's rows; blue if they name none.
 inline TeamColor teamOf(const telemetry::GroupInfo& group) {
-  const std::string_view name = attribute(group, "team");
-  for (const TeamColorInfo& team : teamColors) {
-    if (team.name == name) return team.color;
-  }
-  return TeamColor::Blue;
+  return teamColorNamed(attribute(group, "team")).value_or(TeamColor::Blue);
 }
 
-/// A whole number from 0 to 9 digits, else `fallback`.
+/// Reads a whole number of up to 9 digits; otherwise returns `fallback`.
 inline int attributeNumber(const telemetry::GroupInfo& group, std::string_view name,
                            int fallback = 0) {
   const std::string_view text = attribute(group, name);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Walks through every row of a range, wherever rows are kept.
+// Visits every row of a range, wherever rows are kept. One thread at a time.
 
 #include <functional>
 
@@ -13,8 +13,8 @@ namespace pitchboard::link {
 using RowVisitor =
     std::function<void(telemetry::GroupId, const telemetry::GroupInfo&, const telemetry::RowView&)>;
 
-/// Rows of all groups in the closed range, in order of time; rows of one time in order of the
-/// groups. The view is valid during the call.
+/// Visits the rows of all groups in the closed range, in order of time, and at equal times in order
+/// of the groups. The view is valid during the call.
 void forEachRow(const telemetry::SeriesStore& rows, telemetry::TimeRange range,
                 const RowVisitor& visit);
 void forEachRow(const telemetry::SessionReader& session, telemetry::TimeRange range,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Events as a session file keeps them, and back. Plain functions; any thread.
+// Converts events to the form of session files and back. Pure functions; any thread.
 
 #include <vector>
 
@@ -12,11 +12,11 @@
 namespace pitchboard::link {
 
 telemetry::SessionEvent sessionEvent(const MatchEvent& event);
-/// A kind that nobody knows becomes Other, which says what it was called. Of an event without facts
-/// the words are kept.
+/// Converts an event of a file. An unknown kind becomes Other, which keeps its name; an event
+/// without facts keeps its text.
 MatchEvent matchEvent(const telemetry::SessionEvent& event);
 
-/// All of a session in order of time. Events of 0.8 get the key of their robot from its rows.
+/// Returns all events of a session in order of time. Events of 0.8 get their robot's key from rows.
 std::vector<MatchEvent> eventsOf(const telemetry::SessionReader& session);
 
 }  // namespace pitchboard::link

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Remembers a match so that every recent moment can be entered again exactly: a checkpoint a second
-// (and after every change by hand), what the robots were told in between, and every ten seconds
-// what their processes remember, when these run inside the match. Memory has a budget;
-// the oldest seconds go first. Written on the match's thread, read from any.
+// Keeps a match in memory so that every recent moment can be restored exactly: a checkpoint per
+// second (and after every change by hand), the commands in between, and every ten seconds what
+// processes inside the match remember. Memory has a budget, and the oldest seconds are dropped
+// first. The match's thread writes; any thread reads.
 
 #include <cstdint>
 #include <deque>
@@ -19,17 +19,17 @@
 
 namespace pitchboard::link {
 
-/// Cuts a running match into segments. Used by the archive and by the recorder, on one thread.
+/// Cuts a running match into segments, for the archive and the recorder. One thread at a time.
 class StateSegmenter {
  public:
-  /// `interval`: simulated seconds between checkpoints.
+  /// `interval` is the simulated time in s between checkpoints.
   explicit StateSegmenter(double interval = 1.0) : m_interval(interval) {}
 
-  /// As TickObserver::ticked(). Returns the segment that ended here, when one did.
+  /// As TickObserver::ticked(). Returns the segment that ended here, if one did.
   std::optional<StateSegment> ticked(const SimulatedMatch& match);
   /// As TickObserver::worldChanged().
   std::optional<StateSegment> worldChanged(const SimulatedMatch& match);
-  /// The segment in the making; it goes on afterwards.
+  /// Returns the current segment, which continues afterwards.
   const std::optional<StateSegment>& open() const { return m_open; }
   std::optional<StateSegment> finish() { return std::exchange(m_open, std::nullopt); }
 
@@ -40,10 +40,10 @@ class StateSegmenter {
 };
 
 struct ArchiveOptions {
-  double interval = 1.0;                             ///< simulated s between checkpoints
+  double interval = 1.0;                             ///< s of simulated time between checkpoints
   std::size_t memoryBudget = std::size_t{64} << 20;  ///< bytes; about 10 hours of six robots
-  double memoryInterval = 10.0;  ///< simulated s between two looks at what processes remember
-  std::size_t robotsBudget = std::size_t{64} << 20;  ///< bytes of these; see docs/STUDIO.md
+  double memoryInterval = 10.0;  ///< s of simulated time between two copies of processes
+  std::size_t robotsBudget = std::size_t{64} << 20;  ///< bytes for these copies
 };
 
 class StateArchive : public TickObserver {
@@ -61,17 +61,17 @@ class StateArchive : public TickObserver {
   };
 
   // Any thread.
-  /// Nothing before the first tick.
+  /// Returns nothing before the first tick.
   std::optional<TickRange> range() const;
-  /// The state that the match went on from at this tick: after changes by hand, where there were
-  /// some. Error NotFound when the tick is not (or no longer) there.
+  /// Returns the state from which the match continued at this tick, after changes by hand. Fails
+  /// with NotFound if the tick is not in memory.
   Result<sim::WorldState> restore(std::uint64_t tick) const;
-  /// What the match was played with at this tick; nothing when it is not (or no longer) there.
+  /// Returns how the match was played at this tick; nothing if the tick is not in memory.
   std::optional<sim::SimulationSettings> settings(std::uint64_t tick) const;
-  /// From what the robots' processes remembered to this tick; null when that is not (or no longer)
-  /// there, or when none run inside the match.
+  /// Returns what the robots' processes remember at this tick; null if that is not in memory, or if
+  /// none run inside the match.
   std::shared_ptr<const MomentPast> past(std::uint64_t tick) const;
-  /// The pieces that have a tick in [first, last], in order.
+  /// Returns the segments that contain ticks of [first, last], in order.
   std::vector<std::shared_ptr<const StateSegment>> segments(std::uint64_t first,
                                                             std::uint64_t last) const;
   std::size_t memoryBytes() const;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A WorldState as bytes, without loss: for checkpoints in memory and in session files. Little
-// machine dependence: whole numbers are varints (LEB128, signed ones zigzag), doubles are their
-// IEEE bits with trailing zero bytes left out. Bytes from a file are hostile: every count and every
-// number is checked before it is used.
+// Encodes a WorldState as bytes without loss, for checkpoints in memory and in session files. Whole
+// numbers are varints (LEB128, signed ones zigzag); doubles are their IEEE bits without trailing
+// zero bytes. Bytes of a file are not trusted: every count and number is checked before it is used.
+// Pure functions; any thread.
 
 #include <string>
 #include <string_view>
@@ -14,13 +14,13 @@
 
 namespace pitchboard::link {
 
-/// Appends to `out`. Any state of a Simulation can be encoded.
+/// Appends the encoded state to `out`. Every state of a Simulation can be encoded.
 void encodeState(const sim::WorldState& state, std::string& out);
 std::string encodeState(const sim::WorldState& state);
 
-/// The equal state. Takes what it used off the front of `bytes`. Error ParseError for bytes that
-/// are no state, Unsupported for a later version; both with the offset. What it returns can be put
-/// into a simulation (Simulation::restore()).
+/// Decodes a state, and removes the bytes that it used from the front of `bytes`. Fails with
+/// ParseError if they are no state, with Unsupported for a later version, both with the offset. The
+/// result can be passed to Simulation::restore().
 Result<sim::WorldState> decodeState(std::string_view& bytes);
 
 }  // namespace pitchboard::link

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A piece of a match that can be entered again at every tick: the exact state at its beginning (a
-// checkpoint) and the commands that the bridge read before each tick since. A step is a pure
-// function of state and commands, so stepping on from the checkpoint gives every later state bit
-// for bit.
+// A piece of a match that can be restored at every tick: the exact state at its beginning
+// (checkpoint) and the commands that the bridge read before each later tick. A step is a pure
+// function of state and commands, so stepping from the checkpoint gives every later state bit for
+// bit. A plain value, for any thread.
 
 #include <cstdint>
 #include <span>
@@ -19,32 +19,32 @@
 
 namespace pitchboard::link {
 
-/// A value; copies share nothing.
+/// Copies are independent of each other.
 class StateSegment {
  public:
   StateSegment() = default;
   explicit StateSegment(const sim::WorldState& checkpoint);
 
-  /// What every robot was told before the tick that follows lastTick(), in the order of the state's
-  /// robots.
+  /// Adds the commands before the tick that follows lastTick(), in the order of the robots of the
+  /// state.
   void add(std::span<const sim::RobotCommand> commands);
 
   std::uint64_t firstTick() const { return m_firstTick; }
   std::uint64_t lastTick() const { return m_firstTick + m_ticks; }
   std::size_t robots() const { return m_previous.size(); }
   double tickRate() const { return m_tickRate; }
-  /// Roughly the memory that it takes.
+  /// Returns roughly how much memory it uses.
   std::size_t bytes() const { return sizeof *this + m_state.size() + m_commands.size(); }
 
-  /// The state at a tick from firstTick() to lastTick(). Error NotFound outside, ParseError when
-  /// the commands are damaged (only in a segment from a file).
+  /// Returns the state at a tick from firstTick() to lastTick(). Fails with NotFound outside, with
+  /// ParseError if the commands are damaged, which is only possible in a segment from a file.
   Result<sim::WorldState> at(std::uint64_t tick) const;
 
-  /// How it was played from firstTick() to this tick. Errors as of at().
+  /// Returns how it was played from firstTick() to this tick. Fails as at() does.
   Result<PlayedStretch> playedTo(std::uint64_t tick) const;
 
-  /// For files. decode() refuses bytes that are no segment, with the offset; what it returns may
-  /// still hold damaged commands, which at() finds.
+  /// Convert to and from bytes. decode() refuses bytes that are no segment, with the offset; the
+  /// result may still have damaged commands, which at() detects.
   std::string encode() const;
   static Result<StateSegment> decode(std::string_view bytes);
 

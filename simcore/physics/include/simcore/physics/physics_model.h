@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The strategy behind Simulation: one per motion and collision model. A model moves bodies and
-// tells what robots sense; it knows no rules of the game. It keeps no state of its own that
-// outlives a step: everything is in WorldState, whose `physics` alternative it owns. Used by one
-// thread. A new model is a class here, a state in WorldState's variant and a line in
-// physics_model.cpp.
+// The interface of physics models, which Simulation uses. A model moves bodies and computes what
+// robots sense; it knows no rules of the game. Everything that outlives a step is in WorldState, of
+// which the model owns one alternative of `physics`. Used by one thread at a time. To add a model,
+// write a class, a state in WorldState's variant, and a line in physics_model.cpp.
 
 #include <cstddef>
 #include <memory>
@@ -22,26 +21,26 @@
 namespace pitchboard::sim {
 
 struct PhysicsModelInfo {
-  std::string_view name;         ///< as in a scenario: "published", "rigid-body"
+  std::string_view name;         ///< its name in scenarios: "published", "rigid-body"
   std::string_view description;  ///< a sentence for people
 };
 
-/// Every motion and collision model, the default first.
+/// Returns all physics models, the default first.
 std::span<const PhysicsModelInfo> physicsModels();
 
 class PhysicsModel {
  public:
   virtual ~PhysicsModel() = default;
 
-  /// Puts a fresh state of this model into `world`, ball on the centre mark, no robots.
+  /// Initializes `world` for this model: the ball on the centre mark, no robots.
   virtual void reset(WorldState& world) const = 0;
   virtual bool owns(const WorldState& world) const = 0;
 
-  /// The first half of a tick: control and motion of all bodies. Fills what control says of itself,
-  /// and whatever a model senses at that moment.
+  /// First half of a tick: control and motion of all bodies. Fills what control reports, and
+  /// whatever the model senses at that point.
   virtual BallSweep move(WorldState& world, std::span<const RobotCommand> commands,
                          std::span<Percepts> percepts, std::vector<Event>& events) = 0;
-  /// The second half, after the rules: what robots sense of the world as it is then.
+  /// Second half of a tick, after the rules: fills what robots sense.
   virtual void sense(WorldState& world, std::span<const RobotCommand> commands,
                      std::span<Percepts> percepts) = 0;
 
@@ -52,21 +51,22 @@ class PhysicsModel {
   virtual void placeHead(WorldState& world, std::size_t index, double headYaw) const = 0;
   virtual void placeBall(WorldState& world, const Point& position,
                          const Velocity& velocity) const = 0;
-  /// By how much the yaw of the robot's IMU is off, rad: its drift, and where it was reset.
+  /// Returns the error of the yaw of a robot's IMU in rad: its drift, and the yaw at its last
+  /// reset.
   virtual double imuError(const WorldState& world, std::size_t index) const = 0;
   virtual void setImuError(WorldState& world, std::size_t index, double error) const = 0;
-  /// Called after settings (noise, constants) changed, to resize what depends on them.
+  /// Called after noise or constants have changed, to resize what depends on them.
   virtual void settingsChanged(WorldState& world) const = 0;
 
   virtual Pose robotPose(const WorldState& world, std::size_t index) const = 0;
-  /// Fills everything of `out` that depends on the model; sizes are already right.
+  /// Fills the parts of `out` that depend on the model. The sizes are already right.
   virtual void describe(const WorldState& world, Snapshot& out) const = 0;
 };
 
 std::unique_ptr<PhysicsModel> makePublishedModel();
 std::unique_ptr<PhysicsModel> makeRigidBodyModel();
 
-/// Nothing when the name is unknown.
+/// Returns the model of this name, or null.
 std::unique_ptr<PhysicsModel> makePhysicsModel(std::string_view name);
 
 }  // namespace pitchboard::sim

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The published simulator's match rules, for matches without a referee: goals count, a ball that is
-// out is put back. A pure function over the state of the world and how the ball moved; metres, or
-// the published frame to the last bit where the world is in it. Any thread.
+// The rules of the published simulator, for matches without a referee: goals count, and a ball that
+// is out is put back. A pure function of the world's state and the path of the ball; metres, or the
+// published frame if the world uses it. Any thread.
 
 #include <vector>
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The simulated world. One object, one thread; no clock, no I/O: the caller says when a tick
-// happens. step() advances exactly one tick and allocates nothing once all robots are there.
+// The simulated world. It has no clock and no input or output: the caller decides when a tick
+// happens, and step() advances the world by exactly one tick, without allocating memory once all
+// robots are there. One thread at a time. Metres, radians and seconds, unless a name says
+// otherwise.
 
 #include <cstdint>
 #include <memory>
@@ -23,8 +25,7 @@
 
 namespace pitchboard::sim {
 
-/// What a state of the `published` physics asks for in vain, as sentences for people; none for
-/// other models, and none when nothing is ignored.
+/// Returns sentences about settings that the `published` physics ignores; none for other models.
 std::vector<std::string> ignoredSettings(const SimulationSettings& settings,
                                          std::span<const RobotModel> models);
 
@@ -32,35 +33,35 @@ class Simulation {
  public:
   static constexpr int maxRobots = highestRobotNumber;
 
-  /// An empty field with the ball on the centre mark. Fails on an unknown model, a field that
-  /// cannot be played on, a tick rate outside 1..10000 Hz or noise that is not finite.
+  /// Creates an empty field with the ball on the centre mark. Fails for an unknown model, a field
+  /// that cannot be played on, a tick rate outside 1 to 10000 Hz, or noise that is not finite.
   static Result<Simulation> create(const SimulationSettings& settings);
 
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
 
-  /// One tick. Both spans have one entry per robot in the order of state().robots; `percepts` is
-  /// overwritten.
+  /// Advances the world by one tick. Both spans have one entry per robot, in the order of
+  /// state().robots; `percepts` is overwritten.
   void step(std::span<const RobotCommand> commands, std::span<Percepts> percepts);
 
   const WorldState& state() const { return m_state; }
-  /// Puts a saved moment back; stepping on from it repeats what followed. Fails as create() does.
+  /// Restores a saved state. Steps from there repeat what followed. Fails as create() does.
   Result<void> restore(const WorldState& state);
   std::uint64_t hash() const { return stateHash(m_state); }
 
-  /// Fills `out`, reusing its memory.
+  /// Fills `out` with what people see of the world, reusing its memory.
   void snapshot(Snapshot& out) const;
   Snapshot snapshot() const;
-  /// Events of the last step, in order.
+  /// Returns the events of the last step, in order.
   std::span<const Event> events() const { return m_events; }
 
   std::size_t robotCount() const { return m_state.robots.size(); }
-  /// Index into state().robots, or nothing.
+  /// Returns the index of a robot in state().robots, or nothing.
   std::optional<std::size_t> indexOf(RobotId id) const;
   std::optional<Pose> robotPose(RobotId id) const;
 
-  // Edits by hand or by a script, between two steps. A pose outside the walls is moved inside.
+  // Edits between two steps, by hand or by a script. A pose outside the walls is moved inside.
   Result<void> addRobot(const RobotIdentity& identity, const Pose& pose,
                         const RobotModel& model = {});
   Result<void> removeRobot(RobotId id);
@@ -71,31 +72,30 @@ class Simulation {
   Result<void> setNoise(const NoiseParameters& noise);
   void setClockRunning(bool running) { m_state.clockRunning = running; }
   void setScore(const Score& score) { m_state.score = score; }
-  /// Another kind of robot from now on; changeable while running.
+  /// Changes the model of a robot, at any time between two steps.
   Result<void> setRobotModel(RobotId id, const RobotModel& model);
-  /// Constants of the rigid-body model; changeable while running.
+  /// Changes the constants of the rigid-body model.
   Result<void> setRigidBody(const RigidBodySettings& settings);
-  /// Another model of motion and collisions (a name of physicsModels()) from now on; changeable
-  /// while running. Places, headings, IMU errors and the ball's velocity are kept; robots stop, get
-  /// up if they lay, and begin their action again at the next step. Error NotFound for an unknown
-  /// name.
+  /// Changes the physics model (a name of physicsModels()). Positions, yaw, IMU errors and the
+  /// ball's velocity are kept. Robots stop, stand up if they had fallen, and start their action
+  /// again at the next step. Fails with NotFound for an unknown name.
   Result<void> setPhysics(const std::string& name);
 
-  /// A call of the referee, between two steps. Refused (Conflict) when the state of the game does
-  /// not allow it, and when there is no referee. What it does is in events() of the next step.
+  /// Carries out a call of the referee. Fails with Conflict if the state of the game does not allow
+  /// it, or if there is no referee. Its effects are in events() of the next step.
   Result<void> call(const RefereeCall& call);
-  /// Tells, with the events of the next step, that what follows from this cause was taken back.
+  /// Adds an event to the next step that says that everything with this cause was undone.
   void reportUndone(std::uint32_t cause);
-  /// Puts a referee's rules in, or takes the referee away; the game begins anew, and all robots of
-  /// a team are told to attack the same goal. Error InvalidArgument for rules out of their range,
-  /// and when more than two teams are on the field; nothing has changed then.
+  /// Sets the referee's rules, or removes the referee. The game starts over, and all robots of a
+  /// team attack the same goal. Fails with InvalidArgument for rules out of range or more than two
+  /// teams, and then nothing has changed.
   Result<void> setReferee(const std::optional<RefereeRules>& rules);
-  /// Begins the game of the referee anew, where `start` says. Error Conflict without a referee,
-  /// else as sim::startGame(); nothing has changed then.
+  /// Starts the referee's game over, at the point that `start` describes. Fails with Conflict
+  /// without a referee, or as sim::startGame() does; then nothing has changed.
   Result<void> startGame(const GameStart& start);
 
-  /// For conformance runs and scripts that speak the published frame: the state may be edited
-  /// directly between steps. Sizes of per-robot vectors must not change.
+  /// Gives direct access to the state between steps, for conformance runs and scripts in the
+  /// published frame. Do not change the sizes of per-robot vectors.
   WorldState& editState() { return m_state; }
 
  private:
@@ -105,7 +105,7 @@ class Simulation {
   WorldState m_state;
   std::unique_ptr<PhysicsModel> m_model;
   std::vector<Event> m_events;
-  std::vector<Event> m_called;  // by calls since the last step
+  std::vector<Event> m_called;  // made by calls since the last step
   Placements m_placements;
   Snapshot m_seen;  // what the referee sees, after the bodies have moved
 };

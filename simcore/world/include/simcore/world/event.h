@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What happened in a step of the simulation, or by a referee's call. Plain values.
+// Events of a step of the simulation or of a referee's call. Plain values; any thread.
 
 #include <cstdint>
 
@@ -28,19 +28,19 @@ enum class EventKind : std::uint8_t {
   Penalised,
   PenaltyOver,
   FinalWhistle,
-  Undone  ///< what a decision by hand had done before
+  Undone  ///< the effects of a call by hand were undone
 };
 
-/// `robot` is 0 when no robot is concerned. `value`: a goal and a corrected score have the side (0
-/// left, 1 right), a kick and an unknown action their code, a state its PlayState, a half its
-/// number, a phase its GamePhase, a set play its SetPlay, a penalty its PenaltyKind, Undone the
-/// cause that it takes back.
+/// `robot` is 0 if no robot is concerned. `value` depends on the kind: the side of a goal or
+/// corrected score (0 left, 1 right), the code of a kick or unknown action, the PlayState, the
+/// number of the half, the GamePhase, the SetPlay, the PenaltyKind, or the cause that Undone refers
+/// to.
 struct Event {
   EventKind kind = EventKind::Goal;
   std::uint64_t tick = 0;
   RobotId robot;
   int value = 0;
-  std::uint32_t cause = 0;  ///< the decision by hand that it follows from; 0: none
+  std::uint32_t cause = 0;  ///< number of the call by hand that caused it; 0: none
   bool operator==(const Event&) const = default;
 };
 

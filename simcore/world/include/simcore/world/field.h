@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The pitch as data: every length that drawing, physics and scenarios need, in metres.
+// The field as data: every length that drawing, physics and scenarios need. Metres; plain values;
+// any thread.
 
 #include <span>
 #include <string>
@@ -12,27 +13,26 @@
 
 namespace pitchboard::sim {
 
-/// How a ball rolls. The published simulator's surface takes a share of its speed; real ones take
-/// the same speed every second.
+/// How a ball rolls. On the published simulator's surface it loses a share of its speed; on real
+/// ones it loses the same speed every second.
 struct Surface {
   double deceleration = 0.0;   ///< m/s²
-  double keptPerFrame = 0.95;  ///< share of its speed that the ball keeps in 1/60 s; 1 = all of it
+  double keptPerFrame = 0.95;  ///< share of its speed that the ball keeps in 1/60 s
   bool operator==(const Surface&) const = default;
 };
 
-/// How far a ball of this speed (m/s) rolls until it stands still, m; infinite when nothing slows
-/// it down.
+/// Returns how far a ball of this speed (m/s) rolls, in m; infinite if nothing slows it down.
 double rollingDistance(const Surface& surface, double speed);
 
-/// All lengths in metres. The field is symmetric about both axes; the origin is its centre.
+/// Lengths in metres. The field is symmetric about both axes; the origin is its centre.
 struct FieldSpec {
   std::string name = "published";
   double length = 9.0;      ///< goal line to goal line, outer edges
   double width = 6.0;       ///< touch line to touch line
-  double border = 0.7;      ///< from a line to the wall round the field
+  double border = 0.7;      ///< from a line to the wall around the field
   double goalWidth = 1.8;   ///< between the centres of the posts
   double goalDepth = 0.7;   ///< from the goal line to the back of the goal
-  double goalHeight = 1.1;  ///< for the record; the simulation is flat
+  double goalHeight = 1.1;  ///< not simulated: the simulation is flat
   double goalPostRadius = 0.10;
   double goalAreaLength = 0.6;     ///< along x
   double goalAreaWidth = 3.45;     ///< along y
@@ -42,8 +42,8 @@ struct FieldSpec {
   double centreCircleDiameter = 1.5;
   double lineWidth = 0.05;
   double ballRadius = 0.09;
-  double ballMass = 0.2;      ///< kg, unless the match says another
-  double robotRadius = 0.13;  ///< of robots whose model names none
+  double ballMass = 0.2;      ///< kg, unless the scenario says otherwise
+  double robotRadius = 0.13;  ///< for robots whose model names none
   Surface surface;
 
   double halfLength() const { return length / 2; }
@@ -51,12 +51,12 @@ struct FieldSpec {
   bool operator==(const FieldSpec&) const = default;
 };
 
-/// The built-in fields, the published one first (sizes: rules of the years named; see
-/// docs/SCENARIOS.md).
+/// Returns the built-in fields, the published one first (docs/scenarios.md).
 std::span<const FieldSpec> builtInFields();
 Result<FieldSpec> fieldByName(std::string_view name);
 
-/// Refuses sizes that cannot be played on (not finite, not positive, goal wider than the field...).
+/// Fails with InvalidArgument for sizes that cannot be played on, such as a goal wider than the
+/// field.
 Result<void> validate(const FieldSpec& field);
 
 }  // namespace pitchboard::sim

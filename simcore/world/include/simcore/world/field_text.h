@@ -2,7 +2,7 @@
 #pragma once
 
 // A field as people write it: the name of a built-in one, or an object of scenario files
-// (docs/SCENARIOS.md). Any thread.
+// (docs/scenarios.md). Any thread.
 
 #include <string>
 #include <string_view>

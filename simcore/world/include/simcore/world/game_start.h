@@ -3,7 +3,7 @@
 
 // Where in a game a match begins: any state, with its clock, score, set play, penalties and cards.
 // Says only what differs from the beginning of a match by the same rules; scenario files have it
-// under "game" (docs/SCENARIOS.md). Seconds of simulated time, metres. Plain values, any thread.
+// under "game" (docs/scenarios.md). Seconds of simulated time, metres. Plain values, any thread.
 
 #include <array>
 #include <map>
@@ -13,6 +13,7 @@
 #include <base/geometry.h>
 #include <base/ids.h>
 #include <simcore/world/game_state.h>
+#include <simcore/world/team_color.h>
 
 namespace pitchboard::sim {
 

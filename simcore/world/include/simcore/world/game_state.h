@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <base/geometry.h>
-#include <base/ids.h>
+#include <simcore/world/team_color.h>
 
 namespace pitchboard::sim {
 

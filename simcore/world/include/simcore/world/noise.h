@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How far the simulated body and senses are from perfect. All standard deviations are of zero-mean
-// normal noise. Motion and drift values hold for one frame of 1/60 s and are scaled with the square
-// root of the tick, so that the tick rate does not change their strength. 0 switches a source off.
-// Presets are data: resources/noise/*.json.
+// The errors of the simulated body and senses. Standard deviations are of normal noise with mean 0.
+// Motion and drift are per frame of 1/60 s and scaled with the square root of the tick, so that the
+// tick rate does not change their strength. 0 switches a source off. Presets are data:
+// resources/noise/*.json. Plain values; any thread.
 
 namespace pitchboard::sim {
 
@@ -19,12 +19,12 @@ struct NoiseParameters {
   double robotDistance = 0.0;        ///< m, team-mates and opponents
   double robotBearing = 0.0;         ///< rad, team-mates and opponents
   double landmarkBearing = 0.0;      ///< rad
-  double landmarkProbability = 1.0;  ///< that a landmark in view is seen in a frame, 0..1
-  double missedDetection = 0.0;      ///< probability that a ball or robot in view is not seen, 0..1
-  double visionDelay = 0.0;          ///< s between the moment seen and the moment published
-  double imuWhite = 0.0;             ///< rad, on the yaw, anew each tick
-  double imuDrift = 0.0;             ///< rad per 1/60 s, accumulating on the yaw
-  /// Every robot has the noise of its own model; the numbers here are not used.
+  double landmarkProbability = 1.0;  ///< probability that a landmark in view is seen in a frame
+  double missedDetection = 0.0;      ///< probability that a ball or robot in view is not seen
+  double visionDelay = 0.0;          ///< s from seeing something to writing it
+  double imuWhite = 0.0;             ///< rad, on the yaw, per tick
+  double imuDrift = 0.0;             ///< rad per 1/60 s, accumulates on the yaw
+  /// True: every robot has the noise of its own model, and the numbers here are ignored.
   bool ofModel = false;
 
   bool operator==(const NoiseParameters&) const = default;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Reads the numbers of parameters.h from an object that people wrote: degrees in files, radians in
-// memory. Any thread.
+// Reads the numbers of parameters.h from a JSON object that people wrote: degrees in files, radians
+// in memory. Pure functions; any thread.
 
 #include <array>
 #include <string_view>
@@ -19,7 +19,7 @@ NumberRange rangeOf(const Parameter<Values, Number>& parameter) {
   return {parameter.least, parameter.most, parameter.unit.words};
 }
 
-/// `keys`, and those of the parameters.
+/// Returns `keys` and the keys of the parameters.
 template <class Values, class Number, std::size_t N>
 std::vector<std::string_view> withKeys(std::vector<std::string_view> keys,
                                        const std::array<Parameter<Values, Number>, N>& parameters) {
@@ -27,7 +27,7 @@ std::vector<std::string_view> withKeys(std::vector<std::string_view> keys,
   return keys;
 }
 
-/// Reads those parameters that the object has over `values`.
+/// Reads the parameters that the object has into `values`.
 template <class Values, class Number, std::size_t N>
 void readNumbers(const JsonObject& object,
                  const std::array<Parameter<Values, Number>, N>& parameters, Values& values) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one table of the numbers that people may set: noise, kinds of robots, ball and contacts, the
-// field, the tick rate. Scenario files, the simulation's own checks, the rows of the Noise and
-// physics dock and the tables of docs/SCENARIOS.md are all made from it. Ranges are in the unit in
-// which people write a value; the only one that differs from the unit in memory is the degree.
-// Defaults are those of the structs. Constant data, for any thread.
+// The table of all numbers that people can set: noise, robot models, ball and contacts, the field,
+// the tick rate. Scenario files, the checks of the simulation, the Noise and physics panel and the
+// tables of docs/scenarios.md are made from it. Ranges are in the unit that people write, which
+// differs from the one in memory for angles only (degrees and radians). Defaults are those of the
+// structs. Constant data; any thread.
 
 #include <array>
 
@@ -15,32 +15,32 @@
 
 namespace pitchboard::sim {
 
-/// As people write a value.
+/// The unit of a value as people write it.
 struct Unit {
-  const char* words = "";   ///< in the plural, for sentences; empty: a plain number
-  const char* symbol = "";  ///< for tables
-  bool angle = false;       ///< degrees where people write it, radians in memory
+  const char* words = "";   ///< plural, for sentences; empty for a plain number
+  const char* symbol = "";  ///< symbol, for tables
+  bool angle = false;       ///< people write degrees, memory holds radians
 };
 
-/// A value as a slider with a box. Not shown at all when `decimals` is negative.
+/// How a value is shown as a slider with a number box. Not shown if `decimals` is negative.
 struct ShownParameter {
-  const char* unit = "";  ///< behind the number, with its leading space
-  double factor = 1.0;    ///< shown = written × factor
-  double least = 0.0;     ///< what is useful, in the unit shown; more may be allowed
+  const char* unit = "";  ///< text after the number, with a leading space
+  double factor = 1.0;    ///< shown value = written value × factor
+  double least = 0.0;     ///< useful range, in the unit shown; more may be allowed
   double most = 0.0;
   int decimals = -1;
 };
 
-/// One number of `Values`: a measure, or with Number = int a count.
+/// One number of `Values`: a measure, or a count if Number is int.
 template <class Values, class Number = double>
 struct Parameter {
-  const char* key;  ///< in files
+  const char* key;  ///< its key in files
   Number Values::*member;
   Unit unit;
-  double least;         ///< allowed, in `unit`
-  double most;          ///< allowed, in `unit`
-  const char* name;     ///< as a row or a column is called
-  const char* meaning;  ///< more about it; empty where the name says all
+  double least;         ///< allowed minimum, in `unit`
+  double most;          ///< allowed maximum, in `unit`
+  const char* name;     ///< its name in tables and panels
+  const char* meaning;  ///< what it does; empty if the name says it
   ShownParameter shown = {};
 
   double stored(double written) const { return unit.angle ? radiansFromDegrees(written) : written; }
@@ -78,25 +78,25 @@ inline constexpr auto noiseParameters = std::to_array<Parameter<NoiseParameters>
     {"kick_angle", &NoiseParameters::kickAngle, units::degrees, 0, 180,
      "Kick angle", "σ of the ball's direction", {" °", 1, 0, 45, 1}},
     {"vision_distance", &NoiseParameters::visionDistance, units::plain, 0, 1,
-     "Ball distance", "σ, share of the distance", {" %", 100, 0, 50, 1}},
+     "Ball distance", "σ as a share of the distance", {" %", 100, 0, 50, 1}},
     {"vision_bearing", &NoiseParameters::visionBearing, units::degrees, 0, 180,
      "Ball bearing", "σ", {" °", 1, 0, 20, 1}},
     {"robot_distance", &NoiseParameters::robotDistance, units::metres, 0, 10,
-     "Robot distance", "σ, other robots", {" cm", 100, 0, 100, 0}},
+     "Robot distance", "σ, for other robots", {" cm", 100, 0, 100, 0}},
     {"robot_bearing", &NoiseParameters::robotBearing, units::degrees, 0, 180,
-     "Robot bearing", "σ, other robots", {" °", 1, 0, 20, 1}},
+     "Robot bearing", "σ, for other robots", {" °", 1, 0, 20, 1}},
     {"landmark_bearing", &NoiseParameters::landmarkBearing, units::degrees, 0, 180,
-     "Landmark bearing", "σ, field corners", {" °", 1, 0, 30, 1}},
+     "Landmark bearing", "σ, for the corners of the field", {" °", 1, 0, 30, 1}},
     {"landmark_probability", &NoiseParameters::landmarkProbability, units::plain, 0, 1,
      "Landmark seen", "Probability that a landmark in view is seen in a frame", {" %", 100, 0, 100, 0}},
     {"missed_detection", &NoiseParameters::missedDetection, units::plain, 0, 1,
-     "Missed", "Probability that a ball or robot in view is not seen", {" %", 100, 0, 100, 0}},
+     "Missed detections", "Probability that a ball or robot in view is not seen", {" %", 100, 0, 100, 0}},
     {"vision_delay", &NoiseParameters::visionDelay, units::seconds, 0, 2,
-     "Vision delay", "From the moment seen to the moment on the blackboard", {" ms", 1000, 0, 1000, 0}},
+     "Vision delay", "Time from seeing something to writing it to the blackboard", {" ms", 1000, 0, 1000, 0}},
     {"imu_white", &NoiseParameters::imuWhite, units::degrees, 0, 180,
-     "IMU yaw", "σ, anew each tick", {" °", 1, 0, 10, 2}},
+     "IMU yaw", "σ per tick", {" °", 1, 0, 10, 2}},
     {"imu_drift", &NoiseParameters::imuDrift, units::degreesPerFrame, 0, 180,
-     "IMU drift", "σ per 1/60 s, accumulating", {" °/frame", 1, 0, 1, 3}},
+     "IMU drift", "σ per 1/60 s; accumulates", {" °/frame", 1, 0, 1, 3}},
 });
 
 inline constexpr auto rigidBodyParameters = std::to_array<Parameter<RigidBodySettings>>({
@@ -112,7 +112,7 @@ inline constexpr auto robotModelParameters = std::to_array<Parameter<RobotModel>
     {"forward_fast", &RobotModel::forwardFast, units::metresPerSecond, 0, 10,
      "Forward, fast", "Action 1", {" m/s", 1, 0, 2, 2}},
     {"forward_slow", &RobotModel::forwardSlow, units::metresPerSecond, 0, 10,
-     "Forward, slow", "Action 8; DECISION_ACTION_B below 10 takes tenths of it", {" m/s", 1, 0, 2, 2}},
+     "Forward, slow", "Action 8; DECISION_ACTION_B below 10 gives tenths of it", {" m/s", 1, 0, 2, 2}},
     {"backward_fast", &RobotModel::backwardFast, units::metresPerSecond, 0, 10,
      "Backward, fast", "Action 17", {" m/s", 1, 0, 2, 2}},
     {"backward_slow", &RobotModel::backwardSlow, units::metresPerSecond, 0, 10,
@@ -126,9 +126,9 @@ inline constexpr auto robotModelParameters = std::to_array<Parameter<RobotModel>
     {"around_turn", &RobotModel::aroundTurn, units::degreesPerSecond, 0, 1000,
      "Turning around it", "Actions 9 and 14", {" °/s", 1, 0, 180, 0}},
     {"max_acceleration", &RobotModel::maxAcceleration, units::metresPerSecondSquared, 0.01, 1000,
-     "Acceleration", "Largest of the gait", {" m/s²", 1, 0.05, 10, 2}},
+     "Acceleration", "Maximum of the gait", {" m/s²", 1, 0.05, 10, 2}},
     {"max_yaw_acceleration", &RobotModel::maxYawAcceleration, units::degreesPerSecondSquared, 1, 500000,
-     "Yaw acceleration", "Largest of the gait", {" °/s²", 1, 10, 2000, 0}},
+     "Yaw acceleration", "Maximum of the gait", {" °/s²", 1, 10, 2000, 0}},
     {"kick_speed", &RobotModel::kickSpeed, units::metresPerSecond, 0, 20,
      "Strong kick", "Speed of a ball hit squarely, actions 4 and 5", {" m/s", 1, 0, 6, 2}},
     {"weak_kick_speed", &RobotModel::weakKickSpeed, units::metresPerSecond, 0, 20,
@@ -144,17 +144,17 @@ inline constexpr auto robotModelParameters = std::to_array<Parameter<RobotModel>
     {"foot_side", &RobotModel::footSide, units::metres, 0, 1,
      "Foot", "From the middle of the robot", {" cm", 100, 0, 30, 1}},
     {"foot_width", &RobotModel::footWidth, units::metres, 0.001, 3,
-     "Foot width", "So far beside the foot a ball gets 61 % of the speed", {" cm", 100, 1, 50, 0}},
+     "Foot width", "A ball at this distance beside the foot gets 61 % of the speed", {" cm", 100, 1, 50, 0}},
     {"kick_time", &RobotModel::kickTime, units::seconds, 0, 60,
-     "Kick takes", "", {" s", 1, 0, 10, 2}},
+     "Kick duration", "", {" s", 1, 0, 10, 2}},
     {"kick_contact", &RobotModel::kickContact, units::seconds, 0, 60,
-     "Foot hits after", "At most the whole kick", {" s", 1, 0, 10, 2}},
+     "Foot hits after", "Time until the foot hits the ball; at most the whole kick", {" s", 1, 0, 10, 2}},
     {"radius", &RobotModel::radius, units::metres, 0, 1,
      "Radius", "Seen from above; 0 = the field's robot_radius", {" cm", 100, 0, 60, 1}},
     {"mass", &RobotModel::mass, units::kilograms, 0.1, 200,
      "Mass", "", {" kg", 1, 0.1, 50, 1}},
     {"fall_impulse", &RobotModel::fallImpulse, units::newtonSeconds, 0, 1000,
-     "Fall impulse", "Throws it down", {" N·s", 1, 0.05, 20, 2}},
+     "Fall impulse", "Impulse that makes it fall", {" N·s", 1, 0.05, 20, 2}},
     {"get_up_front", &RobotModel::getUpFront, units::seconds, 0, 600,
      "Up from the front", "", {" s", 1, 0.1, 30, 1}},
     {"get_up_back", &RobotModel::getUpBack, units::seconds, 0, 600,
@@ -164,13 +164,13 @@ inline constexpr auto robotModelParameters = std::to_array<Parameter<RobotModel>
     {"pan_limit", &RobotModel::panLimit, units::degrees, 0, 180,
      "Head pan limit", "To either side", {" °", 1, 0, 180, 0}},
     {"field_of_view", &RobotModel::fieldOfView, units::degrees, 1, 360,
-     "Field of view", "In all", {" °", 1, 1, 360, 0}},
+     "Field of view", "Total angle", {" °", 1, 1, 360, 0}},
     {"vision_range", &RobotModel::visionRange, units::metres, 0, 100,
      "Vision range", "", {" m", 1, 0.1, 20, 1}},
     {"camera_forward", &RobotModel::cameraForward, units::metres, -1, 1,
      "Camera forward", "In front of the robot's centre", {" cm", 100, -20, 20, 1}},
     {"camera_height", &RobotModel::cameraHeight, units::metres, 0, 5,
-     "Camera height", "For distances from the lens", {" cm", 100, 0, 200, 0}},
+     "Camera height", "Used for distances from the lens", {" cm", 100, 0, 200, 0}},
 });
 
 inline constexpr auto fieldParameters = std::to_array<Parameter<FieldSpec>>({
@@ -222,7 +222,7 @@ inline constexpr Parameter<SimulationSettings> tickRateParameter{
     "Tick rate", "Ticks per simulated second"};
 // clang-format on
 
-/// Whether robots can fall: the one switch among the constants of the body.
+/// The only switch among the constants of the body: whether robots can fall.
 struct FallsSwitch {
   const char* key = "falls";
   const char* name = "Robots fall when hit hard";
@@ -235,8 +235,8 @@ inline constexpr std::array<const char*, 2> kickLawNames{"published", "foot"};
 /// From where RobotModel::fromCamera measures: no, yes.
 inline constexpr std::array<const char*, 2> distanceFromNames{"body", "camera"};
 
-// Each refuses a value that is not finite or out of its range: InvalidArgument, with the key as the
-// context ("noise.forward"). A field has more that can be wrong: validate() of field.h.
+// Each fails with InvalidArgument for a value that is not finite or out of range; the context is
+// the key ("noise.forward"). validate() of field.h checks more of a field.
 Result<void> validate(const NoiseParameters& noise);
 Result<void> validate(const RigidBodySettings& body);
 Result<void> validate(const SimulationSettings& settings);

@@ -4,7 +4,7 @@
 // The ONE place that converts between the studio's frame (metres, radians, origin at the field's
 // centre, +x right, +y up) and the published ones (centimetres, degrees, y down): the window of the
 // published simulator (origin at the corner of its world, 70 cm outside the field) and the
-// localization variables (origin at the field's top-left corner). SYSTEM.md sections 3 to 5.
+// localization variables (origin at the field's top-left corner). system.md sections 3 to 5.
 
 #include <base/geometry.h>
 #include <simcore/world/field.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The pitch as the `published` model sees it: lines, posts, goals and limits in window centimetres.
-// For the published field these are the whole numbers of PUBLISHED_EXACT; other fields give the
-// same shapes with their own sizes.
+// The field as the `published` model sees it: lines, posts, goals and limits in window centimetres.
+// For the published field these are the whole numbers of docs/reference/published-exact.md; other
+// fields give the same shapes with their own sizes. Plain values; any thread.
 
 #include <array>
 
@@ -27,11 +27,11 @@ struct PublishedGeometry {
   std::array<PublishedLine, 8> lines;  ///< in the published order of tests
   std::array<PublishedPoint, 4> posts;
   std::array<PublishedPoint, 4> landmarks;  ///< blue, red, yellow, purple corner
-  double left, right, top, bottom;          ///< of the field, on its lines
+  double left, right, top, bottom;          ///< limits of the field, on its lines
   double worldWidth, worldHeight;
-  double goalDepth;  ///< of the goals, from the goal line
+  double goalDepth;  ///< from the goal line to the back of the goal
   double goalTop, goalBottom;
-  double replaceMargin = 100.0;  ///< a ball that was out is put this far inside
+  double replaceMargin = 100.0;  ///< distance inside at which a ball that was out is put back
   double robotRadius, ballRadius, postRadius;
 };
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// State of the `published` model in the published frame: window centimetres with y down, degrees.
-// Kept there, because a conversion to metres and back would not return the same bits.
+// The state of the `published` model, in the published frame: window centimetres with y down,
+// degrees. A conversion to metres and back would not return the same bits. Plain values; any
+// thread.
 
 #include <vector>
 

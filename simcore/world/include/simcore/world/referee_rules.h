@@ -2,7 +2,7 @@
 #pragma once
 
 // A referee's rule set as data: times, thresholds, and which rules are judged at all. The built-in
-// sets are resources/rules/*.json (docs/REFEREE.md); a scenario names one and may change every
+// sets are resources/rules/*.json (docs/referee.md); a scenario names one and may change every
 // number. Times in seconds of simulated time, lengths in metres; 0 switches a time off where its
 // meaning says so. Plain values.
 
@@ -11,7 +11,7 @@
 
 namespace pitchboard::sim {
 
-/// Which controllers' conduct the machine of states follows (docs/REFEREE.md).
+/// Which controllers' conduct the machine of states follows (docs/referee.md).
 enum class RefereeStyle : std::uint8_t {
   Humanoid2014,       ///< the ball is replaced and play goes on: no set plays in the packets
   Humanoid2021,       ///< set plays stop the clock: freeze, prepare, ready, execute

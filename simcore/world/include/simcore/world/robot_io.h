@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The simulated robot's side of its blackboard, as plain values: what control and vision read
-// (RobotCommand) and what vision, control and IMU wrote in one tick (Percepts). Percepts are in the
-// units and signs that robots expect (SYSTEM.md: centimetres, degrees, left positive unless said),
-// because the published model computes them there and they must arrive bit for bit.
+// The simulated robot's side of its blackboard: what control and vision read (RobotCommand), and
+// what vision, control and IMU wrote in a tick (Percepts). Percepts have the units and signs of the
+// blackboard (centimetres, degrees, left positive unless said otherwise), because the published
+// model computes them so and they must arrive bit for bit. Plain values; any thread.
 
 #include <array>
 #include <optional>
 
 namespace pitchboard::sim {
 
-/// Read from the blackboard before a tick. The int variables of the same names.
+/// What is read from the blackboard before a tick: int variables.
 struct RobotCommand {
   int actionA = 0;           ///< DECISION_ACTION_A
   int actionB = 0;           ///< DECISION_ACTION_B
@@ -28,16 +28,16 @@ struct ImuPercept {
   std::optional<std::array<double, 3>> gyro;     ///< rad/s
   std::optional<std::array<double, 3>> accel;    ///< g
   std::optional<int> state;                      ///< IMU_STATE: 0 upright, 1 fallen
-  bool resetDone = false;                        ///< IMU_RESET is to be cleared
+  bool resetDone = false;                        ///< true: clear IMU_RESET
 };
 
 struct ControlPercept {
   int action = 0;                     ///< CONTROL_ACTION
-  std::optional<int> moving;          ///< CONTROL_MOVING when it was written
-  std::optional<int> finishedAction;  ///< this code was carried out: DECISION_ACTION_A becomes 0
+  std::optional<int> moving;          ///< CONTROL_MOVING, if it was written
+  std::optional<int> finishedAction;  ///< action that is complete: DECISION_ACTION_A becomes 0
 };
 
-/// What landmark vision wrote; each value only when it was looked for.
+/// What landmark vision wrote. A value is absent if it was not looked for.
 struct LandmarkPercept {
   std::optional<double> ballTiltDeg;  ///< VISION_TILT_DEG: ball distance in cm, −1 = not seen
   std::optional<double> ballPanDeg;   ///< VISION_PAN_DEG
@@ -45,7 +45,7 @@ struct LandmarkPercept {
   std::optional<std::array<double, 4>> bearingsDeg;
 };
 
-/// What ball vision wrote. An absent value leaves the blackboard as it is.
+/// What ball vision wrote. An absent value leaves the blackboard unchanged.
 struct BallPercept {
   std::optional<int> lost;           ///< VISION_LOST
   std::optional<double> distanceCm;  ///< VISION_BALL_DIST
@@ -53,7 +53,7 @@ struct BallPercept {
   std::optional<double> panDeg;      ///< VISION_PAN_DEG
 };
 
-/// VISION_RBTnn_*: robot nn is the nn-th robot of the field, as published (whose map ends at 11).
+/// VISION_RBTnn_*: robot nn is the nn-th robot of the field. The published map ends at 11.
 struct SeenRobot {
   double distanceCm = 0.0;
   double angleDeg = 0.0;  ///< right positive: the published sign of this variable
@@ -67,8 +67,8 @@ struct Percepts {
   LandmarkPercept landmarks;
   BallPercept ball;
   std::array<std::optional<SeenRobot>, maxSeenRobots> robots;
-  std::optional<int> searchOn;   ///< DECISION_SEARCH_ON as vision left it
-  bool decisionWorking = false;  ///< `published` sets DECISION_WORKING too
+  std::optional<int> searchOn;   ///< DECISION_SEARCH_ON, if vision changed it
+  bool decisionWorking = false;  ///< `published` sets DECISION_WORKING, too
   int voltage = 189;             ///< VOLTAGE, tenths of a volt
 };
 

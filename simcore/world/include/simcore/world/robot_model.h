@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A kind of robot as data: how fast it walks, how it kicks, how big and heavy it is, what its
-// camera sees and how far all that is from perfect. Every robot of a match has its own copy, so
-// that one may be changed alone. Metres, radians, seconds; plain values. The numbers of a
-// RobotModel{} are the published simulator's; further models are data: resources/robots/*.json
-// (docs/SCENARIOS.md). The `published` physics knows one robot only and does not look here.
+// A model of a robot as data: how fast it walks, how it kicks, its size and mass, what its camera
+// sees, and the errors of all that. Every robot of a match has its own copy, which can be changed
+// alone. The defaults are the published simulator's robot; other models are data:
+// resources/robots/*.json (docs/scenarios.md). The `published` physics ignores it. Metres, radians,
+// seconds; plain values; any thread.
 
 #include <cstdint>
 #include <string>
@@ -86,12 +86,13 @@ struct BallAtFeet {
   double bearing = 0.0;   ///< rad, left positive
 };
 
-/// Speed that a kick gives the ball, m/s, without noise. 0 if the kick does not reach it or
-/// `action` is no kick. `radius` is that of this robot, m.
+/// Returns the speed that a kick gives the ball, in m/s, without noise. 0 if the kick does not
+/// reach it or `action` is no kick. `radius` is that of this robot, m.
 double kickSpeed(const RobotModel& model, double radius, int action, const BallAtFeet& ball);
 
-/// Refuses a number that is not finite or out of its range: InvalidArgument, with the key as the
-/// context ("robot_model.mass").
+/// Fails with InvalidArgument for a number that is not finite or out of range; the context is the
+/// key
+/// ("robot_model.mass").
 Result<void> validate(const RobotModel& model);
 
 }  // namespace pitchboard::sim

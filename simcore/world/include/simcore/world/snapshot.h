@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a tick looks like from outside, whatever the physics model: a value in the studio's frame
-// for the field view, the cards and the command line.
+// What people see of a tick, whatever the physics model: a plain value in the studio's frame
+// (metres, radians) for the field, the cards and the command line. Any thread.
 
 #include <cstdint>
 #include <vector>
@@ -18,22 +18,22 @@ struct RobotSnapshot {
   Pose pose;
   double headYaw = 0.0;  ///< rad, in the field's frame
   Velocity velocity;     ///< m/s
-  int action = 0;        ///< the code that control carries out
+  int action = 0;        ///< code of the action that control executes
   bool fallen = false;
-  bool gettingUp = false;  ///< fallen, but rising
-  // Of its kind of robot; where nobody knows it, those of the published one.
-  double radius = 0.0;                      ///< m; 0 = the field's robot radius
-  double fieldOfView = 1.2217304763960306;  ///< rad in all
+  bool gettingUp = false;  ///< it has fallen and is getting up
+  // From its model; those of the published robot if the model is unknown.
+  double radius = 0.0;                      ///< m; 0: the field's robot radius
+  double fieldOfView = 1.2217304763960306;  ///< rad, total angle
   double visionRange = 3.0;                 ///< m
   RobotStatistics statistics;
   bool operator==(const RobotSnapshot&) const = default;
 };
 
-/// All but the robots.
+/// Everything except the robots.
 struct GameSnapshot {
   std::uint64_t tick = 0;
-  double time = 0.0;   ///< s simulated
-  double clock = 0.0;  ///< s of play
+  double time = 0.0;   ///< s of simulated time
+  double clock = 0.0;  ///< s of the game clock
   bool clockRunning = false;
   Score score;
   Point ball;

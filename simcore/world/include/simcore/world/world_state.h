@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Everything that the next tick depends on, as one plain value: copy it to save a moment, compare
-// it, hash it, put it back. A step is a pure function of this value and the robots' commands.
+// The complete state of the simulated world, as one plain value: copy it to save a moment, compare
+// it, hash it, restore it. A step is a pure function of this value and the robots' commands.
+// Metres, radians, ticks; any thread.
 
 #include <cstdint>
 #include <optional>
@@ -19,19 +20,20 @@
 #include <simcore/world/referee_rules.h>
 #include <simcore/world/rigid_body_state.h>
 #include <simcore/world/robot_model.h>
+#include <simcore/world/team_color.h>
 
 namespace pitchboard::sim {
 
-/// What happens after a goal or when the ball is out, besides what the physics says.
+/// What happens after a goal.
 enum class AfterGoal : std::uint8_t {
   StopClock,  ///< as published: the clock stops, the ball stays where it is
-  CentreBall  ///< the ball is put on the centre mark and play goes on
+  CentreBall  ///< the ball is put on the centre mark and play continues
 };
 
 /// One of the two teams of a match with a referee.
 struct TeamSettings {
   TeamColor colour = TeamColor::Blue;
-  int number = 0;  ///< in the GameController; 0: a free one
+  int number = 0;  ///< number in the GameController; 0: any free one
   std::string name;
   bool operator==(const TeamSettings&) const = default;
 };
@@ -44,12 +46,12 @@ struct SimulationSettings {
   NoiseParameters noise;
   AfterGoal afterGoal = AfterGoal::CentreBall;
   RigidBodySettings rigidBody;
-  std::optional<RefereeRules> referee;  ///< nothing: the published rules, without a referee
-  std::vector<TeamSettings> teams;      ///< at most two; others are the colours on the field
+  std::optional<RefereeRules> referee;  ///< nothing: no referee, the published rules
+  std::vector<TeamSettings> teams;      ///< at most two; missing ones are the colours on the field
   bool operator==(const SimulationSettings&) const = default;
 };
 
-/// The field with the surface that the ball really rolls on: the published physics has its own.
+/// Returns the field with the surface that is really used; the published physics has its own.
 inline FieldSpec playedField(const SimulationSettings& settings) {
   FieldSpec field = settings.field;
   if (settings.physics == "published") field.surface = {};
@@ -59,26 +61,25 @@ inline FieldSpec playedField(const SimulationSettings& settings) {
 struct RobotIdentity {
   RobotId id;
   TeamColor team = TeamColor::Blue;
-  int number = 1;               ///< on the shirt
-  bool imuStartsAt180 = false;  ///< yaw is relative to 180°, for robots that start facing left
-  /// "B1": letter of the team and number on the shirt.
+  int number = 1;               ///< number on the shirt
+  bool imuStartsAt180 = false;  ///< its yaw counts from 180°, for robots that start facing left
+  /// Returns the letter of the team and the number on the shirt: "B1".
   std::string name() const { return std::string(info(team).letter) + std::to_string(number); }
   bool operator==(const RobotIdentity&) const = default;
 };
 
-/// Counted for people; nothing in the physics reads it.
+/// Statistics for people; the physics does not read them.
 struct RobotStatistics {
-  double distanceWalked = 0.0;  ///< m that the gait walked: without the jitter of motion
-                                ///< noise, without being pushed or moved by hand
+  double distanceWalked = 0.0;  ///< m that the gait walked, without motion noise,
+                                ///< pushes and moves by hand
   std::uint32_t kicks = 0;
   std::uint32_t falls = 0;
-  std::uint32_t unknownActions = 0;  ///< ticks on which an unknown action code was chosen anew
+  std::uint32_t unknownActions = 0;  ///< how often an unknown action code was chosen
   int lastUnknownAction = 0;
   bool operator==(const RobotStatistics&) const = default;
 };
 
-/// Goals of the team that defends the left and the right goal. `published` calls them friend and
-/// enemy goals.
+/// Goals of the team that defends the left goal and of the one that defends the right goal.
 struct Score {
   int left = 0;
   int right = 0;
@@ -90,23 +91,24 @@ struct WorldState {
   std::uint64_t tick = 0;
   Score score;
   bool clockRunning = true;
-  std::uint64_t clockTicks = 0;       ///< ticks on which the clock ran
-  std::vector<RobotIdentity> robots;  ///< order of creation; the index of all per-robot vectors
-  std::vector<RobotModel> models;     ///< of which kind each robot is
+  std::uint64_t clockTicks = 0;  ///< ticks for which the clock has run
+  std::vector<RobotIdentity>
+      robots;                      ///< in order of creation; all per-robot vectors use this index
+  std::vector<RobotModel> models;  ///< model of each robot
   std::vector<RobotStatistics> statistics;
   std::variant<RigidBodyState, PublishedState> physics;
-  std::optional<GameState> game;  ///< exactly when settings.referee is there
+  std::optional<GameState> game;  ///< present exactly if settings.referee is
   bool operator==(const WorldState&) const = default;
 };
 
-/// The radius of robot `index`, m.
+/// Returns the radius of robot `index` in m.
 inline double robotRadius(const WorldState& world, std::size_t index) {
   const double own = world.models[index].radius;
   return own > 0.0 ? own : world.settings.field.robotRadius;
 }
 
-/// 64-bit FNV-1a over every value of the state in declaration order (not over padding), so that two
-/// states have the same hash exactly when the simulation goes on in the same way.
+/// Returns the 64-bit FNV-1a hash over every value of the state in order of declaration, without
+/// padding. Two states with the same hash continue in the same way.
 std::uint64_t stateHash(const WorldState& state);
 
 }  // namespace pitchboard::sim

@@ -2,10 +2,10 @@
 #pragma once
 
 // An arithmetic expression over variables, such as `hypot(B1.TRUE_X - 2, B1.TRUE_Y) * 100`. The
-// package muParser reads and evaluates it: operators + - * / ^, comparisons, && || ?:, its
-// functions (sin, cos, atan2, sqrt, abs, min, max, ...) and ours: !, hypot, deg, rad, wrap(angle,
-// turn); pi; t is the time in s. Variables are `GROUP.NAME`, or `{GROUP/NAME}` for names with other
-// characters. One object for one thread at a time.
+// library muParser parses and evaluates it. It knows + - * / ^, comparisons, && || ?:, the
+// functions of muParser (sin, cos, atan2, sqrt, abs, min, max, ...) and ours (!, hypot, deg, rad,
+// wrap(angle, turn)), pi, and t, the time in s. Variables are written `GROUP.NAME`, or
+// `{GROUP/NAME}` for names with other characters. An object may be used by one thread at a time.
 
 #include <memory>
 #include <span>
@@ -19,15 +19,16 @@ namespace pitchboard::telemetry {
 
 class Expression {
  public:
-  /// Fails with a sentence that names the place.
+  /// Parses an expression. Fails with ParseError and the position of the mistake.
   static Result<Expression> parse(std::string_view text);
   Expression(Expression&&) noexcept;
   Expression& operator=(Expression&&) noexcept;
   ~Expression();
 
-  /// `GROUP/NAME` of each, in the order in which they appear first.
+  /// Returns the variables as `GROUP/NAME`, in the order in which they first appear.
   const std::vector<std::string>& variables() const;
-  /// Values in the order of variables(). What cannot be computed is NaN.
+  /// Computes the value at `time` (s) from `values`, which are in the order of variables(). Returns
+  /// NaN if it cannot be computed.
   double evaluate(double time, std::span<const double> values);
 
  private:

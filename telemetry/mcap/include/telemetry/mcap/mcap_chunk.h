@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Messages on their way into an MCAP file. A chunk is filled in one thread, which may be another
-// one than that of the McapWriter it is given to. Times in ns since 1970.
+// A chunk of messages for an MCAP file. It is filled by one thread and then handed to a McapWriter,
+// which may belong to another thread. Times are ns since 1970.
 
 #include <cstdint>
 #include <string>
@@ -12,16 +12,17 @@
 
 namespace pitchboard::telemetry {
 
-/// The body of a chunk as it will be compressed.
+/// The uncompressed body of a chunk, with the index of its messages.
 class McapChunk {
  public:
   void add(const McapSchema& schema);
   void add(const McapChannel& channel);
-  /// Begins a message of `size` bytes and returns where they go; valid until the next call.
+  /// Adds a message of `size` bytes and returns where the caller has to write them. The pointer is
+  /// valid until the next call.
   char* addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t logTime,
                    std::uint64_t publishTime, std::size_t size);
   void add(const McapMessage& message);
-  void clear();  ///< keeps the memory
+  void clear();  ///< removes everything, but keeps the memory
 
   bool empty() const { return m_body.empty(); }
   std::size_t bytes() const { return m_body.size(); }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Goes through the records of one chunk, whose bytes belong to the caller. One thread at a time.
+// Iterates over the records of an unpacked chunk. The bytes belong to the caller and must outlive
+// the cursor. One thread at a time.
 
 #include <cstdint>
 #include <string_view>
@@ -10,19 +11,20 @@
 
 namespace pitchboard::telemetry {
 
-/// Walks through the records of a chunk's body; the body must outlive it.
+/// Call next(), then the accessor of the kind that it returned.
 class McapCursor {
  public:
   explicit McapCursor(std::string_view body) : m_body(body) {}
 
   enum class Kind : std::uint8_t { Schema, Channel, Message, End };
-  /// Records of other kinds are passed over. End: nothing more, or damaged() at offset().
+  /// Moves to the next schema, channel or message; other records are skipped. Returns End at the
+  /// end of the body, or at offset() if the body is damaged() there.
   Kind next();
   const McapSchema& schema() const { return m_schema; }
   const McapChannel& channel() const { return m_channel; }
   const McapMessage& message() const { return m_message; }
   bool damaged() const { return m_damaged; }
-  std::size_t offset() const { return m_at; }  ///< in the body, of the next record
+  std::size_t offset() const { return m_at; }  ///< position of the next record in the body
 
  private:
   std::string_view m_body;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Reads MCAP files, also hostile, cut or damaged ones: by their summary where it is whole, else by
-// walking through the file. Every length is checked against what is left; what cannot be read is
-// left out and named with its offset. Memory: one chunk and the index. One thread.
+// Reads MCAP files, also truncated, damaged or malicious ones. It uses the summary if that is
+// intact, and otherwise scans the whole file. Every length is checked against the rest of the file;
+// whatever cannot be read is left out and listed with its offset. It needs memory for one chunk and
+// the index. One thread at a time.
 
 #include <cstdint>
 #include <functional>
@@ -21,23 +22,25 @@ namespace pitchboard::telemetry {
 class McapSource;
 
 struct McapReaderOptions {
-  std::size_t maxChunkBytes = std::size_t{128} << 20;  ///< unpacked; larger chunks are left out
+  std::size_t maxChunkBytes = std::size_t{128} << 20;  ///< uncompressed; larger chunks are left out
   std::size_t maxAttachmentBytes = std::size_t{256} << 20;
-  bool ignoreSummary = false;  ///< walk through the file in any case, checking every chunk
-  /// Called now and then with the part of the file seen (0 to 1); false ends with an error.
+  bool ignoreSummary = false;  ///< always scan the file and check every chunk
+  /// Called from time to time with the share of the file that was read (0 to 1). Return false to
+  /// cancel, which is an error.
   std::function<bool(double)> progress;
 };
 
 struct McapContents {
   std::string name;  ///< path of the file
   std::uint64_t fileBytes = 0;
-  /// The file has an end and its summary was used. False: it was walked through (a recording that
-  /// broke off, or a damaged summary); every chunk that is listed was then unpacked and checked.
+  /// True if the summary was used. False if the file was scanned, because it is truncated or its
+  /// summary is damaged; then every listed chunk was unpacked and checked.
   bool indexed = false;
-  /// The file holds the end of its data. False: the recording broke off, or the end is damaged.
+  /// True if the file has the record that ends its data. False: the recording was cut off, or its
+  /// end is damaged.
   bool ended = false;
-  std::vector<std::string> problems;  ///< what is wrong and where, in sentences; at most 100
-  /// The parts that were left out when the file was walked through; not among the problems.
+  std::vector<std::string> problems;  ///< sentences: what is wrong and where; at most 100
+  /// The parts that were left out by the scan; they are not repeated in `problems`.
   std::vector<McapLoss> losses;
   std::string profile, library;
   std::map<std::uint16_t, McapSchema> schemas;
@@ -50,21 +53,21 @@ struct McapContents {
 
 class McapReader {
  public:
-  /// Error NotFound or SystemError (cannot be opened), ParseError (not an MCAP file), Unsupported
-  /// (a later version of MCAP). Damage behind the first bytes is no error: see McapContents.
+  /// Opens a file. Fails with NotFound or SystemError if it cannot be opened, ParseError if it is
+  /// no MCAP file, Unsupported if it is of a later version. Damage is no error: see McapContents.
   static Result<McapReader> open(const std::string& path, const McapReaderOptions& options = {});
   static Result<McapReader> openBytes(std::string bytes, const McapReaderOptions& options = {});
   McapReader(McapReader&&) noexcept;
   McapReader& operator=(McapReader&&) noexcept;
   ~McapReader();
 
-  /// What is known of the file, and what is wrong with it.
+  /// Returns the index of the file and its problems; valid as long as the reader.
   const McapContents& contents() const;
-  /// What is lost with one of the chunks that readChunk() finds damaged; `reason`: what that said.
+  /// Returns what is lost with a chunk that readChunk() could not read; `reason` is its message.
   McapLoss lossOf(const McapChunkInfo& chunk, std::string reason) const;
 
-  /// Unpacks the body of one of the chunks into `body` (its memory is used again). Error ParseError
-  /// with the offset when it is damaged, Unsupported when the compression is unknown.
+  /// Unpacks a chunk into `body`, whose memory is reused. Fails with ParseError and the offset if
+  /// the chunk is damaged, with Unsupported if its compression is unknown.
   Result<void> readChunk(const McapChunkInfo& chunk, std::string& body) const;
   Result<std::string> readAttachment(const McapAttachmentInfo& attachment) const;
   Result<McapMap> readMetadata(const McapMetadataInfo& metadata) const;

@@ -62,26 +62,26 @@ struct McapMessage {
   std::string_view data;
 };
 
-/// Where a chunk stands and what is in it.
+/// Position and content of a chunk.
 struct McapChunkInfo {
-  std::uint64_t offset = 0;          ///< of the record in the file
-  std::uint64_t length = 0;          ///< of the record, with its 9 bytes of head
-  std::uint64_t start = 0, end = 0;  ///< earliest and latest log time; both 0 without messages
-  std::string compression;           ///< "zstd", "" or what this program does not read
+  std::uint64_t offset = 0;          ///< position of the record in the file
+  std::uint64_t length = 0;          ///< length of the record, including its header of 9 bytes
+  std::uint64_t start = 0, end = 0;  ///< first and last log time; both 0 without messages
+  std::string compression;           ///< "zstd", "" (none), or one that this program cannot read
   std::uint64_t compressedSize = 0, uncompressedSize = 0;
-  std::vector<std::uint16_t> channels;  ///< with a message in the chunk; empty: not known
-  /// Not a chunk: messages that stand in the file one after another, without a checksum.
+  std::vector<std::uint16_t> channels;  ///< channels that have messages here; empty if unknown
+  /// True for messages that stand in the file outside of chunks, without a checksum.
   bool loose = false;
 };
 
 /// A part of a file that cannot be read.
 struct McapLoss {
   std::uint64_t offset = 0, bytes = 0;
-  /// Log times between which it lies, start <= end. Start 0: from the beginning; end 0: to the end.
+  /// Log times between which the part lies, start <= end; 0 means from the beginning, to the end.
   std::uint64_t start = 0, end = 0;
-  std::optional<std::uint64_t> messages{};  ///< in it, as far as the file says so elsewhere
-  bool atLeast = false;                     ///< there may have been more
-  std::string reason{};                     ///< why, in a sentence
+  std::optional<std::uint64_t> messages{};  ///< lost messages, if the file says so elsewhere
+  bool atLeast = false;                     ///< there may be more than `messages`
+  std::string reason{};                     ///< a sentence
 };
 
 struct McapAttachmentInfo {

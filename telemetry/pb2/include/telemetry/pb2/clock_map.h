@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Maps the clock of a sender to ours by the minimum-delay filter: of the datagrams of the last
-// minute the one that took the shortest time shows how far the clocks are apart. What is left is
-// that shortest delay, some milliseconds at most on a local network. Not thread-safe.
+// Maps a sender's clock to ours with a minimum-delay filter: of the datagrams of the last minute,
+// the one with the shortest delay shows how far the clocks are apart. The remaining error is that
+// shortest delay, at most some milliseconds on a local network. Plain value; not thread-safe.
 
 #include <array>
 #include <cstdint>
@@ -13,18 +13,18 @@ namespace pitchboard::telemetry {
 
 class ClockMap {
  public:
-  /// Our time (s) at which a datagram was sent that carries the sender's `sent` (ms) and came at
-  /// `arrival` (s). Never less than what was returned before, and never later than `arrival` or
-  /// that: times of rows stay in order. The datagrams must come in the order in which they were
-  /// sent: late ones are left out.
+  /// Returns when a datagram was sent, in our time (s). `sent` is the sender's time in the datagram
+  /// (ms), `arrival` our time when it arrived (s). The result never decreases and is never later
+  /// than `arrival`, so that rows stay in order. Call it for datagrams in the order in which they
+  /// were sent, and leave out late ones.
   double map(std::uint64_t sent, double arrival);
 
-  /// Our clock minus the sender's, s, with the least delay in it. 0 before the first datagram.
+  /// Returns our clock minus the sender's in s, including the shortest delay; 0 before the first
+  /// datagram.
   double offset() const;
-  /// How unevenly datagrams arrive, s: the mean change of the delay from one to the next, as RTP
-  /// measures it (RFC 3550).
+  /// Returns the mean change of the delay between datagrams in s, as RTP defines it (RFC 3550).
   double jitter() const { return m_jitter; }
-  /// How often the sender's clock was found to have begun anew: after a reboot or a sleep.
+  /// Counts how often the sender's clock has restarted, because it rebooted or slept.
   std::uint64_t restarts() const { return m_restarts; }
 
  private:
@@ -41,7 +41,7 @@ class ClockMap {
   std::array<Bucket, bucketCount> m_buckets{};
   std::size_t m_used = 0, m_now = 0;  // buckets in use, and the one that is being filled
   double m_returned = 0.0, m_delay = 0.0, m_jitter = 0.0;
-  int m_far = 0;  // datagrams in a row that came much later than the least delay
+  int m_far = 0;  // datagrams in a row that arrived much later than the shortest delay
   std::uint64_t m_restarts = 0;
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Curves made of other curves, and statistics of any samples. Each is an object that takes one
-// sample after another in order of time, so that a live curve goes on where it was; derived() runs
-// one over a whole curve. A sample whose value is NaN is a hole: it gives NaN and what follows goes
-// on as if it had not been there. Not thread-safe; no allocation per sample but in MovingAverage.
+// Curves that are computed from other curves. Each is an object that takes one sample after another
+// in order of time, so that a live curve continues where it was; derived() runs one over a whole
+// curve. A NaN sample is a gap: it gives NaN, and the next samples are computed as if it had not
+// been there. Plain values, not thread-safe; only MovingAverage allocates.
 
 #include <cstddef>
 #include <deque>
@@ -17,8 +17,8 @@
 
 namespace pitchboard::telemetry {
 
-/// Change per second since the sample before: (v − v₋₁) / (t − t₋₁). The first sample has none, nor
-/// has one at the same time as the one before (it then counts as the one before): NaN.
+/// Change per second since the previous sample: (v − v₋₁) / (t − t₋₁). NaN for the first sample,
+/// and for one at the same time as the previous one, which it then replaces.
 class Derivative {
  public:
   Sample next(const Sample& sample);
@@ -27,7 +27,7 @@ class Derivative {
   std::optional<Sample> m_before;
 };
 
-/// Of the values joined by straight lines (trapezoid rule), from 0 at the first sample; unit · s.
+/// Integral by the trapezoid rule, 0 at the first sample. Its unit is that of the values times s.
 class Integral {
  public:
   Sample next(const Sample& sample);
@@ -37,8 +37,8 @@ class Integral {
   double m_sum = 0.0;
 };
 
-/// Mean of the samples in (t − window, t]; values that are not finite are left out. `window` in s,
-/// above 0; otherwise the values pass unchanged.
+/// Mean of the finite samples in (t − window, t]. `window` is in s; if it is not above 0, the
+/// values are passed on unchanged.
 class MovingAverage {
  public:
   explicit MovingAverage(double window) : m_window(window) {}
@@ -52,7 +52,7 @@ class MovingAverage {
   void add(double value);
 };
 
-/// Into (−half, half]: half = 180 for degrees, π for radians. An angle that ran away comes back.
+/// Wraps an angle into (−half, half]: half is 180 for degrees, π for radians.
 class WrapAngle {
  public:
   explicit WrapAngle(double half) : m_half(half) {}
@@ -68,15 +68,16 @@ struct LinearConversion {
   Sample next(const Sample& sample) const { return {sample.time, factor * sample.value + offset}; }
 };
 
-/// A conversion that a menu can offer.
+/// A conversion that the menu of a curve offers.
 struct UnitConversion {
   std::string_view to;  ///< as in ColumnInfo::unit
   double factor = 1.0;
 };
-/// Of values in `unit`: between cm and m, ° and rad, tenths of a volt and V, ms, µs and s.
+/// Returns the units into which `unit` can be converted: between cm and m, ° and rad, 0.1 V and V,
+/// ms, µs and s.
 std::vector<UnitConversion> unitConversionsFrom(std::string_view unit);
 
-/// Any of the above over a whole curve.
+/// Applies one of the curves above to all samples.
 template <class Curve>
 std::vector<Sample> derived(std::span<const Sample> samples, Curve curve) {
   std::vector<Sample> out;
@@ -85,7 +86,8 @@ std::vector<Sample> derived(std::span<const Sample> samples, Curve curve) {
   return out;
 }
 
-/// Of the finite values in the closed interval; samples in order of time.
+/// Returns the statistics of the finite values in the closed interval. `samples` are in order of
+/// time.
 SeriesStatistics statisticsOf(std::span<const Sample> samples, TimeRange range);
 
 }  // namespace pitchboard::telemetry

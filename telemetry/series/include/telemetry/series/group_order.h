@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The order in which groups of rows are listed: in trees of variables, as columns of a CSV, in
-// reports. Pure functions; any thread.
+// The order in which groups of rows are listed: in the tree of variables, as columns of a CSV file,
+// in reports. Pure functions; any thread.
 
 #include <algorithm>
 #include <functional>
@@ -14,14 +14,15 @@
 
 namespace pitchboard::telemetry {
 
-/// Notes in the attributes ("order") where a group of this robot is listed.
+/// Stores in the attribute "order" where a group of this robot is listed.
 void setOrder(GroupInfo& group, const RobotOrder& order);
-/// As setOrder() noted it; nothing for other groups and for those of sessions before 0.12.
+/// Returns what setOrder() stored; nothing for other groups, and in sessions from before 0.12.
 std::optional<RobotOrder> orderOf(const GroupInfo& group);
-/// Robots in their order, each before other groups of it; groups without an order come first.
+/// Compares two groups: groups without an order come first, then the robots in their order, each
+/// robot before its further groups.
 bool isListedBefore(const GroupInfo& group, const GroupInfo& other);
 
-/// Places in `groups` as they are listed. `infoOf`: the GroupInfo of one of them.
+/// Returns the indices of `groups` in the order of the list. `infoOf` returns the GroupInfo of one.
 template <class Groups, class InfoOf>
 std::vector<std::size_t> listedOrder(const Groups& groups, InfoOf infoOf) {
   std::vector<std::size_t> places(groups.size());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where rows go: the series store, a session file, both one after the other.
+// The interface that takes rows: the series store, a session file, or both. Rows are values; the
+// implementation says which threads may call it.
 
 #include <string_view>
 
@@ -9,18 +10,19 @@
 
 namespace pitchboard::telemetry {
 
-/// One thread at a time.
+/// Called by one thread at a time, unless the implementation says otherwise.
 class RowSink {
  public:
   virtual ~RowSink() = default;
-  /// A group of this name with the same columns is the same group. So is one with further Float64
-  /// columns behind them, though its id may be another one from then on.
+  /// Registers a group and returns its id. A group with the same name and columns is the same
+  /// group. Further Float64 columns may be added at the end; the id can change then.
   virtual GroupId addGroup(const GroupInfo& info) = 0;
-  /// A group goes on under another name, with its rows where the sink can do that; columns may be
-  /// added as by addGroup(). Where a group has that name already, it is that group.
+  /// Continues a group under another name, with its old rows if the sink can do that. Columns may
+  /// be added as in addGroup(). If a group of the new name exists, it is continued instead.
   virtual GroupId renameGroup(std::string_view /*from*/, const GroupInfo& to) {
     return addGroup(to);
   }
+  /// Adds a row. The views in `row` need to be valid only during the call.
   virtual void append(GroupId group, const RowView& row) = 0;
 };
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Mean, extremes, deviation and root mean square of many values in one pass. Blocks are summed
-// around their own first value and joined by the formula of Chan, Golub and LeVeque (Updating
-// Formulae and a Pairwise Algorithm for Computing Sample Variances, 1979), so that a large offset
-// (a clock, a coordinate) does not swallow the deviation. Values that are not finite are left out.
+// Mean, minimum, maximum, standard deviation and root mean square of many values in one pass. Each
+// block is summed relative to its first value, and blocks are combined by the formula of Chan,
+// Golub and LeVeque (Updating Formulae and a Pairwise Algorithm for Computing Sample Variances,
+// 1979), so that a large offset costs no precision. Values that are not finite are ignored. Plain
+// value; not thread-safe.
 
 #include <cmath>
 #include <cstddef>
@@ -37,7 +38,7 @@ class StatisticsSum {
     const double mean = sum / static_cast<double>(n);
     join(n, shift + mean, squares - sum * mean, low, high);
   }
-  /// `count` times the same value.
+  /// Adds the same value `count` times.
   void addEqual(double value, std::uint64_t count) {
     if (std::isfinite(value) && count > 0) join(count, value, 0.0, value, value);
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The recent past of a source in memory: rows of every group, columnar in chunks, with min/max
-// summaries so that drawing costs what it shows and not what there is. Memory has a budget; the
-// oldest chunks leave first. One writer thread for each group; any number of readers on other
-// threads, which work on immutable views and never make a writer wait for a query.
+// The recent past of a source in memory: the rows of every group, stored by column in chunks, with
+// summaries of minimum and maximum, so that drawing a curve costs its pixels and not its samples.
+// Memory has a budget; the oldest chunks are dropped first. One thread writes a group; any number
+// of other threads read immutable views and never block the writer. Times are seconds of the
+// source.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +21,7 @@
 namespace pitchboard::telemetry {
 
 struct SeriesOptions {
-  std::size_t memoryBudget = std::size_t{1} << 30;  ///< bytes, all groups together
+  std::size_t memoryBudget = std::size_t{1} << 30;  ///< bytes for all groups together
 };
 
 struct SeriesId {
@@ -35,55 +36,55 @@ struct Sample {
   bool operator==(const Sample&) const = default;
 };
 
-/// What one pixel column of a curve covers. NaN samples are not counted in min and max; both are
-/// NaN where there is no other sample.
+/// The samples that one pixel column of a curve covers. Minimum and maximum ignore NaN samples, and
+/// are NaN if there is no other one.
 struct SeriesBucket {
   double min = 0.0, max = 0.0;
-  double first = 0.0, last = 0.0;  ///< NaN where that sample is
-  std::uint32_t samples = 0;       ///< 0: there is no sample here
+  double first = 0.0, last = 0.0;  ///< NaN if that sample is NaN
+  std::uint32_t samples = 0;       ///< 0: no sample falls into this column
 };
 
-/// Over the finite samples in a closed interval; sigma is that of the population.
+/// Statistics of the finite samples in a closed interval. Sigma is that of the population.
 struct SeriesStatistics {
   std::uint64_t samples = 0;
   double mean = 0.0, min = 0.0, max = 0.0, sigma = 0.0, rms = 0.0;
-  bool reading = false;  ///< of some rows only so far; SeriesStore::pagesRevision() tells of others
+  bool reading = false;  ///< covers only some rows so far; see SeriesStore::pagesRevision()
 };
 
-/// One group as it was at one instant; immutable, any thread, keeps its chunks alive.
+/// A group as it was at one instant. Immutable, for any thread; it keeps its chunks alive.
 class GroupView {
  public:
   virtual ~GroupView() = default;
   virtual const GroupInfo& info() const = 0;
-  /// Nothing when there is no row.
+  /// Returns the times of the first and last row; nothing if there is no row.
   virtual std::optional<TimeRange> range() const = 0;
   virtual std::size_t rows() const = 0;
-  /// Rows of different times per second, over the last second of the group's time; 0 when unknown.
+  /// Returns rows per second, over the last second of the group; 0 if unknown.
   virtual double rate() const = 0;
 
   virtual std::optional<Sample> latest(std::uint32_t column) const = 0;
-  /// The last sample at or before `time`.
+  /// Returns the last sample at or before `time`.
   virtual std::optional<Sample> at(std::uint32_t column, double time) const = 0;
-  /// The whole row at or before `time`: words and values as they were appended, also those of a
-  /// column that was not seen (ColumnInfo::lostBy), which is NaN for all other calls. False: there
-  /// is none.
+  /// Reads the whole row at or before `time`, exactly as it was appended. This includes old values
+  /// of columns that were not seen (ColumnInfo::lostBy), which are NaN in all other calls. Returns
+  /// false if there is no such row.
   virtual bool rowAt(double time, double& rowTime, std::vector<std::uint32_t>& words,
                      std::vector<double>& values) const = 0;
-  /// Time of the last change of value; the first row's when it never changed.
+  /// Returns when the value last changed, or the first row's time if it never did.
   virtual std::optional<double> lastChange(std::uint32_t column) const = 0;
-  /// Splits [range.begin, range.end) into out.size() equal parts.
+  /// Fills `out` with equal parts of [range.begin, range.end).
   virtual void buckets(std::uint32_t column, TimeRange range,
                        std::span<SeriesBucket> out) const = 0;
-  /// Every sample in the closed interval, in order, at most `most`; says whether that was all.
+  /// Appends the samples of the closed interval in order, at most `most`. Returns whether that was
+  /// all of them.
   virtual bool samples(std::uint32_t column, TimeRange range, std::vector<Sample>& out,
                        std::size_t most = SIZE_MAX) const = 0;
   virtual SeriesStatistics statistics(std::uint32_t column, TimeRange range) const = 0;
-  /// False if only a coarse picture of this range is in memory: buckets() then gives an envelope,
-  /// and samples() must not be joined by lines. Asking reads the rows, if they fit
-  /// (SeriesStore::pagesRevision() tells when they have come).
+  /// Returns false if only a summary of this range is in memory: then buckets() gives an envelope,
+  /// and samples() must not be connected by lines. The call starts reading the rows if they fit;
+  /// SeriesStore::pagesRevision() increases when they have been read.
   virtual bool hasEveryRow(TimeRange /*range*/) const { return true; }
-  /// The rows that are not in memory are on their way; false also where they never will come,
-  /// because so many do not fit.
+  /// Returns whether missing rows are being read. False also if they are too many to fit.
   virtual bool isReading(TimeRange /*range*/) const { return false; }
 };
 

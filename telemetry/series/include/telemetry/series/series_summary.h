@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A coarse picture of rows that are not in memory: extremes of every 256 rows, for every column.
-// A session file holds them beside its rows, so that a curve over a whole day is drawn without
-// reading the day. Single precision: it is for drawing. Seconds of the session. Plain values.
+// A summary of rows: minimum, maximum and last value of every 256 rows, for every column. Session
+// files store it beside their rows, so that a curve over a whole day is drawn without reading the
+// day. It is for drawing only, in single precision. Times are seconds of the session. Plain values;
+// any thread.
 
 #include <cstdint>
 #include <memory>
@@ -14,12 +15,12 @@
 
 namespace pitchboard::telemetry {
 
-/// Neighbouring parts of 256 rows; column by column.
+/// Up to 64 consecutive buckets of 256 rows, stored by column.
 struct SummaryPart {
-  static constexpr std::uint32_t usualRows = 256;   ///< in one bucket
-  static constexpr std::uint32_t mostBuckets = 64;  ///< in one part
+  static constexpr std::uint32_t usualRows = 256;   ///< rows of a bucket
+  static constexpr std::uint32_t mostBuckets = 64;  ///< buckets of a part
   struct Column {
-    /// One value for each bucket, or one for all of them when they are the same. NaN: no number.
+    /// A value per bucket, or a single one if all are the same. NaN if there is no number.
     std::vector<float> min, max, last;
     bool operator==(const Column&) const = default;
   };
@@ -32,7 +33,7 @@ struct SummaryPart {
   bool operator==(const SummaryPart&) const = default;
 };
 
-/// Of one group; parts in order of time.
+/// The summary of a group; its parts are in order of time.
 struct GroupSummary {
   std::vector<SummaryPart> parts;
   std::uint64_t rows() const;
@@ -40,13 +41,13 @@ struct GroupSummary {
   std::size_t bytes() const;
 };
 
-/// Makes parts of rows as they come. One thread.
+/// Builds the parts from rows as they arrive. One thread at a time.
 class SummaryBuilder {
  public:
   explicit SummaryBuilder(const GroupInfo& group);
-  /// A part, when it is full. `row.time` is not looked at.
+  /// Adds a row. Returns a part when it is full. `row.time` is ignored.
   std::optional<SummaryPart> add(double time, const RowView& row);
-  /// What there is so far; nothing when there is nothing.
+  /// Returns the rest; nothing if no row was added since the last part.
   std::optional<SummaryPart> finish();
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a source's data look like wherever they are kept: a group (one robot, or the match) has
-// columns, and a row is one time with a value for every column. The series store keeps rows in
-// memory, a session file keeps them on disk; both take the same rows. Plain values.
+// The form of all sampled data: a group (a robot, or the match) has columns, and a row is a time
+// with a value for every column. The series store keeps rows in memory, a session file on disk.
+// Plain values; any thread. Times are seconds of the source.
 
 #include <cstdint>
 #include <map>
@@ -19,53 +19,53 @@ enum class ColumnType : std::uint8_t {
   Float64   ///< a value of the row: truth, derived and received values
 };
 
-/// How a value reads to a person.
+/// How a value is shown to people.
 enum class ColumnKind : std::uint8_t {
   Number,
   Flag,         ///< 0 or 1
-  Enumeration,  ///< `labels` has words for codes
-  Text          ///< words: `labels` has each one that came; exported as the word
+  Enumeration,  ///< `labels` has the texts of codes
+  Text          ///< `labels` has each text that occurred
 };
 
 struct ColumnInfo {
   std::string name;  ///< "VISION_BALL_DIST"; unique in its group
   ColumnType type = ColumnType::Float64;
-  std::string unit;      ///< "cm", "°", "m"; empty where there is none
-  std::string category;  ///< "Vision", "Truth": where lists put it
+  std::string unit;      ///< "cm", "°", "m"; empty if there is none
+  std::string category;  ///< "Vision", "Truth": the group in lists
   ColumnKind kind = ColumnKind::Number;
-  std::map<std::int32_t, std::string> labels;  ///< words for codes: 1 → "walk forward, fast"
-  /// Of a Float64 column: what is worth keeping of its values, a power of two. A session file keeps
-  /// them as single precision, rounded to it. 0: every bit.
+  std::map<std::int32_t, std::string> labels;  ///< texts of codes: 1 → "walk forward, fast"
+  /// For a Float64 column: a power of two to which session files round its values, which are then
+  /// stored in single precision. 0 keeps every bit.
   double resolution = 0.0;
-  /// Of a Float32 column: the 32-bit column of the same group (it may be this one) that tells by
-  /// the value `lostWhen` that nothing was seen. Views show a hole there, while the row keeps the
-  /// word: VISION_BALL_DIST is the last distance seen, and lost while VISION_LOST is 1. Empty:
-  /// always seen.
+  /// For a Float32 column: the 32-bit column of the same group (possibly this one) that says with
+  /// the value `lostWhen` that this value is old. Views then show a gap, while rows keep the value.
+  /// For example, VISION_BALL_DIST is old while VISION_LOST is 1. Empty if the value is always
+  /// current.
   std::string lostBy = {};
   double lostWhen = 0.0;
   bool operator==(const ColumnInfo&) const = default;
 };
 
-/// One robot, or "match". 32-bit columns stand before the Float64 columns.
+/// A robot, or "match". The 32-bit columns come before the Float64 columns.
 struct GroupInfo {
-  std::string name;  ///< "B1", "match": unique in a source; presets and files use it
+  std::string name;  ///< "B1", "match"; unique in a source
   std::vector<ColumnInfo> columns;
-  /// What else is known: "robot" (number of its blackboard), "team", "number" (on the shirt), ...
+  /// Further facts: "robot" (number of its blackboard), "team", "number" (on the shirt), ...
   std::map<std::string, std::string> attributes;
   bool operator==(const GroupInfo&) const = default;
 };
 
 using GroupId = std::uint32_t;
 
-/// From `begin` to `end`, both included, in seconds of the source.
+/// A closed range in seconds of the source.
 struct TimeRange {
   double begin = 0.0, end = 0.0;
   bool operator==(const TimeRange&) const = default;
 };
 
-/// One row: `words` for the Int32 and Float32 columns (bit patterns), `values` for the Float64
-/// columns, both in the order of the columns. Time is seconds of the source: simulated time, or
-/// seconds since Live began.
+/// A row: `words` for the Int32 and Float32 columns (bit patterns), `values` for the Float64
+/// columns, both in the order of the columns. Time is simulated time, or seconds since Live began.
+/// The spans belong to the caller.
 struct RowView {
   double time = 0.0;
   std::span<const std::uint32_t> words;

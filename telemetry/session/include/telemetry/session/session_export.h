@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Writes part of a session in another form: CSV (wide or long), JSON lines, or a shorter session.
-// Numbers are written as short as they can be so that reading gives the same bits back, in the same
-// way whatever the computer's language is. One thread.
+// Exports a session, or part of it, as CSV, JSON lines or a shorter session. Numbers are as short
+// as possible so that they read back to the same bits; the locale has no influence. Runs on the
+// calling thread. Times are seconds of the session.
 
 #include <cstdint>
 #include <functional>
@@ -18,59 +18,61 @@
 namespace pitchboard::telemetry {
 
 enum class ExportFormat : std::uint8_t {
-  CsvWide,  ///< a line per time; a column "B1.VISION_BALL_DIST" per variable, empty where no row is
-  CsvLong,  ///< a line per value: time, robot, variable, value
+  CsvWide,    ///< a line per time, a column per variable ("B1.VISION_BALL_DIST")
+  CsvLong,    ///< a line per value: time, robot, variable, value
   JsonLines,  ///< a line per row or message
   Mcap,       ///< a session with the selected part
-  CsvEven     ///< as CsvWide, but at even times: every variable in every line
+  CsvEven     ///< as CsvWide, but at even times, with a value in every cell
 };
-/// "csv-wide", "csv-long", "jsonl", "mcap", "csv-even". Error InvalidArgument names them.
+/// Reads "csv-wide", "csv-long", "jsonl", "mcap" or "csv-even". Fails with InvalidArgument, which
+/// lists them.
 Result<ExportFormat> exportFormat(std::string_view name);
 
-/// What CsvEven writes between rows. A row counts for at most 10 s: behind that is a hole.
+/// How CsvEven fills times between rows. A row counts for at most 10 s; after that there is a gap.
 struct Resampling {
   static constexpr double longestHold = 10.0;  ///< s
   static constexpr double mostPerSecond = 10'000.0;
   double rate = 10.0;        ///< lines per second, above 0
-  bool interpolate = false;  ///< on the line between two rows; codes and flags are held even then
+  bool interpolate = false;  ///< linearly between two rows; codes and flags are always held
 };
 
 struct ExportSelection {
   TimeRange range{-1e18, 1e18};        ///< s, both ends included
-  std::vector<std::string> robots;     ///< names of groups; empty: all
-  std::vector<std::string> variables;  ///< names, * stands for any letters; empty: all
-  bool messages = true;                ///< events, log, datagrams too (JsonLines and Mcap)
-  bool clock = false;                  ///< CSV: the time of day as well, UTC, behind the time
-  Resampling resampling{};             ///< of CsvEven
-  /// May change the text of a message, or leave it out by saying false; empty: all stay as they
-  /// are.
+  std::vector<std::string> robots;     ///< names of groups; all if empty
+  std::vector<std::string> variables;  ///< names, with * for any letters; all if empty
+  bool messages = true;                ///< also events, log and datagrams (JsonLines and Mcap)
+  bool clock = false;                  ///< CSV: a column with the time of day (UTC)
+  Resampling resampling{};             ///< for CsvEven
+  /// May change the text of a message, or return false to leave it out. If it is empty, messages
+  /// are unchanged.
   std::function<bool(SessionStream, std::string& json)> change{};
-  /// Mcap: JSON messages that stand before all others, at the beginning of the range.
+  /// Mcap: JSON messages to write before all others, at the beginning of the range.
   std::vector<std::pair<SessionStream, std::string>> opening{};
 };
 
 struct ExportReport {
-  std::uint64_t lines = 0;  ///< of text, or messages of a session
+  std::uint64_t lines = 0;  ///< lines of text, or messages of a session
   std::uint64_t bytes = 0;
 };
 
-/// Part done, 0 to 1; false stops.
+/// Called with the share that is done, 0 to 1. Return false to cancel.
 using ExportProgress = std::function<bool(double)>;
 
-/// Error InvalidArgument when it ends before it begins.
+/// Fails with InvalidArgument if the range ends before it begins.
 Result<void> checkRange(TimeRange range);
-/// Error NotFound when a robot or a variable is not in the session; also as checkRange().
+/// Fails with NotFound if a robot or variable is not in the session, and as checkRange() does.
 Result<void> checkSelection(const SessionReader& session, const ExportSelection& selection);
 
-/// Text formats into a sink that takes some 100 kB at a time; when it says false the export ends
-/// with error SystemError. Errors also as checkSelection().
+/// Exports a text format to a sink, about 100 kB at a time. If the sink returns false, the export
+/// fails with SystemError. Fails also as checkSelection() does.
 Result<ExportReport> exportText(const SessionReader& session, ExportFormat format,
                                 const ExportSelection& selection,
                                 const std::function<bool(std::string_view)>& sink,
                                 const ExportProgress& progress = {});
 
-/// Any format into a file, which appears when it is whole. Errors also as FileTarget; the session
-/// itself is never the target. After an error, and when stopped, what was there before is there.
+/// Exports any format to a file, which appears when it is complete. The session itself is refused
+/// as target. After an error or a cancel, an existing file is unchanged. Fails also as FileTarget
+/// does.
 Result<ExportReport> exportFile(const SessionReader& session, ExportFormat format,
                                 const ExportSelection& selection, const std::string& path,
                                 const ExportProgress& progress = {},

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Looks back into a session file: groups as they were recorded, the rows of a moment or of a range,
-// events and other messages. Files that broke off, are damaged, come from a later version or from
-// another program open as far as they are understood; notes() says what was left out.
-// Times are seconds of the session: those of the source, except behind a point where the source was
-// put back; there they go on counting (SessionWriter). One thread.
+// Reads a session file: groups, the rows of a moment or a range, events and other messages. Files
+// that are truncated, damaged, from a later version or from another program open as far as they are
+// understood; notes() says what was left out. Times are seconds of the session: those of the
+// source, except that they keep increasing where the source was put back (SessionWriter). One
+// thread at a time.
 
 #include <array>
 #include <functional>
@@ -23,8 +23,8 @@
 
 namespace pitchboard::telemetry {
 
-/// What has one name is one group, also where columns came in the middle of the recording: rows
-/// before them have holes there.
+/// A group of the session. It is one group even if columns were added during the recording; earlier
+/// rows have gaps there.
 struct SessionGroup {
   GroupInfo info;
   std::uint64_t rows = 0;
@@ -32,16 +32,16 @@ struct SessionGroup {
   std::vector<std::uint16_t> channels{};  ///< of the file, in order
 };
 
-/// The row that was current at some moment.
+/// The row of a group that was current at some moment.
 struct SessionRow {
-  bool present = false;  ///< false: the group had no row yet
+  bool present = false;  ///< false if the group had no row yet
   double time = 0.0;
   std::vector<std::uint32_t> words;
   std::vector<double> values;
   RowView view() const { return {time, words, values}; }
 };
 
-/// One thing of a session, in the order of recording; valid during the call that hands it out.
+/// A row or message of a session. Valid only during the call that passes it.
 struct SessionItem {
   double time = 0.0;
   const McapMessage* message = nullptr;
@@ -53,7 +53,7 @@ struct SessionItem {
 
 class SessionReader {
  public:
-  /// Errors as McapReader::open().
+  /// Opens a file. Fails as McapReader::open() does.
   static Result<SessionReader> open(const std::string& path, const McapReaderOptions& options = {});
   static Result<SessionReader> openBytes(std::string bytes, const McapReaderOptions& options = {});
   SessionReader(SessionReader&&) noexcept;
@@ -61,63 +61,64 @@ class SessionReader {
   ~SessionReader();
 
   const SessionInfo& info() const;
-  /// Recorded by Pitchboard; false: another program's file, or the beginning is lost.
+  /// Returns false if another program wrote the file, or if its beginning is lost.
   bool ours() const;
-  /// False: the recording broke off or its end is damaged; repair makes a whole file of it.
+  /// Returns false if the recording was cut off or its end is damaged.
   bool complete() const;
-  /// What is wrong or was left out, in sentences; grows when damage is met while reading.
+  /// Returns sentences that say what is wrong or was left out. More can come while reading.
   const std::vector<std::string>& notes() const;
-  /// Reads every part that nobody has read yet and compares its checksum: afterwards notes() and
-  /// isDamaged() know all damage. `progress` as in walk().
+  /// Reads every part that was not read yet and checks it, so that notes() and isDamaged() know all
+  /// damage. `progress` as in walk().
   bool check(const std::function<bool(double)>& progress = {}) const;
-  /// A part was met that cannot be read.
+  /// Returns whether a part was found that cannot be read.
   bool isDamaged() const;
-  /// The parts of the file that cannot be read, as far as they were met.
+  /// Returns the parts that cannot be read, as far as they were found.
   const std::vector<McapLoss>& losses() const;
 
-  /// Index = GroupId.
+  /// Returns the groups; the index is the GroupId.
   std::span<const SessionGroup> groups() const;
-  /// From the first row or message to the last.
+  /// Returns the times of the first and the last row or message.
   std::optional<TimeRange> range() const;
   std::uint64_t count(SessionStream stream) const;
 
-  /// For each group its last row at or before `time`. `out` keeps its memory from call to call.
+  /// Reads the last row of each group at or before `time`. The memory of `out` is reused.
   void rowsAt(double time, std::vector<SessionRow>& out) const;
-  /// Every row of these groups (all when empty) in the closed range, in the order of recording,
-  /// until the visitor says false. The view is valid during the call.
+  /// Visits the rows of these groups (all if empty) in the closed range, in the order of recording,
+  /// until `visit` returns false. The view is valid during the call.
   void rows(TimeRange range, std::span<const GroupId> groups,
             const std::function<bool(GroupId, const RowView&)>& visit) const;
-  /// The messages of a stream in the closed range, with their time, until the visitor says false.
+  /// Visits the messages of a stream in the closed range until `visit` returns false.
   void messages(SessionStream stream, TimeRange range,
                 const std::function<bool(double time, std::string_view json)>& visit) const;
-  /// The same of several streams, in the order of recording.
+  /// The same for several streams, in the order of recording.
   void messages(
       std::span<const SessionStream> streams, TimeRange range,
       const std::function<bool(SessionStream, double time, std::string_view json)>& visit) const;
-  /// Long sessions hold a coarse picture of their rows. In a recording that broke off its end is
-  /// missing: summary() makes it from the rows, which takes as long as reading them, once.
+  /// Returns whether the file has summaries, as long sessions do. If the recording was cut off, the
+  /// last part is missing; summary() then computes it once, which takes as long as reading the
+  /// rows.
   bool hasSummaries() const;
-  /// Of one group; empty when there is none, or `goOn` says false.
+  /// Returns the summary of a group; empty if there is none or `goOn` returns false.
   GroupSummary summary(GroupId group, const std::function<bool()>& goOn = {}) const;
-  /// Everything that is known in the closed range; `progress` gets the part that is done (0 to 1)
-  /// now and then. Ends when one of them says false.
+  /// Visits all rows and messages in the closed range. `progress` is called from time to time with
+  /// the share that is done (0 to 1). Stops when one of them returns false, and then returns false.
   bool walk(TimeRange range, const std::function<bool(const SessionItem&)>& visit,
             const std::function<bool(double)>& progress = {}) const;
-  /// The same with rows only.
+  /// The same for rows only.
   bool walkRows(TimeRange range, const std::function<bool(const SessionItem&)>& visit,
                 const std::function<bool(double)>& progress = {}) const;
-  /// Every message in the closed range as it stands in the file, also of channels that nobody here
-  /// knows. A range from −1e18 to 1e18 holds those whose times cannot be right, too.
+  /// Visits every message in the closed range as it stands in the file, also of unknown channels.
+  /// The range from −1e18 to 1e18 includes messages with impossible times.
   bool walkFile(TimeRange range, const std::function<bool(const McapMessage&)>& visit,
                 const std::function<bool(double)>& progress = {}) const;
-  /// All events; those that are not of the form of an event are left out.
+  /// Returns all valid events.
   std::vector<SessionEvent> events() const;
 
-  /// Error NotFound, or ParseError when it is damaged.
+  /// Reads an attachment. Fails with NotFound, or with ParseError if it is damaged.
   Result<std::string> attachment(std::string_view name) const;
 
   const McapReader& file() const;
-  /// The session's time of a message, and the file's time of a moment (ns since 1970).
+  /// Converts between the file's log time (ns since 1970) and seconds of the session.
   double seconds(std::uint64_t logTime) const;
   std::uint64_t logTime(double seconds) const;
 
@@ -128,10 +129,10 @@ class SessionReader {
   std::unique_ptr<Impl> m_impl;
 };
 
-/// A message of the streams Log, and Telemetry or RefereeRaw. Nothing when it is not of that form.
+/// Reads a message of the stream Log, or of Telemetry and RefereeRaw. Nothing if it is not valid.
 std::optional<LogLine> sessionLogLine(std::string_view json);
 std::optional<SessionDatagram> sessionDatagram(std::string_view json);
-/// As it stands in a file.
+/// Returns an event as JSON, as it stands in a file.
 std::string sessionEventJson(const SessionEvent& event);
 
 }  // namespace pitchboard::telemetry

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Makes a whole file of a recording that broke off or is damaged: reads what can be read, writes it
-// into a new file and reads that back. The broken file is not touched. One thread.
+// Recovers a truncated or damaged recording: reads what can be read, writes it into a new file, and
+// reads that back to check it. The damaged file is not changed. Runs on the calling thread.
 
 #include <cstdint>
 #include <functional>
@@ -14,21 +14,21 @@
 namespace pitchboard::telemetry {
 
 struct RepairReport {
-  std::uint64_t messages = 0;      ///< rows and others, all verified in the new file
-  std::uint64_t bytes = 0;         ///< of the new file
+  std::uint64_t messages = 0;      ///< messages in the new file, all of them verified
+  std::uint64_t bytes = 0;         ///< size of the new file
   double seconds = 0.0;            ///< from the first message to the last
-  std::uint64_t lostMessages = 0;  ///< as far as the broken file says how many there were
-  bool lostMore = false;           ///< and others, of which nobody knows how many
-  bool brokeOff = false;           ///< the broken file has no end, so what came last may be missing
-  bool complete = false;           ///< nothing is missing: all that was recorded is in the new file
-  std::vector<std::string> notes;  ///< what was wrong and what is missing, with offset and time
-  /// One line for the screen: what is in the new file and what is not.
+  std::uint64_t lostMessages = 0;  ///< lost messages, as far as the damaged file tells
+  bool lostMore = false;           ///< more messages are lost, but nobody knows how many
+  bool brokeOff = false;           ///< the file was cut off, so its end may be missing
+  bool complete = false;           ///< nothing is missing in the new file
+  std::vector<std::string> notes;  ///< sentences: what was wrong or is missing, where and when
+  /// Returns one line for people: what is in the new file and what is missing.
   std::string summary() const;
 };
 
-/// `progress` gets 0 to 1; false stops and removes the new file. Error Conflict when `to` exists
-/// (it is left alone) or is `from` itself, ParseError when nothing in `from` can be read, and those
-/// of reading and writing.
+/// Repairs `from` into the new file `to`. `progress` is called with 0 to 1; if it returns false,
+/// the new file is removed. Fails with Conflict if `to` exists or is `from` itself, with ParseError
+/// if nothing can be read, and with the system's reason if reading or writing fails.
 Result<RepairReport> repairSession(const std::string& from, const std::string& to,
                                    const std::function<bool(double)>& progress = {});
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What stands in a session file besides rows: who wrote it, events, datagrams. Times are
-// seconds of the source (simulated time, or seconds since Live began). Plain values.
-// The format is told in docs/SESSIONS.md.
+// What a session file contains besides rows: who wrote it, events, log lines, datagrams. Times are
+// seconds of the source (simulated time, or seconds since Live began). Plain values; any thread.
+// docs/file-formats.md describes the format.
 
 #include <cstdint>
 #include <map>
@@ -17,7 +17,8 @@
 
 namespace pitchboard::telemetry {
 
-/// Version of the format that this program writes. Higher ones are read as far as known.
+/// Version of the format that this program writes. Files of later versions are read as far as
+/// they are understood.
 inline constexpr int sessionFormat = 1;
 
 struct SessionInfo {
@@ -25,7 +26,7 @@ struct SessionInfo {
   std::string source;   ///< "simulation" or "live"
   std::string title;    ///< scenario, or what the user called it
   std::optional<std::uint64_t> seed;
-  WallTime start{};    ///< wall time at which the source was at 0 s; the files' times count on it
+  WallTime start{};    ///< wall time of second 0; timestamps in the file count from it
   WallTime created{};  ///< when recording began
   std::map<std::string, std::string> more;
   bool operator==(const SessionInfo&) const = default;
@@ -38,39 +39,39 @@ enum class SessionStream : std::uint8_t {
   Telemetry,    ///< SessionDatagram from a robot
   RefereeRaw,   ///< SessionDatagram of the referee
   Referee,      ///< a referee packet decoded
-  Checkpoints,  ///< pieces of a simulated match that can be re-entered exactly
-  LiveState     ///< what was known of a live match; what came later follows from the datagrams
+  Checkpoints,  ///< pieces of a simulated match that can be restored exactly
+  LiveState     ///< state of a live match; later moments follow from the datagrams
 };
 inline constexpr std::size_t sessionStreamCount = 7;
 
-/// What is known of an event besides its time and kind, for programs. Empty or 0: does not apply.
+/// What is known of an event besides time and kind, for programs. Empty or 0 if it does not apply.
 struct EventFacts {
-  int robot = 0;                             ///< number on its shirt; until 0.8: of its blackboard
-  std::optional<int> robotTeam;              ///< its RobotKey::team; nothing until 0.8
-  int sender = 0;                            ///< its RobotKey::sender
-  std::string side;                          ///< "left" or "right"
-  int team = 0;                              ///< the referee's number
-  std::string colour;                        ///< of the team: "blue"
-  std::optional<int> value;                  ///< what it counts depends on the kind
+  int robot = 0;                 ///< number on its shirt; up to 0.8 that of its blackboard
+  std::optional<int> robotTeam;  ///< its RobotKey::team; nothing up to 0.8
+  int sender = 0;                ///< its RobotKey::sender
+  std::string side;              ///< "left" or "right"
+  int team = 0;                  ///< the team's number in the GameController
+  std::string colour;            ///< the team's colour: "blue"
+  std::optional<int> value;      ///< its meaning depends on the kind
   std::optional<std::pair<int, int>> score;  ///< left, right
   std::string process;                       ///< "decision"
   std::string detail;
-  int cause = 0;  ///< the decision by hand that it follows from
+  int cause = 0;  ///< number of the call by hand that caused it
   bool operator==(const EventFacts&) const = default;
 };
 
 /// Something that happened: a goal, a fall, a bookmark.
 struct SessionEvent {
   double time = 0.0;
-  std::string kind;   ///< "goal", "kick", ...: docs/SESSIONS.md
+  std::string kind;   ///< "goal", "kick", ...: docs/sessions.md, "Events"
   std::string group;  ///< the robot's name, or empty
   std::string text;   ///< for people; programs read the facts
-  /// Nothing in sessions before 0.2.
+  /// Missing in sessions from before 0.2.
   std::optional<EventFacts> facts = {};
   bool operator==(const SessionEvent&) const = default;
 };
 
-/// A datagram as it arrived, any bytes.
+/// A datagram as it arrived; the payload may be any bytes.
 struct SessionDatagram {
   double time = 0.0;
   Sender sender;

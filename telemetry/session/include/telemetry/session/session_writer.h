@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Records a session into a file in a thread of its own (docs/SESSIONS.md has the format). Rows and
-// messages go through a bounded queue that counts what it had to drop. What was appended is in
-// the file after a second at the latest, also while the disk stalls; a process that is killed loses
-// no more. Never overwrites.
-// Times are seconds of the source. When the source is put back (an earlier moment is re-entered),
-// nothing in the file is lost: what comes after it follows behind what stands there already.
+// Records a session into a file (docs/file-formats.md describes the format) on a thread of its own.
+// Rows and messages go through a bounded queue, which counts what it had to drop. Whatever was
+// appended is in the file within a second, even while the disk stalls, so a killed process loses no
+// more than that. Existing files are never overwritten.
+// Times are seconds of the source. If the source is put back to an earlier moment, the file keeps
+// what it has, and new rows follow behind.
 
 #include <cstdint>
 #include <functional>
@@ -23,75 +23,76 @@
 namespace pitchboard::telemetry {
 
 struct SessionWriterOptions {
-  std::size_t queueBytes = std::size_t{64} << 20;  ///< waiting for the disk; beyond it is dropped
-  std::size_t chunkBytes = std::size_t{2} << 20;   ///< a chunk is closed when it has these bytes,
-  Duration chunkInterval = std::chrono::milliseconds(800);  ///< or this old
-  int level = 7;  ///< of zstd; 70 MB/s of rows, a tenth smaller than 3
+  std::size_t queueBytes = std::size_t{64}
+                           << 20;  ///< bytes that may wait for the disk; more is dropped
+  std::size_t chunkBytes = std::size_t{2} << 20;            ///< a chunk is written at this size,
+  Duration chunkInterval = std::chrono::milliseconds(800);  ///< or at this age
+  int level = 7;  ///< compression level of zstd; 7 is a tenth smaller than 3
   bool waitWhenFull =
-      false;         ///< append() waits for the disk instead: for runs faster than real time
-  bool sync = true;  ///< the disk must have each chunk, not only the kernel
-  /// Bytes that the disk has left; empty: the file system is asked. Called on the writing thread.
+      false;         ///< append() waits instead of dropping, for runs faster than real time
+  bool sync = true;  ///< flush each chunk to the disk, not only to the kernel
+  /// Returns the free bytes of the disk; if it is empty, the file system is asked. Called on the
+  /// writing thread.
   std::function<std::optional<std::uint64_t>()> freeSpace;
 };
 
 struct SessionStatus {
   bool recording = true;
-  /// Why it stopped, for the screen; empty unless something went wrong.
+  /// A sentence that says why recording stopped; empty if nothing went wrong.
   std::string problem;
-  double seconds = 0.0;     ///< of the session so far
-  std::uint64_t bytes = 0;  ///< of the file
+  double seconds = 0.0;     ///< length of the session so far
+  std::uint64_t bytes = 0;  ///< size of the file
   std::uint64_t rows = 0;
   std::uint64_t messages = 0;  ///< events, log lines, datagrams, ...
   std::uint64_t dropped = 0;   ///< rows and messages for which the queue had no room
-  /// For so long the disk has not answered; the file goes on growing, but not safe from a power
-  /// cut.
+  /// For how long the current flush has taken, in s. The file keeps growing meanwhile, but a power
+  /// failure would lose what was not flushed.
   double owedSeconds = 0.0;
-  std::optional<std::uint64_t> freeBytes;  ///< of the disk, where the system says so
-  double bytesPerSecond = 0.0;             ///< of the file lately; 0: not known yet
+  std::optional<std::uint64_t> freeBytes;  ///< free space of the disk, if known
+  double bytesPerSecond = 0.0;             ///< recent growth of the file; 0 if not known yet
 };
 
-/// Every function may be called from any thread. After a failure append does nothing, and the file
-/// holds what was recorded until then.
+/// Every function may be called from any thread. After a failure append() does nothing, and the
+/// file holds what was recorded until then.
 class SessionWriter : public RowSink {
  public:
-  /// Error Conflict when the file exists, SystemError when it cannot be made.
+  /// Creates the file. Fails with Conflict if it exists, with SystemError if it cannot be created.
   static Result<std::unique_ptr<SessionWriter>> create(const std::string& path,
                                                        const SessionInfo& info,
                                                        const SessionWriterOptions& options = {});
-  /// Goes on in a file whose head was written already (session_copy.h). `path` is only told.
+  /// Continues a file whose header was already written (session_copy.h). `path` is only reported.
   static std::unique_ptr<SessionWriter> on(McapWriter file, std::string path,
                                            const SessionInfo& info,
                                            const SessionWriterOptions& options);
-  ~SessionWriter() override;  ///< as finish()
+  ~SessionWriter() override;  ///< calls finish()
   SessionWriter(const SessionWriter&) = delete;
   SessionWriter& operator=(const SessionWriter&) = delete;
 
-  /// The same name with the same columns gives the same id again; the attributes stay those of the
-  /// first time.
+  /// Registers a group. The same name and columns give the same id; the first attributes are kept.
   GroupId addGroup(const GroupInfo& info) override;
-  /// Its next rows are in a channel of their own, which says what the group was called before.
+  /// Continues a group under another name, in a new channel that names the old one.
   GroupId renameGroup(std::string_view from, const GroupInfo& to) override;
   void append(GroupId group, const RowView& row) override;
   void append(const SessionEvent& event);
   void append(const LogLine& line);
-  /// `stream`: Telemetry or RefereeRaw.
+  /// Records a datagram; `stream` is Telemetry or RefereeRaw.
   void append(SessionStream stream, const SessionDatagram& datagram);
-  /// `json`: an object with the source's seconds as "time".
+  /// Records a message; `json` is an object whose "time" is in seconds of the source.
   void appendJson(SessionStream stream, double time, std::string_view json);
-  /// A file beside the rows: the scenario, the catalog, the profile.
+  /// Attaches a file, such as the scenario, the catalog or the profile.
   void attach(std::string_view name, std::string_view mediaType, std::string_view data);
 
-  /// What comes from another file, with its own times: a schema, a channel that names it, and
-  /// messages of it, byte for byte. With `rows`, the channel holds rows of that group, which get a
-  /// summary. Both give the number that it has in this file; 0: there is no more room.
+  /// Copy schemas, channels and messages of another file byte for byte, with their own times. With
+  /// `rows`, the channel holds rows of that group, which get a summary. Both return the id in this
+  /// file, or 0 if there are too many.
   std::uint16_t addSchema(const McapSchema& schema);
   std::uint16_t addChannel(const McapChannel& channel, const GroupInfo* rows = nullptr);
-  /// `row`: what stands in the message, for the summary.
+  /// Copies a message; `row` is its content, for the summary.
   void append(const McapMessage& message, const RowView* row = nullptr);
 
   SessionStatus status() const;
   const std::string& path() const;
-  /// Writes what waits and the summary; the error is that of status().problem.
+  /// Writes what is still queued, and the summary. Fails with the reason in status().problem.
   Result<void> finish();
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Rate and jitter of one robot's messages. Seconds; not thread-safe.
+// Rate and jitter of one robot's messages, in seconds. Plain value; not thread-safe.
 
 #include <array>
 #include <cstddef>
@@ -16,13 +16,14 @@ namespace pitchboard::telemetry {
 class ArrivalStats {
  public:
   void add(WallTime time);
-  /// Messages per second, falling while nothing comes; 0 until there are two.
+  /// Returns messages per second. It falls while nothing arrives, and is 0 before the second one.
   double rate(WallTime now) const;
-  /// Standard deviation of the time between messages, seconds; 0 until there are three.
+  /// Returns the standard deviation of the time between messages, in s; 0 before the third one.
   double jitter() const;
-  /// Those of the last messages, oldest first: adding them to a new object makes the same one.
+  /// Returns the times of the last messages, oldest first. Adding them to a new object restores
+  /// this.
   std::vector<WallTime> times() const;
-  /// Mean time between messages; nothing until there are two.
+  /// Returns the mean time between messages; nothing before the second one.
   std::optional<Duration> interval() const;
 
  private:

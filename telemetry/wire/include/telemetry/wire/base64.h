@@ -10,7 +10,7 @@
 namespace pitchboard::telemetry {
 
 std::string toBase64(std::string_view bytes);
-/// Padding may be missing. Nothing for text that has other letters.
+/// Decodes a text, with or without padding. Returns nothing if it has other characters.
 std::optional<std::string> fromBase64(std::string_view letters);
 
 }  // namespace pitchboard::telemetry

@@ -1,31 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How full a battery is, and when that is little: the one rule for robots that are simulated, heard
-// and recorded. Volts. Plain values; any thread.
+// How full a battery is, and when it is low: the one rule for simulated, live and recorded robots.
+// Values are volts. Plain values; any thread.
 
 namespace pitchboard::telemetry {
 
-/// When a battery is low. Volts of one cell (lithium polymer).
+/// Limits of a battery, in volts per cell (lithium polymer).
 struct BatteryLimits {
-  int cells = 0;  ///< cells in series; 0: the least that explain the highest voltage seen
+  int cells = 0;  ///< cells in series; 0: as few as explain the highest voltage seen
   double fullPerCell = 4.2;
   double lowPerCell = 3.5;
   double emptyPerCell = 3.3;
 };
 
-/// Of the five cells of the robots here: low below 16.0 V, empty at 14.65 V, full at 19.15 V.
+/// The limits of a battery of five cells: low below 16.0 V, empty at 14.65 V, full at 19.15 V.
 inline constexpr BatteryLimits usualBattery{5, 3.83, 3.20, 2.93};
 
 struct Battery {
-  double volts = 0.0;  ///< 0: the robot says only how full it is
+  double volts = 0.0;  ///< 0 if the robot sends only how full it is
   int cells = 0;
-  double fraction = 0.0;  ///< 0 empty, 1 full; linear in the voltage, if known
+  double fraction = 0.0;  ///< 0 is empty, 1 full; linear in the voltage, if that is known
   bool low = false;
   bool operator==(const Battery&) const = default;
 };
 
-/// `highest`: the most volts that were ever seen of it, for limits that do not know the cells.
+/// Returns the state of a battery. `highest` is the highest voltage ever seen of it, which tells
+/// how many cells it has if the limits do not.
 Battery batteryAt(double volts, const BatteryLimits& limits, double highest = 0.0);
 
 }  // namespace pitchboard::telemetry

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What arrives from the network, before anybody has looked at it.
+// Datagrams as they arrive from the network, before they are decoded. Plain values; any thread.
 
 #include <chrono>
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace pitchboard::telemetry {
 
-/// A time of day as a LiveClock tells it: what was set at the computer's clock since does not move
-/// it. Everything in this library that needs "now" is handed it; only LiveClock reads clocks.
+/// A time of day from a LiveClock. Setting the computer's clock does not shift it. Everything in
+/// this library that needs the present takes it as an argument; only LiveClock reads clocks.
 using WallTime = std::chrono::sys_time<std::chrono::nanoseconds>;
 using Duration = std::chrono::nanoseconds;
 
@@ -30,28 +30,28 @@ struct Address {
   std::string text() const;
 };
 
-/// Reads "192.168.0.7". Error InvalidArgument for anything else, host names included.
+/// Reads "192.168.0.7". Fails with InvalidArgument for anything else, host names included.
 Result<Address> parseAddress(std::string_view text);
 
 /// Where a datagram came from.
 struct Sender {
   Address address;
-  std::uint16_t port = 0;  ///< 0: not known
+  std::uint16_t port = 0;  ///< 0 if unknown
   auto operator<=>(const Sender&) const = default;
-  std::string text() const;  ///< "192.168.0.7:41708"; the address alone where that is all
+  std::string text() const;  ///< "192.168.0.7:41708", or only the address
 };
 
-/// One received datagram; the payload belongs to the batch it stands in.
+/// A received datagram. The payload belongs to the batch that contains it.
 struct DatagramView {
-  WallTime time;  ///< when the kernel received it, or when it was read if the kernel does not say
+  WallTime time;  ///< when the kernel received it, or when we read it
   Sender sender;
   std::uint16_t localPort = 0;
   bool truncated = false;  ///< longer than the receive buffer; the rest is lost
   std::string_view payload;
 };
 
-/// Many datagrams in two blocks of memory. Clearing keeps the memory, so that a batch which goes
-/// round between two threads allocates nothing once it has grown to the traffic.
+/// Many datagrams in two blocks of memory. clear() keeps the memory, so a batch that is passed back
+/// and forth between two threads stops allocating once it is large enough.
 class DatagramBatch {
  public:
   void append(const DatagramView& datagram);

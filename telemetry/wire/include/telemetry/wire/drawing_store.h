@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What is drawn on the field at a moment: the layers of all robots, as their datagrams so far say
-// it, each for as long as it lives. Bounded by DrawingLimits. Not thread-safe; a plain value for
-// its owner. Times are seconds of the source and are handed in.
+// The drawings that are visible on the field at a moment: the layers of all robots, each for as
+// long as it lives. Memory is bounded by DrawingLimits. A plain value, not thread-safe. Times are
+// seconds of the source and are arguments; no clock is read.
 
 #include <cstdint>
 #include <functional>
@@ -18,35 +18,35 @@
 
 namespace pitchboard::telemetry {
 
-/// The layers of one robot, by name; what is pointed to never changes.
+/// The layers of one robot, sorted by name. The layers themselves never change.
 struct RobotDrawings {
-  RobotKey robot;  ///< of the first sender of its number
+  RobotKey robot;  ///< key of the first sender of that number
   std::vector<std::shared_ptr<const DrawingLayer>> layers;
   bool operator==(const RobotDrawings& other) const;
 };
 
 class DrawingStore {
  public:
-  /// A drawing that was heard at this time, of a robot of `team` (RobotKey::team). Errors as
-  /// parseDrawing(), and what is more than the limits allow a robot; they are counted, and nothing
-  /// has changed then.
+  /// Adds a drawing that arrived at `time` from a robot of `team` (RobotKey::team). Fails as
+  /// parseDrawing() does, or if the robot would exceed its limits; then nothing changes and the
+  /// drawing is counted as refused.
   Result<void> take(std::string_view text, double time, int team = 0);
   Result<void> take(Drawing drawing, double time, int team = 0);
 
-  /// By robot; none without a layer.
+  /// Returns the visible layers by robot; robots without a layer are left out.
   std::vector<RobotDrawings> at(double time) const;
 
   std::uint64_t refused() const { return m_refused; }
-  /// Why the last one was refused; empty: none was.
+  /// Returns why the last drawing was refused; empty if none was.
   const std::string& lastProblem() const { return m_lastProblem; }
   void clear() { *this = {}; }
   void rename(const std::vector<Renaming>& renamings) { pitchboard::rename(m_robots, renamings); }
-  /// Drops the layers of the robots for which it says true.
+  /// Removes the layers of the robots for which `which` returns true.
   void forget(const std::function<bool(const RobotKey& robot)>& which) {
     std::erase_if(m_robots, [&](const auto& robot) { return which(robot.first); });
   }
 
-  /// What makes this book again, layer by layer: the text, and when it was heard.
+  /// A layer as its text with its time. Taking all pages again restores the store.
   struct Page {
     double time = 0.0;
     int team = 0;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the referee's program (GameController) broadcasts: every version of the Humanoid League, the
-// Standard Platform League and the Humanoid Soccer League since 2013, in one value. The layouts are
-// data (src/gamecontroller_layouts.cpp); a new version is a new row there.
+// Packets of the GameController, the referee's program: one value for every version of the Humanoid
+// League, the Standard Platform League and the Humanoid Soccer League since 2013. The layouts are
+// data (src/gamecontroller_layouts.cpp); a new version is a new row there. Plain values and pure
+// functions; any thread.
 
 #include <array>
 #include <cstddef>
@@ -18,28 +19,28 @@
 
 namespace pitchboard::telemetry {
 
-/// Who wrote the packet; decides what the codes of penalties and set plays mean.
+/// The league of a packet, which decides what its codes of penalties and set plays mean.
 enum class League : std::uint8_t {
   Humanoid,          ///< HL: v7, v8, v9, v11 (592 bytes), v12 (640 and 688)
   StandardPlatform,  ///< SPL: v10, v11 (58), v12 (54) ... v18
   HumanoidSoccer     ///< HSL since 2026: v19, v20
 };
 
-/// One slot of a team. Codes as sent; words by penaltyName() and penaltyWords().
+/// A slot of a team, with codes as sent. penaltyName() and penaltyWords() translate them.
 struct RefereePlayer {
-  int number = 0;  ///< slot, from 1
+  int number = 0;  ///< number of the slot, from 1
   int penalty = 0;
   int secondsLeft = 0;  ///< as sent: some versions do not count down
   std::optional<int> warnings, yellow, red, cautions, goalkeeper;
-  /// The 2013 program writes other things over these bytes; penalty and secondsLeft are not what it
-  /// sent but those of an unused slot.
+  /// True if the program of 2013 has overwritten these bytes; penalty and secondsLeft are then
+  /// those of an unused slot.
   bool unreliable = false;
   bool operator==(const RefereePlayer&) const = default;
 };
 
 struct RefereeTeam {
   static constexpr std::size_t maxPlayers = 20;
-  int number = 0;  ///< identifies a team; its place in the packet is its side of the field
+  int number = 0;  ///< identifies the team; its place in the packet is its side
   int colour = 0;  ///< see colourWords()
   int score = 0;
   std::optional<int> goalColour;   ///< v7
@@ -62,19 +63,19 @@ struct RefereeExtra2013 {
   bool operator==(const RefereeExtra2013&) const = default;
 };
 
-/// One referee packet. An optional is empty when the version does not have the field. Times in
-/// seconds, as sent, negative in extra time.
+/// A packet of the referee. An optional is empty if the version does not have the field. Times are
+/// seconds as sent, negative in extra time.
 struct RefereeState {
   std::array<char, 4> magic{'R', 'G', 'm', 'e'};
   int version = 0;
-  int size = 0;  ///< bytes of the packet
+  int size = 0;  ///< size of the packet in bytes
   League league = League::Humanoid;
   int playersPerTeam = 0;
   int state = 0;       ///< 0 INITIAL ... see stateName()
   int firstHalf = 0;   ///< 1 in the first half
   int kickOffRaw = 0;  ///< as sent: a colour in v7 and v8, then a team number
   int secsRemaining = 0;
-  std::optional<int> kickOffTeam;  ///< number of the team; empty: drop ball or nobody
+  std::optional<int> kickOffTeam;  ///< number of the team; empty for a drop ball or nobody
   std::optional<int> packetNumber, secondaryTime;
   std::optional<int> gameType;  ///< HL and SPL 2017
   std::optional<int> secState;  ///< secondary state, HL
@@ -85,15 +86,15 @@ struct RefereeState {
   std::array<RefereeTeam, 2>
       teams{};  ///< [0] is the left side (v7 beside v8 or v9: sorted by colour)
 
-  /// RGTD: what really happens, sent to monitors only, without the league's delays. Not a referee
-  /// state: robots do not get it.
+  /// Returns whether this is true data (RGTD): what really happens, without the league's delays.
+  /// Only monitors receive it, so it is not what robots know.
   bool trueData() const { return magic[2] == 'T'; }
-  /// The team with this number, or nullptr. The other one is the opponent.
+  /// Returns the team with this number, or null.
   const RefereeTeam* team(int number) const;
   bool operator==(const RefereeState&) const = default;
 };
 
-/// What a robot answers to the referee (magic RGrt).
+/// A robot's reply to the referee (magic RGrt).
 struct RobotReply {
   int version = 0;
   int size = 0;
@@ -114,36 +115,38 @@ struct ForwardedReply {
 /// RGTr: a program asks the referee for true data.
 struct TrueDataRequest {};
 
-/// What a datagram on the referee's port turned out to be.
+/// Any datagram that is valid on the referee's port.
 using RefereePacket = std::variant<RefereeState, RobotReply, ForwardedReply, TrueDataRequest>;
 
-/// Decodes one datagram. Never reads outside the span, allocates only for an error's text.
-/// Errors: ParseError (not a referee's packet, or cut), Unsupported (version or size unknown; the
-/// sentence names both).
+/// Decodes a datagram. It never reads outside the span and allocates only for an error's text.
+/// Fails with ParseError if it is not a packet of the referee or is cut off, with Unsupported if
+/// version or size are unknown (the message names both).
 Result<RefereePacket> decodeReferee(std::span<const std::byte> datagram);
 Result<RefereePacket> decodeReferee(std::string_view datagram);
 
-/// "PLAYING"; "UNKNOWN" for other codes.
+/// Returns a name such as "PLAYING", or "UNKNOWN" for other codes.
 std::string_view stateName(int state);
-/// "PENALTYSHOOT", "CORNER_KICK", ...: the HL's secondary state.
+/// Returns the name of the HL's secondary state, such as "PENALTYSHOOT" or "CORNER_KICK".
 std::string_view secStateName(int secState);
-/// "ROUNDROBIN", "PLAYOFF", "DROPIN".
+/// Returns "ROUNDROBIN", "PLAYOFF" or "DROPIN".
 std::string_view gameTypeName(int gameType);
-/// "normal", "penalty shoot-out", "overtime", "timeout".
+/// Returns "normal", "penalty shoot-out", "overtime" or "timeout".
 std::string_view gamePhaseWords(int gamePhase);
-/// "corner", "pushing free kick", ...: in JSON, which programs read. The same code means different
-/// things in the SPL and the HSL.
+/// Returns the name of a set play in JSON, such as "pushing free kick". The same code means
+/// different things in the SPL and the HSL.
 std::string_view setPlayName(League league, int setPlay);
-/// As people read it everywhere: "corner kick". Of the HL the secondary state.
+/// Returns the text of a set play for people, such as "corner kick"; for the HL of a secondary
+/// state.
 std::string_view setPlayWords(League league, int setPlay);
-/// "blue", "red", ...; "unknown".
+/// Returns "blue", "red", ..., or "unknown".
 std::string_view colourWords(int colour);
-/// "HL_PICKUP_OR_INCAPABLE", "NONE"; "UNKNOWN" for codes without a name in this version.
+/// Returns a name such as "HL_PICKUP_OR_INCAPABLE" or "NONE"; "UNKNOWN" if this version has no such
+/// code.
 std::string_view penaltyName(const RefereeState& state, int penalty);
-/// "pickup or incapable", "" for none, "unknown penalty" otherwise. A player with a red card is
-/// "sent off", whatever penalty the packet gives for it.
+/// Returns the text of a player's penalty, such as "pickup or incapable"; "" for none, "unknown
+/// penalty" for other codes. A player with a red card is always "sent off".
 std::string_view penaltyWords(const RefereeState& state, const RefereePlayer& player);
-/// A slot without a player, which a display leaves out.
+/// Returns whether a slot has no player on the field; displays leave it out.
 bool isSubstitute(const RefereeState& state, const RefereePlayer& player);
 
 }  // namespace pitchboard::telemetry

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Reads JSON that a program wrote and that a file may have damaged since: a member that is missing
-// or of another kind has its default, and nothing throws. Files that people write are read by
-// <base/lined_json.h>, which names the line. `Json` is one of nlohmann's. Any thread.
+// Reads JSON that a program wrote and that may have been damaged since. A member that is missing or
+// of another type gets its default, and nothing throws. For files that people write, use
+// <base/lined_json.h>, which reports errors with their line. `Json` is one of nlohmann's types. Any
+// thread.
 
 #include <algorithm>
 #include <cstdint>
@@ -14,7 +15,8 @@
 
 namespace pitchboard::telemetry::lenient {
 
-/// Discarded where the text is none, or is nested deeper: destroying it recurses.
+/// Parses a text. The result is discarded if the text is no JSON or is nested deeper than
+/// `deepest`, because destroying it recurses.
 template <class Json>
 Json parsed(std::string_view text, int deepest = 8) {
   return Json::parse(
@@ -22,7 +24,7 @@ Json parsed(std::string_view text, int deepest = 8) {
       false);
 }
 
-/// Null where there is none.
+/// Returns the member, or null if there is none.
 template <class Json>
 const Json* member(const Json& object, const char* key) {
   const auto found = object.find(key);
@@ -61,7 +63,7 @@ bool flag(const Json& object, const char* key, bool fallback = false) {
   return value != nullptr && value->is_boolean() ? value->template get<bool>() : fallback;
 }
 
-/// The first `most` elements of an array, with their places; nothing where it is none.
+/// Calls `visit(index, element)` for the first `most` elements, if the member is an array.
 template <class Json, class Visit>
 void each(const Json& object, const char* key, std::size_t most, const Visit& visit) {
   const Json* array = member(object, key);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How well one robot is heard, and whether its processes work: values that the TeamMonitor makes,
-// and that are carried as they are to frames and screens. They may cross threads.
+// The link of one robot, and whether its processes work. TeamMonitor makes these values, and frames
+// carry them to the screen. Plain values that may cross threads.
 
 #include <array>
 #include <cstdint>
@@ -32,22 +32,22 @@ struct ProcessHeartbeat {
 struct LinkHealth {
   Sender sender;
   bool conflict = false;       ///< another sender uses the same number at the moment
-  std::vector<Sender> others;  ///< that send the same at the moment
+  std::vector<Sender> others;  ///< senders that say the same at the moment
   bool timedOut = false;
-  Duration age{};                ///< since the last usable message
-  std::uint64_t messages = 0;    ///< usable ones; 0 in a recording, which does not count them
-  std::uint64_t bytes = 0;       ///< of all, payload only
+  Duration age{};                ///< time since the last usable message
+  std::uint64_t messages = 0;    ///< usable messages; 0 in a recording, which does not count them
+  std::uint64_t bytes = 0;       ///< payload of all messages
   std::uint64_t errorCount = 0;  ///< messages with errors
-  std::uint64_t recoveries = 0;  ///< times it came back
+  std::uint64_t recoveries = 0;  ///< how often it came back after a timeout
   double rate = 0.0;             ///< messages per second
   double jitter = 0.0;           ///< s
-  std::optional<double> loss;    ///< 0 to 1, where the profile has a sequence number
+  std::optional<double> loss;    ///< 0 to 1, if the profile has a sequence number
   std::uint64_t lost = 0;
-  std::uint64_t duplicates = 0;  ///< that came twice
-  std::uint64_t late = 0;        ///< older than one that came before; they change no value
+  std::uint64_t duplicates = 0;  ///< messages that arrived twice
+  std::uint64_t late = 0;        ///< messages that arrived after a newer one; they change no value
 };
 
-/// Of two senders that use the same number: they are in conflict while both are heard.
+/// Marks two senders of the same number as conflicting if neither has timed out.
 inline void noteConflict(LinkHealth& a, LinkHealth& b) {
   if (!a.timedOut && !b.timedOut) a.conflict = b.conflict = true;
 }

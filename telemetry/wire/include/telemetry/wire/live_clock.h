@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one clock of everything that is received: it only goes forward, also while the computer
-// sleeps, and is printed as the time of day at which it was made plus what has passed since. Who
-// sets the computer's clock therefore moves nothing that was heard; by how much it was set is told
-// apart. Immutable once made; any thread, as far as its source allows.
+// The clock of everything that is received. It only goes forward, also while the computer sleeps:
+// it is the time of day at which it was made, plus what has passed since. So setting the computer's
+// clock does not shift timestamps; setBy() tells by how much it was set. Immutable; any thread, if
+// its source allows that.
 
 #include <functional>
 
@@ -12,9 +12,9 @@
 
 namespace pitchboard::telemetry {
 
-/// Where the time comes from; tests hand in their own.
+/// Where the time comes from. Tests use a source of their own.
 struct ClockSource {
-  std::function<Duration()> monotonic;  ///< since any moment, never back, on while asleep
+  std::function<Duration()> monotonic;  ///< since any moment; never goes back, counts while asleep
   std::function<WallTime()> wall;       ///< the computer's clock, which may be set
   static ClockSource system();
 };
@@ -25,12 +25,12 @@ class LiveClock {
 
   WallTime began() const { return m_wall; }
   WallTime now() const { return m_wall + passed(); }
-  /// When a datagram arrived that the kernel stamped by the computer's clock. A stamp that this
-  /// clock contradicts (it was set in between) counts as now.
+  /// Converts the kernel's timestamp of a datagram, which is by the computer's clock. If that was
+  /// set in between, the datagram counts as having arrived now.
   WallTime arrival(WallTime stamp) const;
-  /// Seconds since the clock was made.
+  /// Returns seconds since the clock was made.
   double seconds(WallTime time) const { return secondsOf(time - m_wall); }
-  /// By how much the computer's clock was set since then; 0 when it was not.
+  /// Returns by how much the computer's clock was set since then; 0 if it was not.
   Duration setBy() const { return m_source.wall() - now(); }
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What each meaning of a field is called: in profiles, on a robot's blackboard, in the published
-// message, and in which unit it stands there. The one table of it. Any thread.
+// What each FieldMeaning is called in profiles, on the blackboard and in the published message, and
+// its unit there. This is the only such table. Constant data; any thread.
 
 #include <array>
 #include <string_view>
@@ -14,12 +14,13 @@ namespace pitchboard::telemetry {
 
 struct MeaningInfo {
   FieldMeaning meaning = FieldMeaning::None;
-  std::string_view word;      ///< in profile files: never change it
-  std::string_view variable;  ///< on the blackboard; empty: nowhere. VISION_LOST is the opposite
-  std::string_view oldName;   ///< in Live up to version 0.8: presentName()
-  std::string_view unit;      ///< of the variable
+  std::string_view word;  ///< its name in profile files; never change it
+  std::string_view
+      variable;              ///< blackboard variable; empty if none. VISION_LOST means the opposite
+  std::string_view oldName;  ///< its name in Live up to version 0.8, see presentName()
+  std::string_view unit;     ///< unit of the variable
   std::string_view category;
-  UnitKind kind = UnitKind::None;  ///< None: as it is sent, whatever its unit is
+  UnitKind kind = UnitKind::None;  ///< None: the value stays as it is sent
 };
 
 inline constexpr std::array<MeaningInfo, fieldMeaningCount> meaningTable = [] {
@@ -28,11 +29,11 @@ inline constexpr std::array<MeaningInfo, fieldMeaningCount> meaningTable = [] {
   return std::array<MeaningInfo, fieldMeaningCount>{{
       {M::None, "none", "", "", "", "", K::None},
       {M::Robot, "robot", "", "n", "", "Robot", K::None},
-      {M::X, "x", "LOCALIZATION_X", "X", "cm", "Localization", K::Length},
-      {M::Y, "y", "LOCALIZATION_Y", "Y", "cm", "Localization", K::Length},
-      {M::Theta, "theta", "LOCALIZATION_THETA", "THETA", "°", "Localization", K::Angle},
-      // The published localization publishes its belief under this name (SYSTEM.md section 5).
-      {M::Belief, "belief", "LOCALIZATION_RBT01_X", "BELIEF", "cm", "Localization", K::Length},
+      {M::X, "x", "LOCALIZATION_X", "X", "cm", "Belief", K::Length},
+      {M::Y, "y", "LOCALIZATION_Y", "Y", "cm", "Belief", K::Length},
+      {M::Theta, "theta", "LOCALIZATION_THETA", "THETA", "°", "Belief", K::Angle},
+      // The published localization publishes its belief under this name (system.md section 5).
+      {M::Belief, "belief", "LOCALIZATION_RBT01_X", "BELIEF", "cm", "Belief", K::Length},
       {M::BallDistance, "ball-distance", "VISION_BALL_DIST", "BALL_DIST", "cm", "Vision",
        K::Length},
       {M::BallAngle, "ball-angle", "VISION_PAN_DEG", "BALL_ANGLE", "°", "Vision", K::Angle},
@@ -61,7 +62,8 @@ constexpr const MeaningInfo& info(FieldMeaning meaning) {
   return meaningTable[static_cast<std::size_t>(meaning)];
 }
 
-/// Of a column of Live that version 0.8 called so: the variable that it is. Other names stay.
+/// Returns the present name of a column that Live called `name` up to version 0.8; other names are
+/// returned unchanged.
 constexpr std::string_view presentName(std::string_view name) {
   for (const MeaningInfo& known : meaningTable) {
     if (!known.variable.empty() && known.oldName == name) return known.variable;

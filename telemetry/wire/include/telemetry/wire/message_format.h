@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which formats of messages are text: their datagrams are lines that a person can read and type,
-// and may end with a word of the profile. Pure.
+// Tells which formats of messages are text: lines that a person can read and type, and that may end
+// with a word of the profile. Pure functions; any thread.
 
 #include <telemetry/wire/profile.h>
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What stands where in a robot's datagram, and what it means, as data: every team sends its own
-// message, and a program that knows only the published order would show the wrong numbers
-// (docs/LIVE.md, "Profiles"). Plain values; any thread.
+// A profile describes a team's messages: which value stands where, what it means, and in which unit
+// and frame (docs/live.md, "Profiles"). Plain values; any thread.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +20,7 @@ enum class FieldType : std::uint8_t {
   Int,    ///< whole number that fits 32 bits
   Float,  ///< number that fits IEEE single
   Flag,   ///< 0 or 1
-  Text    ///< a word; a number only where `labels` give it one
+  Text    ///< a word; a number only if `labels` have one for it
 };
 
 /// How a datagram is written.
@@ -57,7 +56,7 @@ enum class WireType : std::uint8_t {
 };
 inline constexpr std::size_t wireTypeCount = 13;
 
-/// What the program itself does with a field; None is only shown.
+/// What Pitchboard uses a field for; a field with None is only shown.
 enum class FieldMeaning : std::uint8_t {
   None,
   Robot,
@@ -76,12 +75,12 @@ enum class FieldMeaning : std::uint8_t {
   Yaw,
   Voltage,
   Sequence,
-  Team,  ///< number of its team at the referee's
+  Team,  ///< number of its team in the GameController
   BallX,
   BallY,  ///< from the robot: ahead, left
   BallFieldX,
   BallFieldY,  ///< in the frame of x and y
-  BallSeen,    ///< 0 or less: the rest of the ball means nothing
+  BallSeen,    ///< 0 or less: the other values of the ball mean nothing
   BallAge,     ///< less than 0: never seen
   Charge       ///< how full the battery is
 };
@@ -93,23 +92,23 @@ std::string_view meaningName(FieldMeaning meaning);
 struct ProfileField {
   std::string name;  ///< e.g. "BALL_DIST"
   FieldType type = FieldType::Float;
-  std::string unit;      ///< for the screen, e.g. "cm"; may be empty
-  std::string category;  ///< under which it is shown; may be empty
+  std::string unit;      ///< unit for people, e.g. "cm"; may be empty
+  std::string category;  ///< category under which it is listed; may be empty
   FieldMeaning meaning = FieldMeaning::None;
-  /// The blackboard variable that it is; it then has that name and unit. Empty: none.
+  /// The blackboard variable that it is, whose name and unit it then gets; empty if none.
   std::string variable{};
-  std::string key{};   ///< what it is called in the message; empty: `name`
+  std::string key{};   ///< its name in the message; empty: `name`
   double scale = 1.0;  ///< value in `unit` = scale × what is sent + offset
   double offset = 0.0;
-  std::optional<double> absent{};                ///< sent in place of a value that there is not
-  std::map<std::int32_t, std::string> labels{};  ///< words of codes, and codes of words
-  int bits = 0;                                  ///< of a sequence number that wraps; 0: not known
+  std::optional<double> absent{};                ///< the value that means "nothing"
+  std::map<std::int32_t, std::string> labels{};  ///< texts of codes, and codes of texts
+  int bits = 0;  ///< size of a sequence number that wraps; 0 if unknown
   // Of a binary message.
-  int at = 0;  ///< bytes from its beginning
+  int at = 0;  ///< position in bytes
   WireType as = WireType::None;
-  int length = 0;          ///< bytes of a Text
+  int length = 0;          ///< length of a Text in bytes
   std::uint32_t mask = 0;  ///< bits that count; 0: all
-  bool optional = false;   ///< a message may end before it; without any, a shorter one is cut off
+  bool optional = false;   ///< the message may end before it; otherwise it counts as truncated
   bool operator==(const ProfileField&) const = default;
   const std::string& sentName() const { return key.empty() ? name : key; }
 };
@@ -125,7 +124,7 @@ struct MessageFrame {
   bool operator==(const MessageFrame&) const = default;
 };
 
-/// A robot's number where the message has none.
+/// Where the robot's number comes from if the message has none.
 struct RobotFrom {
   enum class Source : std::uint8_t { Message, Port, Address };
   Source source = Source::Message;
@@ -133,7 +132,7 @@ struct RobotFrom {
   bool operator==(const RobotFrom&) const = default;
 };
 
-/// A binary message is one of this profile only where one of these values stands.
+/// A binary message belongs to this profile only if one of these values stands here.
 struct WireCondition {
   int at = 0;
   WireType as = WireType::U8;
@@ -141,41 +140,41 @@ struct WireCondition {
   bool operator==(const WireCondition&) const = default;
 };
 
-/// A valid one says in one way what the robot's number is, and has unique names and at most
+/// A valid profile has exactly one source of the robot's number, unique names, and at most
 /// maxFields fields.
 struct Profile {
   static constexpr std::size_t maxFields = 100;
   std::string name;
-  std::string end = "OUT";  ///< the word that ends a message of words; empty: its end
+  std::string end = "OUT";  ///< last word of a message of words; empty: the end of the datagram
   std::vector<ProfileField> fields;
   MessageFormat format = MessageFormat::Words;
   MessageFrame frame;
   RobotFrom robotFrom;
   char separator = ' ';   ///< between words or pairs; ' ': any white space
-  bool utf8 = false;      ///< of a message of words; the other texts always may
-  bool tolerant = false;  ///< what stands before a mistake of JSON or Lua is used
+  bool utf8 = false;      ///< allow UTF-8 in messages of words; other texts always may
+  bool tolerant = false;  ///< use what stands before an error in JSON or Lua
   std::string begins;     ///< bytes that a binary message begins with
   std::vector<WireCondition> when;
   std::string message;  ///< of the format protobuf: "robocup", "nubots", "rhoban", "utra"
 
-  /// Place of the field with this meaning; empty when the profile has none.
+  /// Returns the index of the field with this meaning, if there is one.
   std::optional<std::size_t> indexOf(FieldMeaning meaning) const;
   bool operator==(const Profile&) const = default;
 };
 
-/// The published order (resources/profiles/published.json).
+/// Returns the profile of the published message (resources/profiles/published.json).
 const Profile& publishedProfile();
-/// Names of the profiles that are part of the program (resources/profiles), in order.
+/// Returns the names of the built-in profiles (resources/profiles), in order.
 std::vector<std::string> builtInProfiles();
 
-/// Reads a profile; `file` is only for the messages. Errors: ParseError with "file:line: key".
+/// Reads a profile; `file` is used in messages only. Fails with ParseError and "file:line: key".
 Result<Profile> parseProfile(std::string_view json, const std::string& file);
-/// Reads a file, or takes the built-in profile of this name. Errors as parseProfile(), and NotFound
-/// or SystemError for a file that cannot be read.
+/// Reads a file, or returns the built-in profile of this name. Fails as parseProfile() does, and
+/// with NotFound or SystemError if the file cannot be read.
 Result<Profile> loadProfile(const std::string& pathOrName);
-/// Text that parseProfile() reads back to the same value; for saving an edited profile.
+/// Returns a text that parseProfile() reads back to the same value.
 std::string profileText(const Profile& profile);
-/// Checks a profile made by hand. The error's context names the field.
+/// Checks a profile that was made in code. The error's context names the field.
 Result<void> validate(const Profile& profile);
 
 }  // namespace pitchboard::telemetry

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The referee's packets as JSON, with the names that docs/LIVE.md lists: what `listen` and `decode`
-// print and what a session keeps.
+// The referee's packets as JSON, with the names that docs/live.md lists: `listen` and `decode`
+// print them, and sessions store them. Pure functions; any thread.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -10,8 +10,8 @@
 
 namespace pitchboard::telemetry {
 
-/// One object. Codes stand beside their words (state and stateName); what a version does not have
-/// is left out. Texts may hold any bytes: dump with error_handler_t::replace.
+/// Returns an object with codes and their names (state and stateName); fields that the version does
+/// not have are left out. Texts may hold any bytes, so dump it with error_handler_t::replace.
 nlohmann::ordered_json refereeJson(const RefereePacket& packet);
 
 }  // namespace pitchboard::telemetry

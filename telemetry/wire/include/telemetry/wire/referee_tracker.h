@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which of the referee packets that arrive is the one to show, and what robots reply to it.
+// Chooses which of the arriving referee packets is shown, and keeps the replies of robots.
 
 #include <cstdint>
 #include <optional>
@@ -12,27 +12,28 @@
 
 namespace pitchboard::telemetry {
 
-/// Follows one referee. Controllers of 2014-2016 send an old v7 packet beside each v8 or v9 one,
-/// and a second controller may run by mistake: while the shown source is fresh, lower versions and
-/// other senders are counted and not shown, so that the display does not flicker. Not thread-safe.
+/// Follows one referee. Controllers of 2014 to 2016 send an old packet of version 7 beside each one
+/// of version 8 or 9, and a second controller may run by mistake. While the shown source is fresh,
+/// lower versions and other senders are counted but not shown. Plain value; not thread-safe.
 class RefereeTracker {
  public:
   struct Options {
-    Duration hold = std::chrono::seconds(3);      ///< a source silent for so long may be replaced
-    Duration timeout = std::chrono::seconds(10);  ///< the referee counts as gone
-    int version = 0;                              ///< the only one to be shown; 0: the highest
+    Duration hold =
+        std::chrono::seconds(3);  ///< a source that is silent for this time may be replaced
+    Duration timeout = std::chrono::seconds(10);  ///< after this time the referee counts as offline
+    int version = 0;                              ///< show only this version; 0: the highest
   };
   struct Counts {
     std::uint64_t shown = 0;
-    std::uint64_t compatibility = 0;   ///< lower versions beside a higher one
-    std::uint64_t otherSenders = 0;    ///< a second controller
-    std::uint64_t otherVersions = 0;   ///< not the one that was chosen
-    std::uint64_t trueData = 0;        ///< RGTD
+    std::uint64_t compatibility = 0;   ///< packets of lower versions
+    std::uint64_t otherSenders = 0;    ///< packets of a second controller
+    std::uint64_t otherVersions = 0;   ///< packets of versions that were not chosen
+    std::uint64_t trueData = 0;        ///< packets with true data (RGTD)
     std::uint64_t lost = 0;            ///< gaps of the packet number
-    std::uint64_t replies = 0;         ///< of robots
-    std::uint64_t refusedReplies = 0;  ///< of more robots than are kept
+    std::uint64_t replies = 0;         ///< replies of robots
+    std::uint64_t refusedReplies = 0;  ///< replies of more robots than are kept
   };
-  /// What a robot told the referee last.
+  /// The last reply of a robot to the referee.
   struct Reply {
     RobotReply reply;
     Address robot;
@@ -43,26 +44,26 @@ class RefereeTracker {
   RefereeTracker();
   explicit RefereeTracker(Options options);
 
-  /// True when the packet became the shown state. True data (RGTD) never does.
+  /// Takes a packet. Returns true if it became the shown state; true data (RGTD) never does.
   bool accept(const RefereeState& state, const Sender& sender, WallTime time);
 
-  /// A robot's reply that came from, or of, this address.
+  /// Takes a robot's reply. The address is the robot's, also if a referee forwarded the reply.
   void accept(const RobotReply& reply, Address robot, WallTime time);
-  /// From the next packet on; another version is a new beginning.
+  /// Changes the options from the next packet on. Another version starts over.
   void setOptions(Options options);
 
-  /// The last shown state; empty before the first.
+  /// Returns the shown state; empty before the first packet.
   const std::optional<RefereeState>& state() const { return m_state; }
-  /// The last true data, which only a monitor receives.
+  /// Returns the last true data, which only monitors receive.
   const std::optional<RefereeState>& trueData() const { return m_trueData; }
   WallTime trueDataTime() const { return m_trueDataTime; }
-  /// The last reply of each robot, by team and player.
+  /// Returns the last reply of each robot, by team and player.
   const std::vector<Reply>& replies() const { return m_replies; }
   std::optional<Sender> sender() const;
-  /// Time since the shown state arrived; empty before the first, never negative.
+  /// Returns the time since the shown state arrived; never negative, empty before the first packet.
   std::optional<Duration> age(WallTime now) const;
   bool timedOut(WallTime now) const;
-  /// A second controller was heard within the hold time.
+  /// Returns whether a second controller sent a packet within the hold time.
   bool conflict(WallTime now) const;
   const Counts& counts() const { return m_counts; }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Whom to listen to: everybody, or the addresses and networks that a list names. Any thread once it
-// is made.
+// A list of allowed senders: addresses and networks. Any thread may read it once it is complete.
 
 #include <string_view>
 #include <vector>
@@ -11,10 +10,11 @@
 
 namespace pitchboard::telemetry {
 
-/// A list of addresses and networks; an empty one allows everybody.
+/// An empty list allows everybody.
 class SenderFilter {
  public:
-  /// Reads "192.168.0.7" or "192.168.0.0/24" and adds it. Error InvalidArgument.
+  /// Reads "192.168.0.7" or "192.168.0.0/24" and adds it. Fails with
+  /// InvalidArgument.
   Result<void> add(std::string_view text);
   bool allows(Address address) const;
   bool empty() const { return m_ranges.empty(); }

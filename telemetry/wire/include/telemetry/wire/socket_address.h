@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// An address and a port as the system's calls on sockets want them. Any thread.
+// Converts addresses and ports to the form of the system's socket calls. Pure functions; any
+// thread.
 
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -12,7 +13,7 @@ namespace pitchboard::telemetry {
 
 inline constexpr int highestPort = 65535;
 
-/// A port that can be sent to or listened on; 0 is the system's choice.
+/// Returns whether a port can be used; 0 (the system chooses) cannot.
 constexpr bool isPort(int port) {
   return port >= 1 && port <= highestPort;
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One team as its datagrams show it: who is there, what each one last said, and how well. A robot
-// is its number in its team and keeps its key, whatever address it sends from; when other teams are
-// set up, it goes on under the key that it then has. Another program that uses its number is a
-// robot of its own when it says something else, until it falls silent. Time is handed in, so that
-// ten seconds of silence are tested in no time. Memory is bounded by the limits below; what they
-// refuse is counted.
+// All robots that send datagrams: which ones there are, what each last said, and how good its link
+// is. A robot is identified by its number in its team and keeps its key if its address changes;
+// when teams are set up, it continues under a new key. Another program with the same number is a
+// robot of its own while it says something else. Times are arguments; no clock is read. Memory is
+// bounded by the limits below, and what exceeds them is counted.
 
 #include <algorithm>
 #include <cstdint>
@@ -28,8 +27,7 @@
 namespace pitchboard::telemetry {
 
 struct MonitorOptions {
-  /// Numbers 1 to 32 of each team always find room; all higher ones and second senders share the
-  /// other places.
+  /// Numbers 1 to 32 of each team always fit; higher ones and second senders share further slots.
   static constexpr int ordinaryRobots = 32;
   static constexpr std::size_t otherRobots = 32;
   static constexpr std::size_t mostRobots(std::size_t teams) {
@@ -37,12 +35,12 @@ struct MonitorOptions {
   }
   std::size_t mostRobots() const { return mostRobots(teams.size()); }
   Duration timeout = std::chrono::seconds(10);
-  /// The same bytes from the same robot within this time are one message delivered twice. (Later
-  /// they may well be a robot that stands still.)
+  /// The same bytes from the same robot within this time are one message that was delivered twice;
+  /// later they may come from a robot that stands still.
   Duration duplicateWindow = std::chrono::milliseconds(5);
   BatteryLimits battery;
   SenderFilter senders;
-  std::vector<TeamSetup> teams;  ///< empty: one team, of the profile
+  std::vector<TeamSetup> teams;  ///< empty: one team, with the profile
   Surroundings field;
 };
 
@@ -51,7 +49,7 @@ constexpr bool hasOwnPlace(const RobotKey& robot) {
   return robot.sender == 0 && robot.number <= MonitorOptions::ordinaryRobots;
 }
 
-/// One robot at one moment: a value that may cross threads.
+/// One robot at one moment. A value that may cross threads.
 struct RobotStatus : LinkHealth {
   RobotKey key;
   std::array<ProcessHeartbeat, processCount> processes{};
@@ -59,17 +57,17 @@ struct RobotStatus : LinkHealth {
   WallTime lastMessage{};
   ErrorTally errors;
   std::shared_ptr<const TextDecoder> decoder;  ///< names and types of the values
-  std::vector<double> values;                  ///< NaN where missing; place as in the profile
+  std::vector<double> values;                  ///< in the order of the profile; NaN if missing
   std::vector<std::string> words;              ///< as sent
-  std::vector<std::string> extras;             ///< keys of the values behind the profile's
+  std::vector<std::string> extras;             ///< keys of the values after those of the profile
 
-  /// The last value with this meaning, in the message's unit (cm, degrees, ...).
+  /// Returns the last value with this meaning, in the unit of the profile (cm, degrees, ...).
   std::optional<double> value(FieldMeaning meaning) const;
-  /// TextDecoder::name() of one of the values.
+  /// Returns the name of one of the values, as TextDecoder::name().
   std::string name(std::size_t index) const;
 };
 
-/// One address that sends, whether or not its messages can be used.
+/// An address that sends, whether or not its messages can be used.
 struct SenderStatus {
   Address address;
   std::uint64_t datagrams = 0;
@@ -82,12 +80,12 @@ struct TeamStatus {
   std::vector<RobotStatus> robots;    ///< by key
   std::vector<SenderStatus> senders;  ///< the first 64 addresses
   std::uint64_t datagrams = 0;
-  std::uint64_t refusedByFilter = 0;  ///< from senders that are not on the list
-  std::uint64_t refusedRobots = 0;    ///< of robots beyond MonitorOptions::mostRobots()
-  ErrorTally errors;                  ///< of everybody together
+  std::uint64_t refusedByFilter = 0;  ///< datagrams from senders that are not allowed
+  std::uint64_t refusedRobots = 0;    ///< messages of robots beyond MonitorOptions::mostRobots()
+  ErrorTally errors;                  ///< errors of all senders together
 };
 
-/// Not thread-safe; lives in the thread that takes the datagrams, hands out values.
+/// Not thread-safe: it belongs to the thread that receives, and returns values.
 class TeamMonitor {
  public:
   explicit TeamMonitor(Profile profile = publishedProfile(), MonitorOptions options = {});
@@ -96,46 +94,46 @@ class TeamMonitor {
   TeamMonitor& operator=(TeamMonitor&&) noexcept;
 
   enum class Verdict : std::uint8_t {
-    Used,     ///< the robot's values are new (single fields may have errors)
-    Refused,  ///< errors say why
+    Used,     ///< the robot's values were updated (single fields may have errors)
+    Refused,  ///< not usable; the errors say why
     Duplicate,
-    Late,           ///< a newer one came before it: no value is changed
-    SenderRefused,  ///< not on the list
+    Late,           ///< older than an earlier one; no value is changed
+    SenderRefused,  ///< the sender is not allowed
     TooManyRobots
   };
 
-  /// The robot whose message was used last.
+  /// Returns the robot whose message was used last.
   const RobotKey& used() const { return m_used; }
 
-  /// Takes one datagram. `decoded()` then holds its values until the next call.
+  /// Takes a datagram. decoded() then holds its values until the next call.
   Verdict take(const DatagramView& datagram);
   const DecodedText& decoded() const { return m_decoded; }
-  /// TeamRouter::placeOf(); nothing for senders that are not on the list.
+  /// Returns TeamRouter::placeOf(), or nothing if the sender is not allowed.
   std::optional<int> placeOf(const DatagramView& datagram, std::optional<int> team) const;
   std::optional<int> placeOf(Address sender) const;
 
-  /// From now on messages are read in this order; health and counters stay.
+  /// Changes the profile for the next messages; link health and counters are kept.
   void setProfile(Profile profile);
-  /// Robots of setups that are still there stay theirs. The others have no team until they are
-  /// heard as somebody's; those that fall silent before are forgotten.
+  /// Robots of setups that remain keep their team. The others have no team until a message assigns
+  /// them to one, and are forgotten if they fall silent before.
   void setOptions(MonitorOptions options);
-  /// Robots whose keys the last take() or setOptions() has changed.
+  /// Returns the robots whose keys the last take() or setOptions() has changed.
   const std::vector<Renaming>& renamings() const { return m_renamings; }
   const TextDecoder& decoder() const { return *m_decoder; }
   const MonitorOptions& options() const { return m_options; }
 
-  /// Everything known at `now`.
+  /// Returns everything that is known at `now`.
   TeamStatus status(WallTime now) const;
-  /// Forgets one robot, so that its key is free; another program that uses the number moves up.
+  /// Forgets a robot. Another program that uses its number takes its place.
   void forget(const RobotKey& key);
   /// Forgets robots, senders and counters.
   void clear();
 
-  /// All that later statuses of the robots follow from, as JSON; times count from `zero`. Senders
-  /// and the counters of everybody together are left out.
+  /// Returns the state of the robots as JSON, with times relative to `zero`; restore() reads it.
+  /// Senders and overall counters are left out.
   std::string robotsText(WallTime zero) const;
-  /// Goes on from there: from now on it says of the robots what the other one would say. The
-  /// profile and the options are not part of it. Error ParseError; nothing has changed then.
+  /// Continues from such a state. Profile and options are not part of it. Fails with ParseError,
+  /// and then nothing has changed.
   Result<void> restoreRobots(std::string_view json, WallTime zero);
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Who is heard, as a file that a team keeps: its name and colour, where its messages come from, how
-// they are written, what its robots are called (docs/LIVE.md, "Team setups"). And the choice of the
-// team for each datagram. Values; any thread. A TeamRouter belongs to the one who decodes.
+// A team setup says who a team is and how to receive it: name, colour, ports, senders, profile,
+// names of robots (docs/live.md, "Team setups"). TeamRouter finds the team of each datagram. Setups
+// are plain values for any thread; a TeamRouter belongs to the thread that decodes.
 
 #include <map>
 #include <memory>
@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include <base/ids.h>
 #include <telemetry/wire/sender_filter.h>
 #include <telemetry/wire/text_decoder.h>
 
@@ -21,41 +20,41 @@ namespace pitchboard::telemetry {
 
 struct TeamSetup {
   static constexpr std::size_t maxRobots = 64;
-  static constexpr std::size_t mostTeams = 16;  ///< that are heard at one time
-  std::string name;                             ///< empty: title() has the number
-  int number = 0;                               ///< the referee's; 0: not known
-  std::optional<TeamColor> colour;              ///< nothing: Live chooses
-  int firstPort = 0, lastPort = 0;              ///< 0: Live's own ports
-  std::vector<std::string> senders;             ///< addresses and networks; empty: everybody
-  std::string profileName = "published";        ///< a built-in one, or a file (beside the setup)
+  static constexpr std::size_t mostTeams = 16;  ///< teams that can be received at one time
+  std::string name;                             ///< may be empty; see title()
+  int number = 0;                               ///< number in the GameController; 0 if unknown
+  std::string colour;                           ///< as colourWords(); empty: Live chooses one
+  int firstPort = 0, lastPort = 0;              ///< 0: Live's ports
+  std::vector<std::string> senders;             ///< allowed addresses and networks; empty: all
+  std::string profileName = "published";        ///< a built-in profile, or a file beside the setup
   Profile profile = publishedProfile();
-  bool attacksLeft = false;           ///< plays towards the left goal
-  std::map<int, std::string> robots;  ///< names by number
+  bool attacksLeft = false;           ///< the team attacks the left goal
+  std::map<int, std::string> robots;  ///< names of its robots, by number
   bool operator==(const TeamSetup&) const = default;
 
-  /// "RoboFEI", "Team 12" or "Team".
+  /// Returns the name, or "Team 12", or "Team".
   std::string title() const;
 };
 
-/// Reads a setup; `file` is for messages, and its folder is where profiles are looked for. Errors
-/// as parseProfile(); those of the profile name its own file.
+/// Reads a setup. `file` is used in messages, and profiles are searched in its folder. Fails as
+/// parseProfile() does; errors in the profile name its file.
 Result<TeamSetup> parseTeamSetup(std::string_view json, const std::string& file);
-/// The name of a profile that is a file becomes its whole path.
+/// Reads a setup from a file. The name of a profile that is a file becomes its full path.
 Result<TeamSetup> loadTeamSetup(const std::string& path);
-/// A profile in the same folder is named without it. In place of an old file; errors as
-/// writeFile().
+/// Writes a setup, replacing an existing file. A profile in the same folder is named without the
+/// folder. Fails as writeFile() does.
 Result<void> saveTeamSetup(const TeamSetup& setup, const std::string& path);
-/// The same with a profile that is known already: its name in the setup is only a name.
+/// The same, with a profile that is already known: its name in the setup is only a label.
 Result<TeamSetup> parseTeamSetup(std::string_view json, const std::string& file, Profile profile);
-/// Text that parseTeamSetup() reads back to the same value.
+/// Returns a text that parseTeamSetup() reads back to the same value.
 std::string teamSetupText(const TeamSetup& setup);
 
-/// The ports of the teams; those of Live (livePorts()) where a team names none, and always the
-/// referee's. Errors as livePorts(), and InvalidArgument for more than mostTeams.
+/// Returns the ports to receive: those of the teams, Live's (livePorts()) for teams that name none,
+/// and the referee's. Fails as livePorts() does, and with InvalidArgument for more than mostTeams.
 Result<std::vector<std::uint16_t>> teamPorts(const std::vector<TeamSetup>& teams, int base,
                                              int count, int referee);
 
-/// Of the team at this place (RobotKey::team). Null: it has none.
+/// Returns the setup of a team by its index (RobotKey::team), or null if it has none.
 inline const TeamSetup* setupAt(int place, const std::vector<TeamSetup>& teams) {
   return place > 0 && static_cast<std::size_t>(place) <= teams.size()
              ? &teams[static_cast<std::size_t>(place) - 1]
@@ -64,16 +63,16 @@ inline const TeamSetup* setupAt(int place, const std::vector<TeamSetup>& teams) 
 
 class TeamRouter {
  public:
-  /// Without teams every datagram is of the one profile.
+  /// Without teams, every datagram is read with the one profile.
   TeamRouter(const Profile& profile, std::vector<TeamSetup> teams, const Surroundings& where);
 
-  /// Reads a datagram as its team writes: the first one whose ports and senders fit and whose
-  /// format it has; DecodedText::place says which. Null: it comes from no team.
+  /// Decodes a datagram as its team writes it: the first team whose ports, senders and format fit.
+  /// DecodedText::place says which one. Returns null if it belongs to no team.
   std::shared_ptr<const TextDecoder> decode(const DatagramView& datagram, DecodedText& out) const;
-  /// RobotKey::team of robots whose datagrams come like this one, from the team with the referee's
-  /// number `team` where it says one. Nothing: it comes from no team.
+  /// Returns the RobotKey::team of a datagram, by where it came from and the team number `team`
+  /// that it may name. Nothing if it belongs to no team.
   std::optional<int> placeOf(const DatagramView& datagram, std::optional<int> team) const;
-  /// Of robots at this address, whatever port they send to.
+  /// Returns the same for robots at this address, whatever port they send to.
   std::optional<int> placeOf(Address sender) const;
 
  private:

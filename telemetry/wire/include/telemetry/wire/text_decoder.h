@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Reads the robots' datagrams as a profile says they are written: text (SYSTEM.md section 7),
-// key=value, JSON, Lua, binary, protobuf. What the program itself uses (pose, ball, voltage) comes
-// out in published units whatever the message has: TextDecoder::profile() is the profile of the
-// values as they are shown.
+// Decodes robots' datagrams as a profile describes them: text (system.md section 7), key=value,
+// JSON, Lua, binary, protobuf. Values that Pitchboard itself uses (pose, ball, voltage) are
+// converted to published units. TextDecoder::profile() describes the values that come out.
 
 #include <array>
 #include <cmath>
@@ -21,65 +20,64 @@
 
 namespace pitchboard::telemetry {
 
-/// One decoded datagram. Memory that is used again for the next one: what lies beyond `count` is
-/// left over. `words` and `extraKeys` point into the datagram, or into `made`: a copy of this has
-/// dangling ones.
+/// A decoded datagram. Its memory is reused for the next one, so ignore what lies beyond `count`.
+/// `words` and `extraKeys` point into the datagram or into `made`; in a copy of this they dangle.
 struct DecodedText {
   static constexpr std::size_t maxValues = 128;
-  static constexpr std::size_t maxExtras = 32;  ///< keys that the profile does not name
-  int robot = 0;                                ///< 0 when even that could not be read
-  int place = 0;              ///< RobotKey::team, as a TeamRouter finds it; 0: there are no teams
-  std::optional<int> team{};  ///< the referee's number of its team, where the message says it
+  static constexpr std::size_t maxExtras = 32;  ///< values that the profile does not name
+  int robot = 0;                                ///< 0 if even that could not be read
+  int place = 0;              ///< RobotKey::team, from a TeamRouter; 0 without teams
+  std::optional<int> team{};  ///< number of its team in the GameController, if the message has it
   TextErrors errors;
-  std::size_t badField =
-      0;  ///< place of the first field with an error; errors say whether there is one
-  std::size_t count = 0;                              ///< fields and extras that were read
-  std::array<double, maxValues> values;               ///< NaN where the field could not be used
+  std::size_t badField = 0;  ///< index of the first field with an error, if there are errors
+  std::size_t count = 0;     ///< number of fields and extras that were read
+  std::array<double, maxValues> values;               ///< NaN if the field could not be used
   std::array<std::string_view, maxValues> words;      ///< the same fields as sent
-  std::array<std::string_view, maxExtras> extraKeys;  ///< of the extras, in order
-  std::size_t namedExtras = 0;  ///< how many of them; extras of a message of words have no key
-  std::size_t dropped = 0;      ///< values beyond maxExtras
-  std::string made;             ///< words and keys of what was not sent as text
+  std::array<std::string_view, maxExtras> extraKeys;  ///< keys of the extras, in order
+  std::size_t namedExtras = 0;  ///< number of keys; extras of a message of words have none
+  std::size_t dropped = 0;      ///< number of values beyond maxExtras
+  std::string made;             ///< memory of words and keys that were not sent as text
 
-  /// The message may be used: a bad field is only missing.
+  /// Returns whether the message can be used; a bad field is only missing.
   bool accepted() const { return !errors.refused(); }
   bool has(std::size_t index) const { return index < count && !std::isnan(values[index]); }
 };
 
-/// What a message does not say of itself.
+/// What a message does not say about itself.
 struct Surroundings {
-  double length = 9.0, width = 6.0;  ///< of the field, m
-  bool attacksLeft = false;          ///< the sender's team plays towards −x
-  /// Unit of a blackboard variable; empty function: those that the profile's meanings have.
+  double length = 9.0, width = 6.0;  ///< m, size of the field
+  bool attacksLeft = false;          ///< the sender's team attacks towards −x
+  /// Returns the unit of a blackboard variable. If it is empty, those of the meanings are used.
   std::function<std::string(const std::string& variable)> unitOf{};
 };
 
-/// A profile made ready for decoding. Immutable after construction; any number of threads may use
-/// one at the same time with a DecodedText of their own.
+/// A profile that is prepared for decoding. Immutable; several threads may use it at the same time,
+/// each with its own DecodedText.
 class TextDecoder {
  public:
   static constexpr std::size_t maxBytes = 65536;
   static constexpr int maxRobot = 65535 - 1240;  ///< the largest number that has a telemetry port
 
-  /// The profile must be valid (it is when it came from parseProfile()).
+  /// The profile must be valid, as parseProfile() returns it.
   explicit TextDecoder(Profile profile = publishedProfile(), const Surroundings& where = {});
   ~TextDecoder();
 
-  /// Of the values that come out: variables under their published names, and behind the message's
-  /// own fields those that were made of them.
+  /// Describes the values that come out: variables have their published names, and values that were
+  /// converted follow the message's own fields.
   const Profile& profile() const;
 
-  /// Never reads outside the datagram. Words, key=value and binary messages allocate nothing; the
-  /// others memory in proportion to the datagram. Numbers are read the same in every locale. White
-  /// space and NULs after a text are ignored.
+  /// Decodes a datagram into `out`. It never reads outside the datagram. Words, key=value and
+  /// binary messages allocate nothing, other formats memory in proportion to the datagram. The
+  /// locale has no influence. White space and NULs after a text are ignored.
   void decode(std::string_view datagram, DecodedText& out) const;
-  /// The same, and the robot's number where the message has none (Profile::robotFrom).
+  /// The same, and takes the robot's number from the sender if the message has none
+  /// (Profile::robotFrom).
   void decode(const DatagramView& datagram, DecodedText& out) const;
 
-  /// Name of a value: the profile's, then the keys that it does not name, or OTHER_1, OTHER_2, ...
+  /// Returns the name of a value: that of the profile, then the keys of extras, or OTHER_1, ...
   std::string name(const DecodedText& decoded, std::size_t index) const;
-  static std::string otherName(std::size_t extra);  ///< "OTHER_1" of the first one
-  /// The value of the field with this meaning, if the message has a usable one.
+  static std::string otherName(std::size_t extra);  ///< "OTHER_1" for the first one
+  /// Returns the value of the field with this meaning, if the message has a usable one.
   std::optional<double> value(const DecodedText& decoded, FieldMeaning meaning) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What can be wrong with a robot's datagram, and how much of it was seen.
+// The errors of robots' datagrams, and counters for them. Plain values; not thread-safe.
 
 #include <array>
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace pitchboard::telemetry {
 
-/// The first eight refuse the message. The others spoil a field, or nothing: the rest is used.
+/// With the first eight the message is refused. The others affect one field, or nothing.
 enum class TextError : std::uint8_t {
   Empty,          ///< no text at all
   TooLong,        ///< more than 64 KiB
-  Truncated,      ///< the end is missing: the receiver says so, or fields of a binary message are
+  Truncated,      ///< cut by the network, or shorter than the fields of a binary message
   Binary,         ///< bytes that are not printable ASCII
   MissingFields,  ///< fewer fields than the profile has
   MissingEnd,     ///< no OUT
@@ -27,16 +27,16 @@ enum class TextError : std::uint8_t {
   BadFlag,        ///< neither 0 nor 1
   TooManyFields,  ///< more extra fields than are kept
   TrailingText,   ///< something after OUT, e.g. a second message
-  Duplicate       ///< the same message again at once
+  Duplicate       ///< the same message again within 5 ms
 };
 inline constexpr std::size_t textErrorCount = 15;
 
-/// "missing-end": for files and JSON.
+/// Returns a name such as "missing-end", for files and JSON.
 std::string_view errorName(TextError error);
-/// "no OUT at the end": for the screen.
+/// Returns a text such as "no OUT at the end", for people.
 std::string_view errorWords(TextError error);
 
-/// A set of errors in one word.
+/// A set of errors.
 class TextErrors {
  public:
   void add(TextError error) { m_bits |= 1U << static_cast<unsigned>(error); }
@@ -49,19 +49,19 @@ class TextErrors {
   std::uint32_t m_bits = 0;
 };
 
-/// Counts by kind and the last offending text of each kind, of bounded size and without allocation.
+/// Counts errors by kind and keeps the last text of each kind, in bounded memory.
 class ErrorTally {
  public:
   static constexpr std::size_t sampleBytes = 160;
 
   void add(TextErrors errors, std::string_view datagram);
-  /// Errors that were counted before; there is no sample of them.
+  /// Adds errors that were counted elsewhere, without a text.
   void add(TextError error, std::uint64_t count) { m_kinds[index(error)].count += count; }
   void addMessages(std::uint64_t count) { m_messages += count; }
   std::uint64_t count(TextError error) const { return m_kinds[index(error)].count; }
-  /// Datagrams with at least one error.
+  /// Returns the number of datagrams with at least one error.
   std::uint64_t messages() const { return m_messages; }
-  /// Printable: other bytes as \xNN, cut with "..." where the text is longer.
+  /// Returns the last text, printable: other bytes as \xNN, and "..." if it was longer.
   std::string sample(TextError error) const;
 
  private:
@@ -76,9 +76,10 @@ class ErrorTally {
   std::uint64_t m_messages = 0;
 };
 
-/// Bytes of the UTF-8 character that a text begins with; 0 when it does not begin with one.
+/// Returns the length in bytes of the UTF-8 character at the beginning of a text; 0 if there is
+/// none.
 std::size_t sequenceLength(std::string_view text);
-/// The beginning of any bytes as one printable line of UTF-8; other bytes as \xNN.
+/// Returns the beginning of any bytes as one printable line of UTF-8, other bytes as \xNN.
 std::string printable(std::string_view bytes, std::size_t limit = ErrorTally::sampleBytes);
 
 }  // namespace pitchboard::telemetry

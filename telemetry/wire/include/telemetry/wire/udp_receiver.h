@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Receives datagrams on many UDP ports in a thread of its own. It never sends: the league forbids
-// it, and a test reads the symbols of this library to prove it.
+// Receives datagrams on many UDP ports, on a thread of its own. It never sends, because leagues
+// forbid it; a test checks that by the symbols of this library.
 
 #include <cstdint>
 #include <functional>
@@ -16,58 +16,59 @@
 namespace pitchboard::telemetry {
 
 struct ReceiverOptions {
-  Address bind{};                    ///< 0.0.0.0: every interface, unicast and broadcast
-  std::vector<std::uint16_t> ports;  ///< see teamPorts(); 0 takes a free one (for tests)
-  int receiveBufferBytes = 4 << 20;  ///< asked of the kernel, per port; it may give less
+  Address bind{};                    ///< 0.0.0.0: all interfaces, unicast and broadcast
+  std::vector<std::uint16_t> ports;  ///< see teamPorts(); 0 takes a free port (for tests)
+  int receiveBufferBytes = 4 << 20;  ///< requested from the kernel for each port
   std::size_t maxDatagrams =
-      1 << 16;  ///< waiting for take(); what comes beyond is dropped, counted
+      1 << 16;  ///< datagrams that wait for take(); more are dropped and counted
   std::size_t maxBytes = 32U << 20;
-  /// By which datagrams are stamped; null: one of the receiver's own.
+  /// The clock that stamps datagrams; null: the receiver makes one.
   std::shared_ptr<const LiveClock> clock{};
-  Duration retry = std::chrono::seconds(3);  ///< between attempts to bind a port that is taken
+  Duration retry =
+      std::chrono::seconds(3);  ///< time between attempts to bind a port that is in use
 };
 
-/// Ports base + 1 ... base + count of the robots, and the referee's. Error InvalidArgument when one
-/// lies outside 1 to 65535 or the referee's is among the robots'.
+/// Returns the robots' ports base + 1 to base + count, and the referee's. Fails with
+/// InvalidArgument if one lies outside 1 to 65535, or if the referee's is among the robots'.
 Result<std::vector<std::uint16_t>> livePorts(int base = 1240, int count = 16, int referee = 3838);
 
-/// How one port is doing.
+/// The state of one port.
 struct PortStatus {
   std::uint16_t port = 0;
   bool bound = false;
-  std::string problem;  ///< why it is not bound; empty when it is
+  std::string problem;  ///< why it is not bound; empty if it is
   std::uint64_t datagrams = 0;
   std::uint64_t bytes = 0;
-  std::uint64_t kernelDrops = 0;  ///< the kernel's buffer was full
+  std::uint64_t kernelDrops = 0;  ///< datagrams lost because the kernel's buffer was full
   std::uint64_t truncated = 0;
 };
 
 struct ReceiverStatus {
   std::vector<PortStatus> ports;  ///< in the order of the options
-  std::uint64_t queueDrops = 0;   ///< nobody took them in time
+  std::uint64_t queueDrops = 0;   ///< datagrams that nobody took in time
   std::uint64_t kernelDrops() const;
   std::uint64_t datagrams() const;
 };
 
-/// The thread starts in the constructor and ends in the destructor. take(), status() and stop() may
-/// be called from any thread.
+/// The thread runs from construction to destruction. take(), status() and stop() may be called from
+/// any thread.
 class UdpReceiver {
  public:
-  /// `onReady` is called from the receiving thread whenever the first datagram of a batch waits; it
-  /// must return at once (post an event, nothing else). Ports that cannot be bound are no error:
-  /// status() has the reason, and they are tried again. Error SystemError when the thread's own
-  /// means (epoll) are refused.
+  /// Starts receiving. `onReady` is called on the receiving thread when the first datagram of a
+  /// batch waits; it must return at once, for example after posting an event. Ports that cannot be
+  /// bound are no error: status() tells why, and they are tried again. Fails with SystemError if
+  /// the system refuses epoll.
   static Result<std::unique_ptr<UdpReceiver>> start(ReceiverOptions options,
                                                     std::function<void()> onReady = {});
   ~UdpReceiver();
   UdpReceiver(const UdpReceiver&) = delete;
   UdpReceiver& operator=(const UdpReceiver&) = delete;
 
-  /// Swaps everything that waits into `batch` (cleared before). Waits at most `wait` for the first;
-  /// false when there was nothing or the receiver was stopped.
+  /// Moves all waiting datagrams into `batch`, which is cleared before. Waits at most `wait` for
+  /// the first. Returns false if there was none or the receiver was stopped.
   bool take(DatagramBatch& batch, Duration wait = Duration::zero());
   ReceiverStatus status() const;
-  /// Ends the thread; datagrams that wait can still be taken.
+  /// Ends the thread. Waiting datagrams can still be taken.
   void stop();
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sends small datagrams to one IPv4 address. Never blocks; what cannot be sent is counted. In this
-// library only the monitor request uses it (tst_udp_receiver checks that): listening stays silent.
-// One thread at a time.
+// Sends small datagrams to one IPv4 address. It never blocks; datagrams that cannot be sent are
+// counted. In this library only the monitor request uses it (tst_udp_receiver checks that), so that
+// listening stays silent. One thread at a time.
 
 #include <cstdint>
 #include <string_view>
@@ -19,8 +19,8 @@ class UdpSender {
   /// Broadcast addresses are allowed.
   static Result<UdpSender> to(Address address);
 
-  /// Port 1..65535. Says whether the system took it, else errno tells why; a receiver need not
-  /// exist.
+  /// Sends to a port (1 to 65535). Returns whether the system accepted it; if not, errno tells why.
+  /// Whether anybody receives it is unknown.
   bool send(std::uint16_t port, std::string_view datagram);
   std::uint64_t errors() const { return m_errors; }
 

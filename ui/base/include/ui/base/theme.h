@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Colours, type and metrics of the light and dark theme (palette table of docs/DESIGN_LANGUAGE.md).
+// Colours, type and metrics of the light and dark theme (palette table of docs/design-language.md).
 // One accent; team colours mean teams, red and amber mean trouble, green is the field and the
 // lamps. UI thread only.
 
@@ -11,7 +11,7 @@
 #include <QPalette>
 #include <QString>
 
-#include <base/ids.h>
+#include <simcore/world/team_color.h>
 
 class QApplication;
 class QWidget;

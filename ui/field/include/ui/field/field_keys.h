@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The keys of the published simulator (SYSTEM.md section 9) as data. They work while "Published
+// The keys of the published simulator (system.md section 9) as data. They work while "Published
 // keys" is on; the window asks the field to carry them out wherever the focus is. Constant data,
 // safe in every thread.
 

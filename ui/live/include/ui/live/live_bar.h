@@ -6,6 +6,8 @@
 
 #include <QWidget>
 
+#include <ui/base/beat.h>
+
 class QComboBox;
 class QSettings;
 class QToolButton;
@@ -40,6 +42,7 @@ class LiveBar : public QWidget {
   QComboBox* m_team;
   QToolButton* m_monitor;
   QToolButton* m_catalog;
+  std::unique_ptr<Beat::Part> m_refresh;
 };
 
 }  // namespace pitchboard::ui

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include <telemetry/series/series_store.h>
+#include <ui/base/beat.h>
 #include <ui/plots/plot_layout.h>
 #include <ui/sources/frame_source.h>
 #include <ui/sources/linked_time.h>
@@ -118,7 +119,8 @@ class PlotsDock : public QWidget {
   QAction* m_follow;
   QAction* m_marks;
   QAction* m_box;
-  QTimer m_draw, m_saveSoon;
+  std::unique_ptr<Beat::Part> m_draw;
+  QTimer m_saveSoon;
   bool m_restoring = false;
   std::map<SourceKind, double> m_windows;  // s, of the sources that were shown
   SourceKind m_windowOf{};

@@ -78,7 +78,8 @@ class CardTracker {
  private:
   qint64 m_changed = 0;  // when the frame's serial last changed, real ms
   std::uint64_t m_serial = 0;
-  double m_age = 0.0;  // ms, smoothed
+  double m_age = 0.0;     // ms, smoothed
+  qint64 m_updated = -1;  // the last time, real ms; none
 };
 
 }  // namespace pitchboard::ui

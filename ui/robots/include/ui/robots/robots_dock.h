@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include <ui/base/beat.h>
 #include <ui/robots/card_state.h>
 #include <ui/robots/robot_card.h>
 
@@ -86,6 +87,7 @@ class RobotsDock : public QScrollArea {
   RobotsContext m_context;
   CardTracker m_tracker;
   QElapsedTimer m_clock;
+  std::unique_ptr<Beat::Part> m_refresh;
   CardParts m_parts;
   std::map<RobotKey, RobotCard*> m_cards;
   std::map<RobotKey, QDockWidget*> m_floating;

@@ -6,14 +6,13 @@
 // another source is shown. It sends nothing but the monitor request, when that is turned on. UI
 // thread only.
 
-#include <QElapsedTimer>
-#include <QTimer>
 #include <memory>
 
 #include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_watch.h>
 #include <robotlink/session/live_memory.h>
 #include <robotlink/session/recorded_frame.h>
+#include <ui/base/beat.h>
 #include <ui/base/ui_queue.h>
 #include <ui/sources/frame_source.h>
 
@@ -71,7 +70,6 @@ class LiveController : public FrameSource {
 
  private:
   void deliver();
-  void deliverNow();
   void keepRows();
 
   UiQueue m_toUi;
@@ -79,8 +77,7 @@ class LiveController : public FrameSource {
   std::vector<std::shared_ptr<link::LiveObserver>> m_observers;
   std::unique_ptr<link::LiveWatch> m_watch;
   FramePtr m_frame;
-  QElapsedTimer m_sinceFrame;
-  QTimer m_nextFrame;
+  std::unique_ptr<Beat::Part> m_news;
   std::size_t m_memoryBudget = std::size_t{1} << 30;
   std::shared_ptr<link::LiveMemory> m_memory;
   std::unique_ptr<link::LiveMoments> m_moments;

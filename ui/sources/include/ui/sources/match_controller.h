@@ -2,10 +2,10 @@
 #pragma once
 
 // The studio's hold on the match being simulated: opens and ends it, plays, pauses and steps it,
-// polls it on the display timer, and hands frames, events and log lines to docks and field as
-// values. What is done to it by hand is MatchEdits, what is kept of it MatchMemory; both end with
-// it. UI thread only. Matches are made and ended on a worker thread; only currentMoment() and
-// stateHash() wait, for the tick in progress.
+// takes what is new in the next beat of the display, and hands frames, events and log lines to
+// docks and field as values. What is done to it by hand is MatchEdits, what is kept of it
+// MatchMemory; both end with it. UI thread only. Matches are made and ended on a worker thread;
+// only currentMoment() and stateHash() wait, for the tick in progress.
 
 #include <QObject>
 #include <QString>
@@ -17,12 +17,11 @@
 #include <vector>
 
 #include <robotlink/match/match_runner.h>
+#include <ui/base/beat.h>
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
 #include <ui/sources/event_filter.h>
 #include <ui/sources/frame_source.h>
-
-class QTimer;
 
 namespace pitchboard::ui {
 
@@ -192,7 +191,7 @@ class MatchController : public FrameSource {
   UiQueue m_toUi;
   Workers m_worker;                     // one thread: matches end and start in order
   std::atomic<bool> m_refused = false;  // by the last order
-  QTimer* m_timer;
+  std::unique_ptr<Beat::Part> m_news;
   MatchEdits* m_edits;
   MatchMemory* m_memory;
 };

@@ -37,6 +37,8 @@ class TimelineActions : public QObject {
 
  private:
   void refresh();
+  /// Asks for a time and shows that moment. What was `typed` before, and why it was refused.
+  void askForTime(const QString& typed = {}, const QString& problem = {});
   void fillFilter(QMenu* menu);
   void change(const std::function<void(EventFilter&)>& how);
 
@@ -44,6 +46,7 @@ class TimelineActions : public QObject {
   LinkedTime* m_plots;
   QAction* m_now;
   QAction* m_oldest;
+  QAction* m_goTo;
   QAction* m_next;
   QAction* m_previous;
   QAction* m_bookmark;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Every variable of every robot with its newest value; see docs/STUDIO.md, "Variables". UI thread
+// Every variable of every robot with its newest value; see docs/studio.md, "Variables". UI thread
 // only.
 
 #include <functional>

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+#include <filesystem>
+
+#include <base/time_text.h>
+#include <base/try.h>
+#include <robotlink/calibrate/calibration_file.h>
+#include <robotlink/models/robot_models.h>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "progress.h"
+
+namespace pitchboard::cli {
+namespace {
+
+struct CalibrateOptions {
+  std::vector<std::string> sessions;
+  std::string robot, output, base = "kid-size", report, from, to;
+  double holdOut = 0.2;
+  bool json = false, force = false, progress = false;
+};
+
+Result<double> secondsOr(const std::string& text, const char* option, double fallback) {
+  if (text.empty()) return fallback;
+  const auto seconds = secondsFromText(text);
+  if (!seconds) {
+    return failure(ErrorCode::InvalidArgument,
+                   std::string(option) + " must be a time such as 78.7 or 1:18.7");
+  }
+  return *seconds;
+}
+
+void printCalibration(const link::Calibration& calibration) {
+  std::printf("%-28s %10s   %-24s %-18s %s\n", "", "value", "95 % interval", "unit", "from");
+  const auto line = [](const link::CalibratedValue& value) {
+    const link::WrittenValue w = link::writtenValue(value);
+    char interval[64];
+    std::snprintf(interval, sizeof interval, "%.4g to %.4g", w.low, w.high);
+    std::printf("%-28s %10.4g   %-24s %-18s %zu %s\n", value.key.c_str(), w.value, interval,
+                w.unit.c_str(), value.samples, value.of.c_str());
+  };
+  for (const auto& value : calibration.values) line(value);
+  for (const auto& value : calibration.told) line(value);
+  std::printf("\nNot estimated; the number of %s is kept:\n", calibration.base.name.c_str());
+  for (const auto& [key, reason] : calibration.kept) {
+    std::printf("%-28s %s\n", key.c_str(), reason.c_str());
+  }
+  for (const auto& [cause, seconds] : calibration.leftOut) {
+    std::printf("Left out: %.1f s, %s\n", seconds, cause.c_str());
+  }
+  for (const std::string& note : calibration.notes) std::printf("%s\n", note.c_str());
+  if (calibration.check.windows == 0) return;
+  std::printf("Position after 5 s: %.1f cm off, with %s %.1f cm (%zu windows)\n",
+              100.0 * calibration.check.rms, calibration.base.name.c_str(),
+              100.0 * calibration.check.rmsBase, calibration.check.windows);
+}
+
+Result<int> calibrateRobot(const CalibrateOptions& options) {
+  const InterruptGuard signals;
+  Progress progress("calibrating", options.progress);
+  const auto base = TRY(link::loadRobotModel(options.base));
+  const telemetry::TimeRange range{TRY(secondsOr(options.from, "--from", -1e18)),
+                                   TRY(secondsOr(options.to, "--to", 1e18))};
+  const IfExists ifExists = options.force ? IfExists::Replace : IfExists::Refuse;
+  for (const std::string* path : {&options.output, &options.report}) {
+    if (!path->empty() && !options.force && std::filesystem::exists(*path)) {
+      return failure(ErrorCode::Conflict, "the file exists; add --force to replace it", *path);
+    }
+  }
+  std::vector<link::CalibrationLog> logs;
+  for (const std::string& path : options.sessions) {
+    const auto session = TRY(telemetry::SessionReader::open(path));
+    const std::string name = std::filesystem::path(path).filename();
+    logs.push_back(TRY(link::readCalibrationLog(session, name, options.robot, range)));
+  }
+  const auto calibration = link::calibrate(logs, base, {options.holdOut}, std::ref(progress));
+  if (!calibration && calibration.error().code == ErrorCode::NotFound) {
+    std::fprintf(stderr, "%s%s\n", progress.fresh().c_str(), calibration.error().text().c_str());
+    return 1;
+  }
+  if (!calibration) return tl::unexpected(calibration.error());
+  TRY(link::writeCalibration(options.output, *calibration, programName, ifExists));
+  if (!options.report.empty()) {
+    TRY(writeFile(options.report, link::calibrationReport(*calibration, logs.front().field),
+                  ifExists));
+  }
+  if (options.json) {
+    std::printf("%s", link::calibrationToJson(*calibration, programName).c_str());
+  } else {
+    printCalibration(*calibration);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void addCalibrateCommand(CLI::App& parent, int& exitCode) {
+  auto options = std::make_shared<CalibrateOptions>();
+  CLI::App* command = parent.add_subcommand(
+      "calibrate",
+      "Estimate a robot model from recordings of a robot: speeds, times, noise, camera, kicks. "
+      "Exits with 1 if nothing can be estimated.\n"
+      "Example: pitchboard-cli calibrate training.mcap --robot B1 -o robot.json --report "
+      "robot.html");
+  command->add_option("session", options->sessions, "The recordings")
+      ->required()
+      ->type_name("SESSION");
+  command->add_option("--robot", options->robot, "The robot, as the recording names it: B1")
+      ->required()
+      ->type_name("ROBOT");
+  command->add_option("-o,--output", options->output, "Write the robot model here")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--base", options->base,
+                   "Robot model that the estimates start from: a name or a file")
+      ->capture_default_str()
+      ->type_name("MODEL");
+  command->add_option("--report", options->report, "Write a report with plots here")
+      ->type_name("FILE.html");
+  command->add_option("--from", options->from, "Use the recordings from this time on")
+      ->type_name("T");
+  command->add_option("--to", options->to, "Use the recordings up to this time")->type_name("T");
+  command
+      ->add_option("--hold-out", options->holdOut,
+                   "Share at the end of each recording that is predicted instead of fitted")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  command->add_flag("--force", options->force, "Replace existing files");
+  command->add_flag("--json", options->json, "Print the robot model with its intervals as JSON");
+  command->add_flag("--progress", options->progress,
+                    "Print progress to stderr even if it is not a terminal");
+  whenChosen(*command, options, exitCode, calibrateRobot);
+}
+
+}  // namespace pitchboard::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A calibration as a file: a robot model that scenarios and programs load, with the intervals,
+// samples and reasons under the key "calibration" (docs/calibrate.md); and as a report for a
+// browser. Any thread.
+
+#include <string>
+#include <string_view>
+
+#include <base/file_target.h>
+#include <robotlink/calibrate/calibrate.h>
+
+namespace pitchboard::link {
+
+/// JSON; angles in degrees, as in every robot file. `program`: name and version of who writes it.
+std::string calibrationToJson(const Calibration& calibration, std::string_view program);
+
+/// Numbers as people write them: degrees for angles.
+struct WrittenValue {
+  double value = 0.0, low = 0.0, high = 0.0;
+  std::string unit;  ///< "m/s"; empty for plain numbers
+};
+WrittenValue writtenValue(const CalibratedValue& value);
+
+/// One HTML page that needs nothing but itself: values, residuals, predictions over what was
+/// recorded.
+std::string calibrationReport(const Calibration& calibration, const sim::FieldSpec& field);
+
+/// Errors as writeFile().
+Result<void> writeCalibration(const std::string& path, const Calibration& calibration,
+                              std::string_view program, IfExists ifExists);
+
+}  // namespace pitchboard::link

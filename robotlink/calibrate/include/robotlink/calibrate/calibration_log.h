@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a recording holds of one robot, as calibration needs it: commands, IMU, percepts and what
+// the robot believed. Made from a session file or from rows in memory, of simulated and real robots
+// alike. Columns that only a simulation can know (truth, belief errors) are not read. Metres,
+// radians (left positive), seconds of the source. Plain values; reading is for one thread.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <base/result.h>
+#include <simcore/world/field.h>
+#include <telemetry/series/series_store.h>
+#include <telemetry/session/session_reader.h>
+
+namespace pitchboard::link {
+
+/// The blackboard at one moment. A percept is present only in the row in which it is new.
+struct CalibrationRow {
+  struct Seen {
+    double distance = 0.0;  ///< m
+    double bearing = 0.0;   ///< rad, left positive
+  };
+  struct Belief {
+    Pose pose;
+    double sigma = 0.0;  ///< m, as the robot told it
+  };
+  double time = 0.0;
+  int action = 0;                ///< CONTROL_ACTION, else DECISION_ACTION_A
+  int actionB = 0;               ///< DECISION_ACTION_B
+  std::optional<bool> moving;    ///< CONTROL_MOVING
+  std::optional<double> imuYaw;  ///< IMU_EULER_Z
+  bool fallen = false;           ///< IMU_STATE
+  bool looksForBall = true;      ///< DECISION_ACTION_VISION is 0
+  bool searches = false;         ///< DECISION_SEARCH_ON
+  std::optional<bool> ballLost;  ///< VISION_LOST
+  std::optional<Seen> ball;
+  std::array<std::optional<double>, 4> corners;  ///< blue, red, yellow, purple
+  std::optional<Belief> belief;
+};
+
+/// A robot that was seen (VISION_RBTnn), with the row in which that was new.
+struct SeenRobotPercept {
+  std::size_t row = 0;
+  int robot = 0;
+  CalibrationRow::Seen seen;
+};
+
+struct CalibrationLog {
+  std::string session;  ///< name of the file, for people
+  std::string robot;    ///< "B1"
+  sim::FieldSpec field;
+  std::vector<CalibrationRow> rows;  ///< in order of time
+  std::vector<SeenRobotPercept> robots;
+  double period = 0.0;                 ///< s, median time between rows
+  std::vector<std::string> variables;  ///< which of the variables above were recorded
+  std::vector<std::string> notes;      ///< gaps, missing variables, damage, in sentences
+  bool has(std::string_view variable) const;
+};
+
+/// Errors: NotFound where the session has no such robot (names those that it has) or no rows of it,
+/// InvalidArgument for a session without any variable that can be used.
+Result<CalibrationLog> readCalibrationLog(const telemetry::SessionReader& session,
+                                          const std::string& name, const std::string& robot,
+                                          telemetry::TimeRange range = {-1e18, 1e18});
+Result<CalibrationLog> readCalibrationLog(const telemetry::SeriesStore& rows,
+                                          const sim::FieldSpec& field, const std::string& name,
+                                          const std::string& robot,
+                                          telemetry::TimeRange range = {-1e18, 1e18});
+
+/// Corners of the field in the order of CalibrationRow::corners.
+std::array<Point, 4> fieldCorners(const sim::FieldSpec& field);
+
+}  // namespace pitchboard::link

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/calibrate/calibrate.h>
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <base/angles.h>
+#include <simcore/world/action_codes.h>
+#include <simcore/world/parameters.h>
+
+#include "calibration_check.h"
+#include "kick_fit.h"
+#include "motion_fit.h"
+#include "percept_fit.h"
+
+namespace pitchboard::link {
+namespace {
+
+constexpr double learnedEnough = 0.5;  // share of the prior's variance that must have gone
+constexpr double shortestStint = 0.5;  // s
+const double normal95 = 1.959963984540054;
+
+constexpr const char* rollingKey = "field.rolling_deceleration";
+
+const std::vector<std::string>& furtherKeys() {
+  static const std::vector<std::string> keys{"kick_speed",
+                                             "weak_kick_speed",
+                                             "pass_speed",
+                                             "kick_time",
+                                             "kick_contact",
+                                             "get_up_front",
+                                             "get_up_back",
+                                             "field_of_view",
+                                             "vision_range",
+                                             "noise.kick_speed",
+                                             "noise.kick_angle",
+                                             "noise.robot_distance",
+                                             "noise.robot_bearing",
+                                             "noise.landmark_probability",
+                                             "noise.missed_detection",
+                                             "noise.vision_delay",
+                                             rollingKey};
+  return keys;
+}
+
+/// What a recording does not show.
+const std::vector<const char*>& hiddenKeys() {
+  static const std::vector<const char*> keys{
+      "radius",     "mass",       "fall_impulse", "foot_side", "foot_width",     "kick_reach",
+      "kick_outer", "kick_inner", "head_speed",   "pan_limit", "camera_forward", "camera_height"};
+  return keys;
+}
+
+/// The actions that a number of the gait belongs to.
+std::set<int> actionsOf(std::size_t parameter) {
+  switch (parameter) {
+    case motionForwardFast:
+      return {1};
+    case motionForwardSlow:
+      return {8};
+    case motionBackwardFast:
+      return {17};
+    case motionBackwardSlow:
+      return {18};
+    case motionSideways:
+      return {6, 7};
+    case motionTurn:
+      return {2, 3};
+    case motionAroundSideways:
+    case motionAroundTurn:
+      return {9, 14};
+    case motionAcceleration:
+      return {1, 6, 7, 8, 9, 14, 17, 18};
+    case motionYawAcceleration:
+      return {2, 3, 9, 14};
+    default:
+      return {};
+  }
+}
+
+struct Counts {
+  std::map<int, std::size_t> stints;  // by action
+  std::size_t moving = 0, imu = 0, ball = 0, corners = 0;
+};
+
+Counts countsOf(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs) {
+  Counts counts;
+  for (std::size_t f = 0; f < logs.size(); ++f) {
+    const auto& actions = filters[f].actions();
+    double began = 0.0;
+    bool counted = true;
+    for (std::size_t i = 0; i < logs[f].rows.size(); ++i) {
+      const CalibrationRow& row = logs[f].rows[i];
+      if (actions[i].began) {
+        began = row.time;
+        counted = false;
+      }
+      if (!counted && row.time - began >= shortestStint && !actions[i].kicks && !actions[i].down) {
+        ++counts.stints[actions[i].code];
+        counted = true;
+      }
+      if (sim::gaitSpeed({}, actions[i].code, 10).inMotion) ++counts.moving;
+      if (row.imuYaw) ++counts.imu;
+      if (row.ball) ++counts.ball;
+      for (const auto& corner : row.corners) counts.corners += corner ? 1 : 0;
+    }
+  }
+  return counts;
+}
+
+void addMotion(const MotionFit& fit, const Counts& counts, Calibration& out) {
+  for (std::size_t i = 0; i < fit.logs.size(); ++i) {
+    const MotionParameter& parameter = motionParameters[i];
+    std::size_t samples = 0;
+    std::string of = "stints";
+    for (const int action : actionsOf(i)) {
+      const auto found = counts.stints.find(action);
+      if (found != counts.stints.end()) samples += found->second;
+    }
+    if (i >= motionNoiseForward) {
+      of = "rows";
+      samples = i == motionImuWhite || i == motionImuDrift ? counts.imu : counts.moving;
+      if (i == motionBallDistance || i == motionBallBearing) samples = counts.ball;
+      if (i == motionLandmark) samples = counts.corners;
+      if (i >= motionBallDistance && i <= motionLandmark) of = "percepts";
+    }
+    if (samples == 0) {
+      out.kept[parameter.key] = i < motionNoiseForward ? "the robot did not do this for long enough"
+                                                       : "no such measurements were recorded";
+      continue;
+    }
+    if (fit.information[i] < learnedEnough) {
+      out.kept[parameter.key] = "the recording says too little about it";
+      continue;
+    }
+    const auto k = static_cast<Eigen::Index>(i);
+    const double half = normal95 * std::sqrt(fit.covariance(k, k));
+    GridPosterior of95{fit.logs[i], fit.logs[i] - half, fit.logs[i] + half, 0.0};
+    if (fit.marginals[i]) of95 = *fit.marginals[i];
+    take(out, {parameter.key, std::exp(of95.median), std::exp(of95.low), std::exp(of95.high),
+               samples, of});
+  }
+  const std::size_t images = counts.ball + counts.corners;
+  if (fit.delayKnown) {
+    take(out, {"noise.vision_delay", fit.delayPosterior.median, fit.delayPosterior.low,
+               fit.delayPosterior.high, images, "percepts"});
+  } else {
+    out.kept["noise.vision_delay"] =
+        images == 0 ? "no percepts were recorded" : "the robot turned too little";
+  }
+}
+
+/// Seconds to reach and to leave a speed follow from two numbers of the gait: the logarithm of
+/// their quotient is normal.
+void tellTimes(const MotionFit& fit, Calibration& out) {
+  const auto tell = [&](const char* name, std::size_t speed, std::size_t acceleration) {
+    if (fit.information[speed] < learnedEnough || fit.information[acceleration] < learnedEnough) {
+      return;
+    }
+    const auto s = static_cast<Eigen::Index>(speed), a = static_cast<Eigen::Index>(acceleration);
+    const double middle = fit.logs[speed] - fit.logs[acceleration];
+    const double half =
+        normal95 * std::sqrt(std::max(0.0, fit.covariance(s, s) + fit.covariance(a, a) -
+                                               2.0 * fit.covariance(s, a)));
+    const CalibratedValue* of = out.find(motionParameters[speed].key);
+    out.told.push_back({name, std::exp(middle), std::exp(middle - half), std::exp(middle + half),
+                        of != nullptr ? of->samples : 0, "stints"});
+  };
+  tell("forward, fast: time to start and stop", motionForwardFast, motionAcceleration);
+  tell("forward, slow: time to start and stop", motionForwardSlow, motionAcceleration);
+  tell("backward, fast: time to start and stop", motionBackwardFast, motionAcceleration);
+  tell("backward, slow: time to start and stop", motionBackwardSlow, motionAcceleration);
+  tell("sideways: time to start and stop", motionSideways, motionAcceleration);
+  tell("turning: time to start and stop", motionTurn, motionYawAcceleration);
+}
+
+/// How far a stint went, as the filter found it, as a share of what the gait of the fitted model
+/// makes of the same commands; nothing for a stint that is too short or not known throughout.
+std::optional<double> stintShare(const CalibrationLog& log, const MotionFit::OfLog& fit,
+                                 std::size_t first, std::size_t last, bool turns) {
+  constexpr double longEnough = 2.0;  // s
+  const MotionState &from = fit.states[first], &to = fit.states[last];
+  if (log.rows[last].time - log.rows[first].time < longEnough) return {};
+  double turned = 0.0;
+  for (std::size_t i = first; i <= last; ++i) {
+    if (!fit.states[i].known) return {};
+    if (i > first) turned += fit.states[i].turn * (log.rows[i].time - log.rows[i - 1].time);
+  }
+  if (turns) {
+    if (std::abs(turned) < 0.2) return {};
+    return (to.mean[MotionState::Yaw] - from.mean[MotionState::Yaw]) / turned;
+  }
+  const double ox = to.odometryX - from.odometryX, oy = to.odometryY - from.odometryY;
+  const double square = ox * ox + oy * oy;
+  if (square < 0.04) return {};
+  const double x = to.mean[MotionState::X] - from.mean[MotionState::X];
+  const double y = to.mean[MotionState::Y] - from.mean[MotionState::Y];
+  return (x * ox + y * oy) / square;
+}
+
+/// The spread of a speed between stints: standard deviation with its interval from the chi-square
+/// distribution. RobotModel has no number for it; part of it is the noise of every step.
+void tellSpreads(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
+                 const MotionFit& fit, Calibration& out) {
+  std::map<std::size_t, std::vector<double>> shares;  // by parameter
+  for (std::size_t f = 0; f < logs.size(); ++f) {
+    const auto& actions = filters[f].actions();
+    for (std::size_t first = 0; first < actions.size();) {
+      std::size_t end = first + 1;
+      while (end < actions.size() && !actions[end].began && !actions[end].down) ++end;
+      for (std::size_t p = 0; p <= motionAroundSideways; ++p) {
+        if (!actionsOf(p).contains(actions[first].code) || actions[first].kicks) continue;
+        if (const auto share =
+                stintShare(logs[f], fit.ofLogs[f], first, end - 1, p == motionTurn)) {
+          shares[p].push_back(*share);
+        }
+      }
+      first = end;
+    }
+  }
+  for (const auto& [parameter, all] : shares) {
+    if (all.size() < 3) continue;
+    const auto n = static_cast<double>(all.size());
+    double mean = 0.0, squares = 0.0;
+    for (const double one : all) mean += one / n;
+    for (const double one : all) squares += (one - mean) * (one - mean);
+    const boost::math::chi_squared distribution(n - 1.0);
+    const double speed = std::exp(fit.logs[parameter]);
+    const auto sigma = [&](double freedom) { return speed * std::sqrt(squares / freedom); };
+    out.told.push_back({std::string(motionParameters[parameter].key) + ": spread between stints",
+                        sigma(n - 1.0), sigma(boost::math::quantile(distribution, 0.975)),
+                        sigma(boost::math::quantile(distribution, 0.025)), all.size(), "stints"});
+  }
+}
+
+/// What the filter left out, by cause.
+void tellLeftOut(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
+                 const MotionFit& fit, Calibration& out) {
+  for (std::size_t f = 0; f < logs.size(); ++f) {
+    const auto& actions = filters[f].actions();
+    for (std::size_t i = 1; i < logs[f].rows.size(); ++i) {
+      const double dt = logs[f].rows[i].time - logs[f].rows[i - 1].time;
+      if (dt > 0.5 && logs[f].period < 0.5) {
+        out.leftOut["gaps"] += dt;
+      } else if (actions[i].down) {
+        out.leftOut["fallen or getting up"] += dt;
+      } else if (!fit.ofLogs[f].states[i].known) {
+        out.leftOut["the pose is not known"] += dt;
+      } else if (filters[f].disturbed()[i]) {
+        out.leftOut["beside the ball or another robot"] += dt;
+      }
+    }
+    const FilterDecisions& decisions = fit.ofLogs[f].decisions;
+    const auto note = [&](std::size_t count, const std::string& what) {
+      if (count == 0) return;
+      out.notes.push_back(logs[f].session + ": " + std::to_string(count) + ' ' + what);
+    };
+    note(decisions.outliers, "measurements were left out as outliers.");
+    note(decisions.imuResets, "times the IMU was reset.");
+    note(decisions.ballMoves, "times the ball was moved.");
+    note(decisions.jumps, "times the robot was carried or lost its place.");
+  }
+}
+
+CalibrationLog firstPart(const CalibrationLog& log, double holdOut) {
+  CalibrationLog out = log;
+  const double end =
+      log.rows.back().time - holdOut * (log.rows.back().time - log.rows.front().time);
+  std::erase_if(out.rows, [end](const CalibrationRow& row) { return row.time > end; });
+  std::erase_if(out.robots,
+                [&](const SeenRobotPercept& seen) { return seen.row >= out.rows.size(); });
+  return out;
+}
+
+}  // namespace
+
+const CalibratedValue* Calibration::find(std::string_view key) const {
+  const auto found = std::ranges::find(values, key, &CalibratedValue::key);
+  return found == values.end() ? nullptr : &*found;
+}
+
+void take(Calibration& out, CalibratedValue value) {
+  const auto set = [&](const auto& parameters, auto& numbers, const std::string& key) {
+    for (const auto& parameter : parameters) {
+      if (key != parameter.key) continue;
+      const double least = parameter.stored(parameter.least);
+      const double most = parameter.stored(parameter.most);
+      for (double* one : {&value.value, &value.low, &value.high}) {
+        *one = std::clamp(*one, least, most);
+      }
+      numbers.*parameter.member = value.value;
+    }
+  };
+  if (value.key.starts_with("noise.")) {
+    set(sim::noiseParameters, out.model.noise, value.key.substr(6));
+  } else {
+    set(sim::robotModelParameters, out.model, value.key);
+  }
+  out.values.push_back(std::move(value));
+}
+
+std::vector<std::string> calibrationKeys() {
+  std::vector<std::string> keys;
+  for (const MotionParameter& parameter : motionParameters) keys.emplace_back(parameter.key);
+  keys.insert(keys.end(), furtherKeys().begin(), furtherKeys().end());
+  return keys;
+}
+
+Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::RobotModel& base,
+                              const CalibrationOptions& options,
+                              const CalibrationProgress& progress) {
+  if (logs.empty()) return failure(ErrorCode::InvalidArgument, "there is no recording");
+  if (!(options.holdOut >= 0.0 && options.holdOut <= 0.5)) {
+    return failure(ErrorCode::InvalidArgument, "the part that is held out must be 0 to 0.5");
+  }
+  Calibration out;
+  out.robot = logs.front().robot;
+  out.base = base;
+  out.model = base;
+  std::vector<CalibrationLog> fitted;
+  for (const CalibrationLog& log : logs) {
+    if (log.rows.size() < 2) {
+      return failure(ErrorCode::InvalidArgument, "there are no rows", log.session);
+    }
+    out.sessions.push_back(log.session);
+    out.notes.insert(out.notes.end(), log.notes.begin(), log.notes.end());
+    out.seconds += log.rows.back().time - log.rows.front().time;
+    fitted.push_back(firstPart(log, options.holdOut));
+    if (fitted.back().rows.size() < 2) fitted.back() = log;
+  }
+  std::vector<MotionFilter> filters;
+  filters.reserve(fitted.size());
+  for (const CalibrationLog& log : fitted) filters.emplace_back(log, base);
+  const auto part = [&](double done) { return !progress || progress(0.9 * done); };
+  const MotionFit motion = fitMotion(filters, fitted, base, part);
+  if (motion.ofLogs.empty()) return failure(ErrorCode::Conflict, "the calibration was cancelled");
+
+  addMotion(motion, countsOf(filters, fitted), out);
+  tellTimes(motion, out);
+  tellSpreads(filters, fitted, motion, out);
+  fitPercepts(filters, fitted, motion, out);
+  fitKicks(filters, fitted, motion, out);
+  tellLeftOut(filters, fitted, motion, out);
+  for (const char* key : hiddenKeys()) out.kept[key] = "a recording does not show it";
+  if (out.values.empty()) {
+    return failure(ErrorCode::NotFound,
+                   "nothing could be estimated: the recording has too little of robot " +
+                       out.robot + " in motion");
+  }
+  out.model.name = out.robot + "-calibrated";
+  checkPredictions(logs, options.holdOut, motion, out);
+  describeResiduals(motion, out);
+  if (progress) progress(1.0);
+  return out;
+}
+
+}  // namespace pitchboard::link

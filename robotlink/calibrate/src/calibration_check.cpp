@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration_check.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+namespace pitchboard::link {
+namespace {
+
+constexpr double window = 5.0;          // s
+constexpr double windowInterval = 1.0;  // s
+constexpr double leastWalking = 2.0;    // s of a window
+constexpr double placeInterval = 0.1;   // s
+constexpr std::size_t mostExamples = 12;
+constexpr std::size_t timeParts = 60;
+
+/// Where a model walks from a state with recorded actions.
+struct Walk {
+  const sim::RobotModel& model;
+  GaitStep gait;
+  double x = 0.0, y = 0.0, yaw = 0.0;
+  void advance(const ExecutedAction& action, double dt) {
+    gait.advance(model, action, dt);
+    yaw += gait.turn * dt;
+    x += (std::cos(yaw) * gait.forward - std::sin(yaw) * gait.left) * dt;
+    y += (std::sin(yaw) * gait.forward + std::cos(yaw) * gait.left) * dt;
+  }
+};
+
+void checkLog(const CalibrationLog& log, double holdOut, const MotionFit& motion, Calibration& out,
+              double& sum, double& sumBase) {
+  const MotionFilter filter(log, out.base);
+  FilterDecisions decisions;
+  std::vector<Innovation> innovations;
+  std::vector<MotionState> states;
+  filter.run(motion.model, motion.delay, decisions, innovations, &states);
+  const auto& rows = log.rows;
+  const double end = rows.back().time;
+  double next = holdOut > 0.0 ? end - holdOut * (end - rows.front().time) : rows.front().time;
+  for (std::size_t i = 0; i < rows.size() && rows[i].time + window <= end; ++i) {
+    if (rows[i].time < next || !states[i].known) continue;
+    next = rows[i].time + windowInterval;
+    PredictedWindow shown;
+    shown.time = rows[i].time;
+    const MotionState& from = states[i];
+    const auto begin = [&](const sim::RobotModel& model) {
+      Walk walk{model,
+                {},
+                from.mean[MotionState::X],
+                from.mean[MotionState::Y],
+                from.mean[MotionState::Yaw]};
+      walk.gait.forward = from.forward;
+      walk.gait.left = from.left;
+      walk.gait.turn = from.turn;
+      return walk;
+    };
+    Walk calibrated = begin(motion.model), base = begin(out.base);
+    double walking = 0.0, lastShown = -1e9;
+    bool whole = true;
+    std::size_t k = i + 1;
+    for (; k < rows.size() && rows[k].time <= rows[i].time + window + 1e-6; ++k) {
+      const double dt = rows[k].time - rows[k - 1].time;
+      whole = whole && states[k].known && dt < 0.5 && !filter.actions()[k].down &&
+              !filter.disturbed()[k];
+      calibrated.advance(filter.actions()[k], dt);
+      base.advance(filter.actions()[k], dt);
+      if (calibrated.gait.moves) walking += dt;
+      if (rows[k].time - lastShown >= placeInterval) {
+        lastShown = rows[k].time;
+        shown.places.push_back({rows[k].time,
+                                {states[k].mean[MotionState::X], states[k].mean[MotionState::Y]},
+                                {calibrated.x, calibrated.y},
+                                {base.x, base.y}});
+      }
+    }
+    if (!whole || walking < leastWalking) continue;
+    const MotionState& to = states[k - 1];
+    const double x = to.mean[MotionState::X], y = to.mean[MotionState::Y];
+    sum += (calibrated.x - x) * (calibrated.x - x) + (calibrated.y - y) * (calibrated.y - y);
+    sumBase += (base.x - x) * (base.x - x) + (base.y - y) * (base.y - y);
+    ++out.check.windows;
+    out.check.examples.push_back(std::move(shown));
+  }
+}
+
+}  // namespace
+
+void checkPredictions(std::span<const CalibrationLog> logs, double holdOut, const MotionFit& motion,
+                      Calibration& out) {
+  out.check.window = window;
+  double sum = 0.0, sumBase = 0.0;
+  for (const CalibrationLog& log : logs) checkLog(log, holdOut, motion, out, sum, sumBase);
+  if (out.check.windows == 0) return;
+  const auto count = static_cast<double>(out.check.windows);
+  out.check.rms = std::sqrt(sum / count);
+  out.check.rmsBase = std::sqrt(sumBase / count);
+  auto& examples = out.check.examples;
+  if (examples.size() <= mostExamples) return;
+  std::vector<PredictedWindow> chosen;
+  for (std::size_t i = 0; i < mostExamples; ++i) {
+    chosen.push_back(std::move(examples[i * examples.size() / mostExamples]));
+  }
+  examples = std::move(chosen);
+}
+
+void describeResiduals(const MotionFit& motion, Calibration& out) {
+  const std::array<std::pair<Sense, const char*>, 5> senses{{{Sense::Imu, "IMU yaw"},
+                                                             {Sense::BallDistance, "ball distance"},
+                                                             {Sense::BallBearing, "ball bearing"},
+                                                             {Sense::Corner, "corner bearing"},
+                                                             {Sense::Belief, "believed pose"}}};
+  for (const auto& [sense, name] : senses) {
+    std::vector<double> all;
+    for (const MotionFit::OfLog& log : motion.ofLogs) {
+      for (const Innovation& one : log.innovations) {
+        if (one.sense == sense) all.push_back(one.value / std::sqrt(one.variance));
+      }
+    }
+    if (all.size() < 2) continue;
+    CalibrationResiduals told;
+    told.sense = name;
+    told.count = all.size();
+    double sum = 0.0, squares = 0.0, products = 0.0;
+    std::vector<double> parts(std::min(timeParts, all.size())), counts(parts.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      sum += all[i];
+      squares += all[i] * all[i];
+      if (i > 0) products += all[i] * all[i - 1];
+      const std::size_t part = i * parts.size() / all.size();
+      parts[part] += all[i] * all[i];
+      counts[part] += 1.0;
+    }
+    const auto count = static_cast<double>(all.size());
+    told.mean = sum / count;
+    told.deviation = std::sqrt(std::max(0.0, squares / count - told.mean * told.mean));
+    told.autocorrelation = squares > 0.0 ? products / squares : 0.0;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      told.overTime.push_back(std::sqrt(parts[p] / std::max(1.0, counts[p])));
+    }
+    std::ranges::sort(all);
+    const boost::math::normal normal;
+    for (double z = -2.0; z <= 2.01; z += 0.5) {
+      const double at = boost::math::cdf(normal, z) * (count - 1.0);
+      told.quantiles.push_back(all[static_cast<std::size_t>(at)]);
+    }
+    out.residuals.push_back(std::move(told));
+  }
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,510 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "kick_fit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <base/angles.h>
+#include <simcore/world/action.h>
+
+#include "percept_fit.h"
+
+namespace pitchboard::link {
+namespace {
+
+constexpr double kickTick = 1.0 / 60.0;
+constexpr double rollTime = 2.5;          // s after the contact that are looked at
+constexpr double restTime = 1.5;          // s before it
+constexpr std::size_t leastKicks = 3;     // of a kind
+constexpr std::size_t leastRolling = 20;  // percepts of a rolling ball
+constexpr double slowest = 0.25;          // m/s; a ball that is slower was not hit
+constexpr double worstFit = 6.0;          // sigmas of the mean square; beyond, something was hit
+constexpr double border = 0.3;            // m before a goal line, and beyond a touch line
+constexpr double surfacePrior = 0.35;     // of the logarithm of the rolling deceleration
+constexpr double surfaceMedian = 0.3;     // m/s^2, grass (simcore/world/field.h)
+
+enum KickKind : std::size_t { StrongKick, WeakKick, PassKick, kickKinds };
+
+KickKind kindOf(int code) {
+  return code == 12 || code == 13 ? PassKick : code == 21 || code == 22 ? WeakKick : StrongKick;
+}
+
+/// A ball's place relative to where the robot stood when the kick began (forward, left), as seen.
+struct BallSight {
+  double time = 0.0;  // s since the kick began, of the image
+  double x = 0.0, y = 0.0;
+  double bearing = 0.0;              // of the ray, in the same frame
+  double radial = 1.0, round = 1.0;  // sigma along and across the ray, m
+};
+
+struct Kick {
+  int code = 0;
+  std::vector<BallSight> sights;
+  double yawAtContact = 0.0;                  // rad, since the kick began
+  double xAtContact = 0.0, yAtContact = 0.0;  // m, where the robot stood then
+  // Fitted for a given deceleration:
+  Eigen::Matrix<double, 5, 1> fitted = Eigen::Matrix<double, 5, 1>::Zero();  // x, y, time, vx, vy
+  Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
+  double chi2 = 0.0;
+
+  double speed() const { return std::hypot(fitted[3], fitted[4]); }
+  double speedVariance() const {
+    const Eigen::Vector2d along(fitted[3] / speed(), fitted[4] / speed());
+    return along.dot(covariance.bottomRightCorner<2, 2>() * along);
+  }
+  double direction() const { return std::atan2(fitted[4], fitted[3]); }
+  double directionVariance() const {
+    const Eigen::Vector2d across(-fitted[4] / speed(), fitted[3] / speed());
+    return across.dot(covariance.bottomRightCorner<2, 2>() * across) / (speed() * speed());
+  }
+};
+
+/// How far a ball has rolled that began with this speed and loses `loss` m/s every second
+/// (rollingDistance() of simcore/world).
+double rolled(double speed, double loss, double time) {
+  const double t = std::clamp(time, 0.0, loss > 0.0 ? speed / loss : time);
+  return speed * t - 0.5 * loss * t * t;
+}
+
+/// Residuals of all sights, in sigmas: along and across the ray.
+void residualsOf(const Kick& kick, const Eigen::Matrix<double, 5, 1>& at, double loss,
+                 Eigen::VectorXd& out) {
+  out.resize(static_cast<Eigen::Index>(2 * kick.sights.size()));
+  const double speed = std::max(1e-6, std::hypot(at[3], at[4]));
+  for (std::size_t i = 0; i < kick.sights.size(); ++i) {
+    const BallSight& sight = kick.sights[i];
+    const double way = rolled(speed, loss, sight.time - at[2]);
+    const double dx = sight.x - (at[0] + at[3] / speed * way);
+    const double dy = sight.y - (at[1] + at[4] / speed * way);
+    const double c = std::cos(sight.bearing), s = std::sin(sight.bearing);
+    out[static_cast<Eigen::Index>(2 * i)] = (c * dx + s * dy) / sight.radial;
+    out[static_cast<Eigen::Index>(2 * i + 1)] = (c * dy - s * dx) / sight.round;
+  }
+}
+
+/// Weighted least squares by Levenberg and Marquardt (Marquardt 1963).
+void fitKick(Kick& kick, double loss) {
+  Eigen::VectorXd now, next;
+  residualsOf(kick, kick.fitted, loss, now);
+  double damping = 1e-3;
+  Eigen::Matrix<double, 5, 5> normal;
+  Eigen::MatrixXd jacobian(now.size(), 5);
+  for (int round = 0; round < 40; ++round) {
+    for (int p = 0; p < 5; ++p) {
+      auto at = kick.fitted;
+      at[p] += 1e-5;
+      residualsOf(kick, at, loss, next);
+      jacobian.col(p) = (next - now) / 1e-5;
+    }
+    normal = jacobian.transpose() * jacobian;
+    const Eigen::Matrix<double, 5, 1> slope = jacobian.transpose() * now;
+    bool better = false;
+    double gained = 0.0;
+    for (int tries = 0; tries < 8 && !better; ++tries) {
+      Eigen::Matrix<double, 5, 5> damped = normal;
+      damped.diagonal() *= 1.0 + damping;
+      damped.diagonal().array() += 1e-9;
+      const auto at = (kick.fitted - damped.ldlt().solve(slope)).eval();
+      residualsOf(kick, at, loss, next);
+      if (next.squaredNorm() < now.squaredNorm()) {
+        gained = now.squaredNorm() - next.squaredNorm();
+        kick.fitted = at;
+        now = next;
+        damping *= 0.3;
+        better = true;
+      } else {
+        damping *= 5.0;
+      }
+    }
+    if (!better || gained < 1e-6) break;
+  }
+  normal.diagonal().array() += 1e-9;
+  kick.covariance = normal.inverse();
+  kick.chi2 = now.squaredNorm();
+}
+
+std::optional<Kick> kickAt(const CalibrationLog& log, const MotionFilter& filter,
+                           const MotionFit::OfLog& fit, const MotionFit& motion,
+                           std::size_t first) {
+  const auto& rows = log.rows;
+  const MotionState& from = fit.states[first];
+  if (!from.known) return {};
+  Kick kick;
+  kick.code = filter.actions()[first].code;
+  const double began = rows[first].time, contact = motion.model.kickContact;
+  const double yaw0 = from.mean[MotionState::Yaw];
+  std::size_t rolling = 0;
+  bool contactSeen = false;
+  std::vector<double> distances;
+  std::vector<Point> places;
+  for (std::size_t i = first; i-- > 0 && began - rows[i].time < restTime + 1.0;) {
+    if (filter.actions()[i].kicks) return {};  // the ball of the kick before may still roll
+  }
+  const auto imageOf = [&](std::size_t i) {  // the row in which the image of row i was taken
+    const double time = rows[i].time - motion.delay - 0.25 * kickTick;
+    while (i > 0 && rows[i - 1].time >= time) --i;
+    return i;
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double since = rows[i].time - began;
+    if (since < -restTime || !fit.states[i].known) continue;
+    if (since > contact + rollTime) break;
+    if (since > kickTick && filter.actions()[i].kicks && filter.actions()[i].began) break;
+    if (!contactSeen && since >= contact) {
+      contactSeen = true;
+      kick.yawAtContact = wrapToPi(fit.states[i].mean[MotionState::Yaw] - yaw0);
+      const double wx = fit.states[i].odometryX - from.odometryX;
+      const double wy = fit.states[i].odometryY - from.odometryY;
+      kick.xAtContact = std::cos(yaw0) * wx + std::sin(yaw0) * wy;
+      kick.yAtContact = -std::sin(yaw0) * wx + std::cos(yaw0) * wy;
+    }
+    if (!rows[i].ball) continue;
+    const std::size_t image = imageOf(i);
+    const MotionState& state = fit.states[image];
+    if (!state.known) continue;
+    const double turned = wrapToPi(state.mean[MotionState::Yaw] - yaw0);
+    const double ox = state.odometryX - from.odometryX, oy = state.odometryY - from.odometryY;
+    BallSight sight;
+    sight.time = rows[image].time - began;
+    // Before the kick only a ball at rest helps, and the last half second is the nearest to it.
+    if (sight.time < -0.5) continue;
+    sight.bearing = turned + rows[i].ball->bearing;
+    const double d = rows[i].ball->distance;
+    sight.x = std::cos(yaw0) * ox + std::sin(yaw0) * oy + d * std::cos(sight.bearing);
+    sight.y = -std::sin(yaw0) * ox + std::cos(yaw0) * oy + d * std::sin(sight.bearing);
+    distances.push_back(d);
+    const double direction = state.mean[MotionState::Yaw] + rows[i].ball->bearing;
+    places.push_back({state.mean[MotionState::X] + d * std::cos(direction),
+                      state.mean[MotionState::Y] + d * std::sin(direction)});
+    if (sight.time > contact + 0.1) ++rolling;
+    kick.sights.push_back(sight);
+  }
+  if (!contactSeen || rolling < leastRolling || kick.sights.size() < rolling + 10) return {};
+  // The noise grows with the true distance, which a mean of neighbours is nearer to.
+  for (std::size_t i = 0; i < kick.sights.size(); ++i) {
+    constexpr std::size_t reach = 5;
+    const std::size_t begin = i > reach ? i - reach : 0;
+    const std::size_t end = std::min(kick.sights.size(), i + reach + 1);
+    double d = 0.0;
+    Point place;
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto share = 1.0 / static_cast<double>(end - begin);
+      d += share * distances[k];
+      place.x += share * places[k].x;
+      place.y += share * places[k].y;
+    }
+    // At a goal or a wall it does not roll freely any more.
+    if (kick.sights[i].time > contact + 0.3 &&
+        (std::abs(place.x) > log.field.halfLength() - border ||
+         std::abs(place.y) > log.field.halfWidth() + border)) {
+      kick.sights.resize(i);
+      break;
+    }
+    kick.sights[i].radial = std::max(0.003, motion.model.noise.visionDistance * d);
+    kick.sights[i].round = std::max(0.002, motion.model.noise.visionBearing * d);
+  }
+  rolling = 0;
+  for (const BallSight& sight : kick.sights) rolling += sight.time > contact + 0.1 ? 1 : 0;
+  if (rolling < leastRolling) return {};
+  // Begin: at rest where it was seen before, then towards where it was seen last.
+  double x = 0.0, y = 0.0, n = 0.0;
+  for (const BallSight& sight : kick.sights) {
+    if (sight.time > 0.25) continue;
+    x += sight.x;
+    y += sight.y;
+    n += 1.0;
+  }
+  if (n < 3.0) return {};
+  const auto late = kick.sights.size() - std::min<std::size_t>(10, rolling);
+  double lx = 0.0, ly = 0.0, lt = 0.0, ln = 0.0;
+  for (std::size_t i = late; i < kick.sights.size(); ++i) {
+    lx += kick.sights[i].x;
+    ly += kick.sights[i].y;
+    lt += kick.sights[i].time;
+    ln += 1.0;
+  }
+  const double span = std::max(0.1, lt / ln - contact);
+  kick.fitted << x / n, y / n, contact, (lx / ln - x / n) / span, (ly / ln - y / n) / span;
+  return kick;
+}
+
+/// The share of the full speed that the law of the foot gives for where the ball lay
+/// (kickSpeed() of simcore/world).
+double footShare(const sim::RobotModel& base, const Kick& kick) {
+  if (base.kickLaw != sim::KickLaw::Foot) return 1.0;
+  const double c = std::cos(kick.yawAtContact), s = std::sin(kick.yawAtContact);
+  const double y = c * (kick.fitted[1] - kick.yAtContact) - s * (kick.fitted[0] - kick.xAtContact);
+  const bool right = kick.code == 4 || kick.code == 21;
+  const double side = kindOf(kick.code) == PassKick ? (y < 0.0 ? -1.0 : 1.0) : (right ? -1.0 : 1.0);
+  const double beside = (side * y - base.footSide) / base.footWidth;
+  return std::exp(-0.5 * beside * beside);
+}
+
+// ---- posteriors
+// ----------------------------------------------------------------------------------------
+
+/// Rolling deceleration: all tracks share it; for each candidate every track is fitted anew.
+GridPosterior fitRolling(std::vector<Kick>& kicks) {
+  constexpr int candidates = 41;
+  std::vector<double> chi2(candidates);
+  const auto at = [](double i) {
+    return surfaceMedian * std::exp(surfacePrior * (-3.5 + 7.0 * i / (candidates - 1)));
+  };
+  for (int i = 0; i < candidates; ++i) {
+    for (Kick kick : kicks) {
+      fitKick(kick, at(i));
+      chi2[static_cast<std::size_t>(i)] += kick.chi2;
+    }
+  }
+  // Between the candidates by parabolas through three of them.
+  constexpr int fine = 1201;
+  const auto index = [](int k) { return static_cast<double>(k) * (candidates - 1) / (fine - 1); };
+  return posteriorOn(
+      fine, [&](int k) { return at(index(k)); },
+      [&](int k) {
+        const double z = -3.5 + 7.0 * index(k) / (candidates - 1);
+        return -0.5 * parabolaAt(chi2, index(k)) - 0.5 * z * z;
+      });
+}
+
+/// Speeds of all kinds with one common spread: v_i ~ N(mean_kind x share_i, spread^2 + s_i^2), on a
+/// grid of spread and mean.
+void fitSpeeds(const std::vector<Kick>& kicks, Calibration& out) {
+  const std::array<const char*, kickKinds> keys{"kick_speed", "weak_kick_speed", "pass_speed"};
+  const std::array<double, kickKinds> bases{out.base.kickSpeed, out.base.weakKickSpeed,
+                                            out.base.passSpeed};
+  constexpr int means = 301, spreads = 121;
+  constexpr double reach = 3.5;
+  const double spreadBase = out.base.noise.kickSpeed > 0.0 ? out.base.noise.kickSpeed : 0.1;
+  const auto spreadAt = [&](int i) {
+    return spreadBase * std::exp(sigmaPrior * reach * (2.0 * i / (spreads - 1) - 1.0));
+  };
+  struct OfKind {
+    std::vector<double> speed, variance, share;
+    std::vector<std::array<double, means>> joint;  // by spread
+    std::array<double, spreads> marginal{};        // log, over the mean
+  };
+  std::array<OfKind, kickKinds> kinds;
+  std::size_t all = 0;
+  for (const Kick& kick : kicks) {
+    OfKind& kind = kinds[kindOf(kick.code)];
+    kind.speed.push_back(kick.speed());
+    kind.variance.push_back(kick.speedVariance());
+    kind.share.push_back(footShare(out.base, kick));
+  }
+  const auto meanAt = [&](std::size_t k, int i) {
+    return bases[k] * std::exp(speedPrior * reach * (2.0 * i / (means - 1) - 1.0));
+  };
+  for (std::size_t k = 0; k < kickKinds; ++k) {
+    OfKind& kind = kinds[k];
+    if (kind.speed.size() < leastKicks) continue;
+    all += kind.speed.size();
+    kind.joint.resize(spreads);
+    for (int s = 0; s < spreads; ++s) {
+      auto& row = kind.joint[static_cast<std::size_t>(s)];
+      double most = -1e300;
+      for (int m = 0; m < means; ++m) {
+        const double z = reach * (2.0 * m / (means - 1) - 1.0);
+        double sum = -0.5 * z * z;
+        for (std::size_t i = 0; i < kind.speed.size(); ++i) {
+          const double variance = spreadAt(s) * spreadAt(s) + kind.variance[i];
+          const double off = kind.speed[i] - meanAt(k, m) * kind.share[i];
+          sum -= 0.5 * (off * off / variance + std::log(variance));
+        }
+        row[static_cast<std::size_t>(m)] = sum;
+        most = std::max(most, sum);
+      }
+      double total = 0.0;
+      for (const double one : row) total += std::exp(one - most);
+      kind.marginal[static_cast<std::size_t>(s)] = most + std::log(total);
+    }
+  }
+  const auto spreadWeight = [&](int s, std::size_t without) {
+    const double z = reach * (2.0 * s / (spreads - 1) - 1.0);
+    double sum = -0.5 * z * z;
+    for (std::size_t k = 0; k < kickKinds; ++k) {
+      if (k != without && !kinds[k].joint.empty()) {
+        sum += kinds[k].marginal[static_cast<std::size_t>(s)];
+      }
+    }
+    return sum;
+  };
+  for (std::size_t k = 0; k < kickKinds; ++k) {
+    const OfKind& kind = kinds[k];
+    if (kind.joint.empty()) {
+      out.kept[keys[k]] = std::to_string(kind.speed.size()) + " such kicks were seen; " +
+                          std::to_string(leastKicks) + " are needed";
+      continue;
+    }
+    double top = -1e300;
+    for (int s = 0; s < spreads; ++s) {
+      top = std::max(top, spreadWeight(s, k) + kind.marginal[static_cast<std::size_t>(s)]);
+    }
+    const GridPosterior posterior = posteriorOn(
+        means, [&](int m) { return meanAt(k, m); },
+        [&](int m) {
+          double sum = 0.0;
+          for (int s = 0; s < spreads; ++s) {
+            sum += std::exp(spreadWeight(s, k) - top +
+                            kind.joint[static_cast<std::size_t>(s)][static_cast<std::size_t>(m)]);
+          }
+          return std::log(std::max(sum, 1e-300));
+        });
+    take(out,
+         {keys[k], posterior.median, posterior.low, posterior.high, kind.speed.size(), "kicks"});
+  }
+  if (all < leastKicks + 2) {
+    out.kept["noise.kick_speed"] = "too few kicks were seen";
+    return;
+  }
+  const GridPosterior spread =
+      posteriorOn(spreads, spreadAt, [&](int s) { return spreadWeight(s, kickKinds); });
+  take(out, {"noise.kick_speed", spread.median, spread.low, spread.high, all, "kicks"});
+}
+
+void fitDirections(const std::vector<Kick>& kicks, Calibration& out) {
+  if (kicks.size() < leastKicks + 2) {
+    out.kept["noise.kick_angle"] = "too few kicks were seen";
+    return;
+  }
+  const double base = out.base.noise.kickAngle > 0.0 ? out.base.noise.kickAngle : 0.05;
+  const auto posterior = positivePosterior(base, sigmaPrior, [&](double sigma) {
+    double sum = 0.0;
+    for (const Kick& kick : kicks) {
+      const sim::Action* action = sim::findAction(kick.code);
+      const double aim = radiansFromDegrees(action != nullptr ? action->kick.direction : 0.0);
+      const double off = wrapToPi(kick.direction() - kick.yawAtContact - aim);
+      const double variance = sigma * sigma + kick.directionVariance();
+      sum -= 0.5 * (off * off / variance + std::log(variance));
+    }
+    return sum;
+  });
+  take(out, {"noise.kick_angle", posterior.median, posterior.low, posterior.high, kicks.size(),
+             "kicks"});
+}
+
+/// The moment of the contact: the ball begins to roll with a tick, so that all numbers of one tick
+/// look the same.
+void fitContact(const std::vector<Kick>& kicks, Calibration& out) {
+  const char* key = "kick_contact";
+  if (out.base.kickContact <= 0.0 || kicks.size() < leastKicks) {
+    out.kept[key] = "too few kicks were seen";
+    return;
+  }
+  const auto posterior = positivePosterior(
+      out.base.kickContact, speedPrior,
+      [&](double contact) {
+        const double starts = std::floor(contact / kickTick + 1e-6) * kickTick;
+        double sum = 0.0;
+        for (const Kick& kick : kicks) {
+          const double off = kick.fitted[2] - starts;
+          sum -= 0.5 * off * off / (kick.covariance(2, 2) + 1e-6);
+        }
+        return sum;
+      },
+      6001);
+  take(out, {key, posterior.median, posterior.low, posterior.high, kicks.size(), "kicks"});
+}
+
+/// Times that are seen as a number of rows: what is left of the prior in the cell that all of them
+/// have in common.
+void fitCell(const char* key, double base, const std::vector<std::pair<double, double>>& cells,
+             Calibration& out, const char* of, const char* none) {
+  if (cells.empty() || base <= 0.0) {
+    out.kept[key] = none;
+    return;
+  }
+  const auto posterior = positivePosterior(
+      base, speedPrior,
+      [&](double value) {
+        double sum = 0.0;
+        for (const auto& [low, high] : cells) sum += value > low && value <= high ? 0.0 : -20.0;
+        return sum;
+      },
+      20001);
+  take(out, {key, posterior.median, posterior.low, posterior.high, cells.size(), of});
+}
+
+void fitTimes(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
+              Calibration& out) {
+  std::vector<std::pair<double, double>> kicks, front, back;
+  for (std::size_t f = 0; f < logs.size(); ++f) {
+    const auto& rows = logs[f].rows;
+    const auto& actions = filters[f].actions();
+    const double coarse = logs[f].period > 1.5 * kickTick ? logs[f].period : 0.0;
+    const auto cell = [&](double seconds) {
+      return std::pair{seconds - std::max(kickTick, coarse) - 1e-6, seconds + coarse + 1e-6};
+    };
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      if (actions[i].kicks && actions[i].began && logs[f].has("CONTROL_MOVING")) {
+        std::size_t end = i;
+        while (end < rows.size() && actions[end].kicks) ++end;
+        if (end < rows.size() && rows[end].time - rows[end - 1].time < 0.3) {
+          kicks.push_back(cell(rows[end].time - rows[i].time));
+        }
+      }
+      // Control says 15 or 16 while the robot gets up (docs/reference/SYSTEM.md).
+      const int up = rows[i].action;
+      if (rows[i].fallen && rows[i - 1].fallen && (up == 15 || up == 16) &&
+          rows[i - 1].action != up) {
+        std::size_t end = i;
+        while (end < rows.size() && rows[end].fallen) ++end;
+        if (end < rows.size()) {
+          (up == 15 ? front : back).push_back(cell(rows[end].time - rows[i].time));
+        }
+      }
+    }
+  }
+  fitCell("kick_time", out.base.kickTime, kicks, out, "kicks", "no whole kick was recorded");
+  fitCell("get_up_front", out.base.getUpFront, front, out, "times",
+          "the robot did not get up from its front");
+  fitCell("get_up_back", out.base.getUpBack, back, out, "times",
+          "the robot did not get up from its back");
+}
+
+}  // namespace
+
+void fitKicks(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
+              const MotionFit& motion, Calibration& out) {
+  std::vector<Kick> kicks;
+  bool rollsEvenly = true;
+  for (std::size_t f = 0; f < logs.size(); ++f) {
+    rollsEvenly = rollsEvenly && logs[f].field.surface.keptPerFrame == 1.0;
+    const auto& actions = filters[f].actions();
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+      if (!actions[i].kicks || !actions[i].began) continue;
+      if (auto kick = kickAt(logs[f], filters[f], motion.ofLogs[f], motion, i)) {
+        kicks.push_back(std::move(*kick));
+      }
+    }
+  }
+  double loss = surfaceMedian;
+  const auto keepGood = [&] {
+    for (Kick& kick : kicks) fitKick(kick, loss);
+    std::erase_if(kicks, [](const Kick& kick) {
+      const auto freedom = static_cast<double>(2 * kick.sights.size());
+      return kick.speed() < slowest || kick.chi2 > freedom + worstFit * std::sqrt(2.0 * freedom);
+    });
+  };
+  keepGood();
+  const char* rolling = "field.rolling_deceleration";
+  if (kicks.size() < leastKicks || !rollsEvenly) {
+    out.kept[rolling] = rollsEvenly ? "too few kicks were seen"
+                                    : "the ball does not roll with an even deceleration there";
+  } else {
+    const GridPosterior posterior = fitRolling(kicks);
+    loss = posterior.median;
+    take(out, {rolling, posterior.median, posterior.low, posterior.high, kicks.size(), "kicks"});
+    keepGood();
+  }
+  fitSpeeds(kicks, out);
+  fitDirections(kicks, out);
+  fitContact(kicks, out);
+  fitTimes(filters, logs, out);
+}
+
+}  // namespace pitchboard::link

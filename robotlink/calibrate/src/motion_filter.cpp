@@ -1,0 +1,572 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "motion_filter.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include <base/angles.h>
+
+namespace pitchboard::link {
+namespace {
+
+using State = MotionState;
+
+constexpr double frame = 1.0 / 60.0;     // s, in which noise is given
+constexpr double longestPause = 0.5;     // s without rows; then the filter starts anew
+constexpr double longestDelay = 0.52;    // s
+constexpr double gateSigmas = 6.0;       // of an outlier
+constexpr int mostOutliers = 8;          // hardly anything else between; then something was moved
+constexpr double ballRest = 2.0;         // s after it moved until the ball is used again
+constexpr double ballTouch = 0.45;       // m; a robot that is nearer may push it
+constexpr double ballPush = 0.36;        // m; a ball that is nearer slows the robot down
+constexpr double robotPush = 0.5;        // m, between the centres
+constexpr double pushTime = 0.4;         // s before and after
+constexpr double pushNoise = 0.004;      // m per 1/60 s, of a robot that may push something
+constexpr double kickRest = 8.0;         // s after a kick until the ball is at rest
+constexpr double startSpread = 0.05;     // m, at least
+constexpr double startYawSpread = 0.02;  // rad, at least
+constexpr double beliefInterval = 2.0;   // s; errors of a belief closer together are the same
+
+double approach(double value, double target, double most) {
+  return value < target ? std::min(value + most, target) : std::max(value - most, target);
+}
+
+/// s without rows after which the filter starts anew.
+double pauseOf(const CalibrationLog& log) {
+  return std::max(longestPause, 3.0 * log.period);
+}
+
+/// One pass over a recording.
+class Pass {
+ public:
+  Pass(const CalibrationLog& log, const std::vector<ExecutedAction>& actions,
+       const std::vector<bool>& disturbed, const std::array<Point, 4>& corners,
+       const sim::RobotModel& model, FilterDecisions& decisions, std::vector<Innovation>& out)
+      : m_log(log),
+        m_actions(actions),
+        m_disturbed(disturbed),
+        m_corners(corners),
+        m_model(model),
+        m_decisions(decisions),
+        m_out(out) {}
+
+  State state;
+  double lastBelief = -1e9;
+
+  void start(const MotionFilter::Start& from) {
+    m_placed = !from.covariance.isZero();
+    state.mean.setZero();
+    state.covariance.setZero();
+    state.mean[State::X] = from.pose.position.x;
+    state.mean[State::Y] = from.pose.position.y;
+    state.mean[State::Yaw] = from.pose.yaw;
+    state.covariance.topLeftCorner<3, 3>() = from.covariance;
+    forgetImu();
+    state.known = true;
+    state.ballKnown = false;
+    m_gait = {};
+  }
+  void forgetPose() { state.known = false; }
+  void settle(const ExecutedAction& action) {
+    m_gait.advance(m_model, action, 100.0);  // whatever it did in a gap, it has done for long
+  }
+
+  void predict(std::uint32_t row, double dt) {
+    if (!state.known) return;
+    const int steps = std::clamp(static_cast<int>(std::ceil(dt / frame - 0.01)), 1, 64);
+    for (int i = 0; i < steps; ++i) step(m_actions[row], dt / steps, m_disturbed[row]);
+  }
+
+  void measureImu(std::uint32_t row) {
+    if (!state.known || !m_log.rows[row].imuYaw) return;
+    State::Vector h = State::Vector::Zero();
+    h[State::Yaw] = h[State::ImuError] = 1.0;
+    const double expected = state.mean[State::Yaw] + state.mean[State::ImuError];
+    const double white = m_model.noise.imuWhite;
+    // A robot that started with another yaw: the first value tells the error.
+    if (m_imuUnknown) {
+      m_imuUnknown = false;
+      state.mean[State::ImuError] = wrapToPi(*m_log.rows[row].imuYaw - state.mean[State::Yaw]);
+      // The sum of yaw and error is known up to the white noise.
+      state.covariance.row(State::ImuError) = -state.covariance.row(State::Yaw);
+      state.covariance.col(State::ImuError) = -state.covariance.col(State::Yaw);
+      state.covariance(State::ImuError, State::ImuError) =
+          state.covariance(State::Yaw, State::Yaw) + white * white;
+      return;
+    }
+    update(row, Sense::Imu, h, wrapToPi(*m_log.rows[row].imuYaw - expected), white * white);
+  }
+
+  void measureImage(std::uint32_t row) {
+    if (!state.known) return;
+    const CalibrationRow& seen = m_log.rows[row];
+    for (std::size_t i = 0; i < seen.corners.size(); ++i) {
+      if (!seen.corners[i] || !m_placed) continue;
+      const Relative to = relativeTo(m_corners[i].x, m_corners[i].y);
+      State::Vector h = State::Vector::Zero();
+      h[State::X] = to.dy / to.square;
+      h[State::Y] = -to.dx / to.square;
+      h[State::Yaw] = -1.0;
+      const double sigma = m_model.noise.landmarkBearing;
+      update(row, Sense::Corner, h, wrapToPi(*seen.corners[i] - to.bearing), sigma * sigma);
+    }
+    if (seen.ball) measureBall(row, *seen.ball);
+  }
+
+  void measureBelief(std::uint32_t row) {
+    const CalibrationRow& seen = m_log.rows[row];
+    if (!state.known || !m_placed || !seen.belief || seen.time - lastBelief < beliefInterval)
+      return;
+    lastBelief = seen.time;
+    const double variance = seen.belief->sigma * seen.belief->sigma + 0.02 * 0.02;
+    for (const int axis : {int(State::X), int(State::Y)}) {
+      State::Vector h = State::Vector::Zero();
+      h[axis] = 1.0;
+      const Point& place = seen.belief->pose.position;
+      update(row, Sense::Belief, h, (axis == State::X ? place.x : place.y) - state.mean[axis],
+             variance);
+    }
+    State::Vector h = State::Vector::Zero();
+    h[State::Yaw] = 1.0;
+    update(row, Sense::Belief, h, wrapToPi(seen.belief->pose.yaw - state.mean[State::Yaw]),
+           0.06 * 0.06);
+  }
+
+  void forgetBall(double time, double rest) {
+    state.ballKnown = false;
+    m_ballUsedFrom = std::max(m_ballUsedFrom, time + rest);
+  }
+  void copyGait() {
+    state.forward = m_gait.forward;
+    state.left = m_gait.left;
+    state.turn = m_gait.turn;
+  }
+
+ private:
+  struct Relative {
+    double dx, dy, square, distance, bearing;
+  };
+
+  const CalibrationLog& m_log;
+  const std::vector<ExecutedAction>& m_actions;
+  const std::vector<bool>& m_disturbed;
+  const std::array<Point, 4>& m_corners;
+  const sim::RobotModel& m_model;
+  FilterDecisions& m_decisions;
+  std::vector<Innovation>& m_out;
+  GaitStep m_gait;
+  bool m_imuUnknown = true;
+  bool m_placed = false;
+  double m_ballUsedFrom = -1e9;
+  std::size_t m_next = 0;  // of the decisions
+  int m_rejectedImu = 0, m_rejectedBall = 0, m_rejectedCorners = 0;
+
+  void forgetImu() { m_imuUnknown = true; }
+
+  Relative relativeTo(double x, double y) const {
+    double fromX = state.mean[State::X], fromY = state.mean[State::Y];
+    if (m_model.fromCamera) {
+      fromX += m_model.cameraForward * std::cos(state.mean[State::Yaw]);
+      fromY += m_model.cameraForward * std::sin(state.mean[State::Yaw]);
+    }
+    Relative to{};
+    to.dx = x - fromX;
+    to.dy = y - fromY;
+    to.square = std::max(1e-4, to.dx * to.dx + to.dy * to.dy);
+    to.distance = std::sqrt(to.square);
+    to.bearing = std::atan2(to.dy, to.dx) - state.mean[State::Yaw];
+    return to;
+  }
+
+  void step(const ExecutedAction& action, double dt, bool disturbed) {
+    m_gait.advance(m_model, action, dt);
+    State::Vector& m = state.mean;
+    State::Matrix& p = state.covariance;
+    m[State::Yaw] += m_gait.turn * dt;
+    const double c = std::cos(m[State::Yaw]), s = std::sin(m[State::Yaw]);
+    const double dx = (c * m_gait.forward - s * m_gait.left) * dt;
+    const double dy = (s * m_gait.forward + c * m_gait.left) * dt;
+    m[State::X] += dx;
+    m[State::Y] += dy;
+    state.odometryX += dx;
+    state.odometryY += dy;
+    // F P F' with F = 1 but for x and y by yaw.
+    p.row(State::X) -= dy * p.row(State::Yaw);
+    p.row(State::Y) += dx * p.row(State::Yaw);
+    p.col(State::X) -= dy * p.col(State::Yaw);
+    p.col(State::Y) += dx * p.col(State::Yaw);
+    const double frames = dt / frame;
+    p(State::ImuError, State::ImuError) += m_model.noise.imuDrift * m_model.noise.imuDrift * frames;
+    if (disturbed) {
+      p(State::X, State::X) += pushNoise * pushNoise * frames;
+      p(State::Y, State::Y) += pushNoise * pushNoise * frames;
+    }
+    if (!m_gait.moves) return;
+    const double along = m_model.noise.forward * m_model.noise.forward * frames;
+    const double across = m_model.noise.sideways * m_model.noise.sideways * frames;
+    p(State::X, State::X) += c * c * along + s * s * across;
+    p(State::Y, State::Y) += s * s * along + c * c * across;
+    p(State::X, State::Y) += c * s * (along - across);
+    p(State::Y, State::X) += c * s * (along - across);
+    p(State::Yaw, State::Yaw) += m_model.noise.rotation * m_model.noise.rotation * frames;
+  }
+
+  void measureBall(std::uint32_t row, const CalibrationRow::Seen& ball) {
+    const double time = m_log.rows[row].time;
+    if (m_actions[row].kicks) forgetBall(time, kickRest);
+    if (ball.distance < ballTouch) forgetBall(time, ballRest);
+    if (time < m_ballUsedFrom) return;
+    const double height = m_model.fromCamera ? m_model.cameraHeight - m_log.field.ballRadius : 0.0;
+    if (!state.ballKnown) {
+      const double ground =
+          std::sqrt(std::max(0.01, ball.distance * ball.distance - height * height));
+      placeBall(ground, ball);
+      return;
+    }
+    const Relative to = relativeTo(state.mean[State::BallX], state.mean[State::BallY]);
+    const double far = std::sqrt(to.square + height * height);
+    State::Vector h = State::Vector::Zero();
+    h[State::BallX] = to.dx / far;
+    h[State::BallY] = to.dy / far;
+    h[State::X] = -h[State::BallX];
+    h[State::Y] = -h[State::BallY];
+    const double sigma = m_model.noise.visionDistance * far;
+    update(row, Sense::BallDistance, h, ball.distance - far, sigma * sigma);
+    if (!state.ballKnown) return;
+    const Relative now = relativeTo(state.mean[State::BallX], state.mean[State::BallY]);
+    h.setZero();
+    h[State::X] = now.dy / now.square;
+    h[State::Y] = -now.dx / now.square;
+    h[State::BallX] = -h[State::X];
+    h[State::BallY] = -h[State::Y];
+    h[State::Yaw] = -1.0;
+    const double bearing = m_model.noise.visionBearing;
+    update(row, Sense::BallBearing, h, wrapToPi(ball.bearing - now.bearing), bearing * bearing);
+  }
+
+  /// The first sight of the ball: its place, and how it depends on the pose.
+  void placeBall(double ground, const CalibrationRow::Seen& ball) {
+    const double direction = state.mean[State::Yaw] + ball.bearing;
+    const double c = std::cos(direction), s = std::sin(direction);
+    state.mean[State::BallX] = state.mean[State::X] + ground * c;
+    state.mean[State::BallY] = state.mean[State::Y] + ground * s;
+    State::Matrix& p = state.covariance;
+    Eigen::Matrix<double, 2, State::Size> jacobian = Eigen::Matrix<double, 2, State::Size>::Zero();
+    jacobian(0, State::X) = jacobian(1, State::Y) = 1.0;
+    jacobian(0, State::Yaw) = -ground * s;
+    jacobian(1, State::Yaw) = ground * c;
+    p.bottomRows<2>().setZero();
+    p.rightCols<2>().setZero();
+    const Eigen::Matrix<double, 2, State::Size> cross = jacobian * p;
+    Eigen::Matrix2d own = cross * jacobian.transpose();
+    const double radial = m_model.noise.visionDistance * ground;
+    const double round = m_model.noise.visionBearing * ground;
+    own(0, 0) += c * c * radial * radial + s * s * round * round;
+    own(1, 1) += s * s * radial * radial + c * c * round * round;
+    own(0, 1) += c * s * (radial * radial - round * round);
+    own(1, 0) = own(0, 1);
+    p.bottomRows<2>() = cross;
+    p.rightCols<2>() = cross.transpose();
+    p.bottomRightCorner<2, 2>() = own;
+    state.ballKnown = true;
+    m_rejectedBall = 0;
+  }
+
+  /// Of a measurement that is far from what was expected.
+  std::uint8_t decide(Sense sense, double share) {
+    int& count = sense == Sense::Imu                                           ? m_rejectedImu
+                 : sense == Sense::BallDistance || sense == Sense::BallBearing ? m_rejectedBall
+                                                                               : m_rejectedCorners;
+    if (share <= gateSigmas * gateSigmas) {
+      count = std::max(0, count - 1);
+      return FilterDecisions::Use;
+    }
+    ++m_decisions.outliers;
+    count += 2;
+    if (count < 2 * mostOutliers) return FilterDecisions::Reject;
+    count = 0;
+    if (sense == Sense::Imu) {
+      ++m_decisions.imuResets;
+      return FilterDecisions::ForgetImu;
+    }
+    if (sense == Sense::BallDistance || sense == Sense::BallBearing) {
+      ++m_decisions.ballMoves;
+      return FilterDecisions::ForgetBall;
+    }
+    ++m_decisions.jumps;
+    return FilterDecisions::ForgetPose;
+  }
+
+  void update(std::uint32_t row, Sense sense, const State::Vector& h, double innovation,
+              double noise) {
+    if (!state.known) return;
+    const State::Vector ph = state.covariance * h;
+    const double variance = h.dot(ph) + noise;
+    std::uint8_t decision = FilterDecisions::Use;
+    if (m_decisions.recorded) {
+      if (m_next < m_decisions.all.size()) decision = m_decisions.all[m_next++];
+    } else {
+      decision = decide(sense, innovation * innovation / variance);
+      m_decisions.all.push_back(decision);
+    }
+    switch (decision) {
+      case FilterDecisions::Use:
+        break;
+      case FilterDecisions::ForgetImu:
+        forgetImu();
+        return;
+      case FilterDecisions::ForgetBall:
+        forgetBall(m_log.rows[row].time, ballRest);
+        return;
+      case FilterDecisions::ForgetPose:
+        forgetPose();
+        return;
+      default:
+        return;
+    }
+    m_out.push_back({innovation, variance, row, sense});
+    const State::Vector gain = ph / variance;
+    state.mean += gain * innovation;
+    state.covariance.noalias() -= gain * ph.transpose();
+  }
+};
+
+/// The pose of the first seconds from field corners: the best of a grid, moved along by gait and
+/// IMU. Corners have names, so that there is only one such pose once three were seen.
+std::optional<MotionFilter::Start> poseFromCorners(const CalibrationLog& log,
+                                                   const std::vector<ExecutedAction>& actions,
+                                                   const std::array<Point, 4>& corners,
+                                                   const sim::RobotModel& model,
+                                                   std::size_t first) {
+  constexpr double longestLook = 20.0;  // s
+  constexpr std::size_t enough = 1500;
+  struct Sight {
+    double x, y, yaw;  // from the first pose, in its frame
+    std::size_t corner;
+    double bearing;
+  };
+  std::vector<Sight> sights;
+  std::array<std::size_t, 4> seen{};
+  GaitStep gait;
+  double x = 0.0, y = 0.0, yaw = 0.0;
+  const std::optional<double> firstYaw = log.rows[first].imuYaw;
+  for (std::size_t i = first; i < log.rows.size(); ++i) {
+    const CalibrationRow& row = log.rows[i];
+    if (row.time - log.rows[first].time > longestLook || sights.size() >= enough) break;
+    if (i > first) {
+      const double dt = std::min(0.1, row.time - log.rows[i - 1].time);
+      gait.advance(model, actions[i], dt);
+      yaw = firstYaw && row.imuYaw ? wrapToPi(*row.imuYaw - *firstYaw) : yaw + gait.turn * dt;
+      x += (std::cos(yaw) * gait.forward - std::sin(yaw) * gait.left) * dt;
+      y += (std::sin(yaw) * gait.forward + std::cos(yaw) * gait.left) * dt;
+    }
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      if (!row.corners[c]) continue;
+      sights.push_back({x, y, yaw, c, *row.corners[c]});
+      ++seen[c];
+    }
+  }
+  const auto different = std::ranges::count_if(seen, [](std::size_t n) { return n >= 3; });
+  if (sights.size() < 20 || different < 2) return {};
+  const std::size_t stride = std::max<std::size_t>(1, sights.size() / 150);
+  const auto cost = [&](const Pose& pose) {
+    double sum = 0.0;
+    const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
+    for (std::size_t i = 0; i < sights.size(); i += stride) {
+      const Sight& sight = sights[i];
+      const double dx = corners[sight.corner].x - (pose.position.x + c * sight.x - s * sight.y);
+      const double dy = corners[sight.corner].y - (pose.position.y + s * sight.x + c * sight.y);
+      const double error = wrapToPi(std::atan2(dy, dx) - pose.yaw - sight.yaw - sight.bearing);
+      sum += std::min(error * error, 1.0);
+    }
+    return sum;
+  };
+  Pose best;
+  double least = std::numeric_limits<double>::infinity();
+  constexpr double stepXy = 0.75, stepYaw = std::numbers::pi / 8.0;
+  const double halfX = log.field.halfLength() + 0.5, halfY = log.field.halfWidth() + 0.5;
+  for (double px = -halfX; px <= halfX; px += stepXy) {
+    for (double py = -halfY; py <= halfY; py += stepXy) {
+      for (int k = 0; k < 16; ++k) {
+        const Pose pose{{px, py}, wrapToPi(k * stepYaw)};
+        if (const double value = cost(pose); value < least) {
+          least = value;
+          best = pose;
+        }
+      }
+    }
+  }
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Identity();
+  // From there by Gauss and Newton; sights that fit badly count less, as in the cost above.
+  for (int round = 0; round < 30; ++round) {
+    normal = Eigen::Matrix3d::Identity() * 1e-6;
+    Eigen::Vector3d slope = Eigen::Vector3d::Zero();
+    const double c = std::cos(best.yaw), s = std::sin(best.yaw);
+    for (const Sight& sight : sights) {
+      const double ox = c * sight.x - s * sight.y, oy = s * sight.x + c * sight.y;
+      const double dx = corners[sight.corner].x - best.position.x - ox;
+      const double dy = corners[sight.corner].y - best.position.y - oy;
+      const double square = std::max(0.01, dx * dx + dy * dy);
+      const double error = wrapToPi(std::atan2(dy, dx) - best.yaw - sight.yaw - sight.bearing);
+      const Eigen::Vector3d h(dy / square, -dx / square, -1.0 - (dy * oy + dx * ox) / square);
+      const double weight = 1.0 / (1.0 + error * error / 0.04);
+      normal += weight * h * h.transpose();
+      slope += weight * error * h;
+    }
+    const Eigen::Vector3d move = normal.ldlt().solve(slope);
+    const double length = std::max(1.0, move.head<2>().norm() / 0.5);
+    best.position.x -= move[0] / length;
+    best.position.y -= move[1] / length;
+    best.yaw = wrapToPi(best.yaw - move[2] / length);
+    if (move.norm() < 1e-5) break;
+  }
+  // The filter sees the same corners again: twice the deviation leaves them their say. A wide start
+  // would make an extended filter too sure of what it has linearized about.
+  const double sigma = model.noise.landmarkBearing > 0.0 ? model.noise.landmarkBearing : 0.05;
+  MotionFilter::Start start;
+  start.row = static_cast<std::uint32_t>(first);
+  start.pose = best;
+  start.covariance = 4.0 * sigma * sigma * normal.inverse();
+  start.covariance.diagonal() += Eigen::Vector3d(
+      startSpread * startSpread, startSpread * startSpread, startYawSpread * startYawSpread);
+  return start;
+}
+
+MotionFilter::Start startFromBelief(std::uint32_t row, const CalibrationRow::Belief& belief) {
+  MotionFilter::Start start;
+  start.row = row;
+  start.pose = belief.pose;
+  const double spread = std::max(0.1, belief.sigma);
+  start.covariance.diagonal() = Eigen::Vector3d(spread * spread, spread * spread, 0.1 * 0.1);
+  return start;
+}
+
+}  // namespace
+
+void GaitStep::advance(const sim::RobotModel& model, const ExecutedAction& action, double dt) {
+  sim::GaitSpeed target;
+  if (!action.kicks && !action.down) target = sim::gaitSpeed(model, action.code, action.b);
+  moves = target.inMotion;
+  forward = approach(forward, target.forward, model.maxAcceleration * dt);
+  left = approach(left, target.left, model.maxAcceleration * dt);
+  turn = approach(turn, target.turn, model.maxYawAcceleration * dt);
+}
+
+double logLikelihood(const std::vector<Innovation>& innovations) {
+  double sum = 0.0;
+  for (const Innovation& one : innovations) {
+    sum -= 0.5 *
+           (one.value * one.value / one.variance + std::log(2.0 * std::numbers::pi * one.variance));
+  }
+  return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
+}
+
+MotionFilter::MotionFilter(const CalibrationLog& log, const sim::RobotModel& base)
+    : m_log(log), m_actions(executedActions(log, base)), m_corners(fieldCorners(log.field)) {
+  std::size_t corners = 0;
+  for (std::size_t i = 0; i < log.rows.size(); ++i) {
+    const CalibrationRow& row = log.rows[i];
+    const bool seesCorner =
+        std::ranges::any_of(row.corners, [](const auto& one) { return one.has_value(); });
+    if (seesCorner) ++corners;
+    if (seesCorner || row.ball) m_percepts.push_back(static_cast<std::uint32_t>(i));
+  }
+  m_seesCorners = corners >= 50;
+  m_disturbed.assign(log.rows.size(), false);
+  const auto disturb = [&](std::size_t row) {
+    const double time = log.rows[row].time;
+    for (std::size_t i = row; i < log.rows.size() && log.rows[i].time < time + pushTime; ++i) {
+      m_disturbed[i] = true;
+    }
+    for (std::size_t i = row; i-- > 0 && log.rows[i].time > time - pushTime;) m_disturbed[i] = true;
+  };
+  for (const std::uint32_t row : m_percepts) {
+    if (log.rows[row].ball && log.rows[row].ball->distance < ballPush) disturb(row);
+  }
+  for (const SeenRobotPercept& seen : log.robots) {
+    if (seen.row < log.rows.size() && seen.seen.distance < robotPush) disturb(seen.row);
+  }
+  // Starts are looked for once: they depend little on the model.
+  for (std::size_t i = 0; i < log.rows.size(); ++i) {
+    const bool anew = i == 0 || log.rows[i].time - log.rows[i - 1].time > pauseOf(log) ||
+                      (!m_actions[i].down && m_actions[i - 1].down);
+    if (!anew || m_actions[i].down) continue;
+    const auto row = static_cast<std::uint32_t>(i);
+    Start start;
+    start.row = row;
+    const auto pose = m_seesCorners ? poseFromCorners(log, m_actions, m_corners, base, i)
+                                    : std::optional<Start>();
+    if (pose) {
+      start = *pose;
+    } else {
+      for (std::size_t k = i; k < log.rows.size() && log.rows[k].time < log.rows[i].time + 0.5;
+           ++k) {
+        if (!log.rows[k].belief || log.rows[k].belief->sigma >= 0.7) continue;
+        start = startFromBelief(row, *log.rows[k].belief);
+        break;
+      }
+    }
+    m_starts.push_back(start);
+  }
+}
+
+void MotionFilter::run(const sim::RobotModel& model, double delay, FilterDecisions& decisions,
+                       std::vector<Innovation>& out, std::vector<MotionState>* states) const {
+  out.clear();
+  if (!decisions.recorded) decisions = {};
+  if (states) states->assign(m_log.rows.size(), {});
+  Pass pass(m_log, m_actions, m_disturbed, m_corners, model, decisions, out);
+  std::size_t percept = 0, start = 0;
+  for (std::uint32_t i = 0; i < m_log.rows.size(); ++i) {
+    const CalibrationRow& row = m_log.rows[i];
+    const double dt = i > 0 ? row.time - m_log.rows[i - 1].time : 0.0;
+    const ExecutedAction& action = m_actions[i];
+    if (action.down || dt > pauseOf(m_log)) {
+      pass.forgetPose();
+      pass.forgetBall(row.time, ballRest);
+    } else if (i > 0) {
+      pass.predict(i, dt);
+    }
+    if (start < m_starts.size() && m_starts[start].row == i) {
+      pass.start(m_starts[start]);
+      if (dt > pauseOf(m_log)) pass.settle(action);
+      ++start;
+    } else if (!pass.state.known && !action.down && m_seesCorners) {
+      const auto [place, isNew] = m_restarts.try_emplace(i);  // carried, or lost
+      if (isNew) {
+        const auto pose = poseFromCorners(m_log, m_actions, m_corners, model, i);
+        if (pose) place->second = *pose;
+      }
+      pass.start(place->second);
+      pass.settle(action);
+    } else if (!pass.state.known && !action.down && row.belief && row.belief->sigma < 0.5) {
+      pass.start(startFromBelief(i, *row.belief));
+      pass.settle(action);
+    }
+    if (action.kicks && action.began) pass.forgetBall(row.time, kickRest);
+    pass.measureImu(i);
+    // Percepts are of the image that was taken `delay` before they were published.
+    const double tolerance = 0.25 * std::min(m_log.period, frame);
+    while (percept < m_percepts.size() &&
+           m_log.rows[m_percepts[percept]].time - delay <= row.time + tolerance) {
+      const double age = row.time - (m_log.rows[m_percepts[percept]].time - delay);
+      // The first images are left out for every delay, so that likelihoods can be compared.
+      const bool early = m_log.rows[m_percepts[percept]].time - m_log.rows[0].time < longestDelay;
+      if (!early && age <= 1.5 * std::max(dt, frame)) pass.measureImage(m_percepts[percept]);
+      ++percept;
+    }
+    if (!m_seesCorners) pass.measureBelief(i);
+    if (states) {
+      pass.copyGait();
+      (*states)[i] = pass.state;
+    }
+  }
+  decisions.recorded = true;
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The likelihood of a recording: an extended Kalman filter (Jazwinski, Stochastic Processes and
+// Filtering Theory, 1970, chapter 8) over pose, IMU error and the place of a ball at rest, which
+// follows the commands through the gait of a robot model and is corrected by IMU, ball and field
+// corners. Its innovations v with variance S give the log-likelihood
+//   -1/2 sum(v^2/S + log(2 pi S))   (Schweppe, IEEE Trans. Information Theory 11, 1965).
+// Private to calibrate. One thread each.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include <robotlink/calibrate/calibration_log.h>
+#include <simcore/world/robot_model.h>
+
+#include "executed_actions.h"
+
+namespace pitchboard::link {
+
+/// Where a measurement came from.
+enum class Sense : std::uint8_t { Imu, BallDistance, BallBearing, Corner, Belief };
+
+struct Innovation {
+  double value = 0.0;
+  double variance = 1.0;
+  std::uint32_t row = 0;
+  Sense sense = Sense::Imu;
+};
+
+/// What the filter knew after a row.
+struct MotionState {
+  enum : int { X, Y, Yaw, ImuError, BallX, BallY, Size };
+  using Vector = Eigen::Matrix<double, Size, 1>;
+  using Matrix = Eigen::Matrix<double, Size, Size>;
+  Vector mean = Vector::Zero();
+  Matrix covariance = Matrix::Zero();
+  double forward = 0.0, left = 0.0, turn = 0.0;  ///< speeds of the gait, m/s and rad/s
+  double odometryX = 0.0, odometryY = 0.0;       ///< m, way so far by the gait alone
+  bool known = false;                            ///< there is a pose
+  bool ballKnown = false;
+};
+
+/// What a run of the filter decided about measurements. Derivatives of the likelihood need the same
+/// decisions at neighbouring parameters.
+struct FilterDecisions {
+  enum : std::uint8_t { Use, Reject, ForgetImu, ForgetBall, ForgetPose };
+  std::vector<std::uint8_t> all;
+  bool recorded = false;
+  std::size_t outliers = 0, imuResets = 0, ballMoves = 0, jumps = 0;
+};
+
+class MotionFilter {
+ public:
+  /// `log` must outlive it.
+  MotionFilter(const CalibrationLog& log, const sim::RobotModel& base);
+
+  /// Measurements in order. `delay`: s between an image and its percepts. Makes the decisions if
+  /// they are not recorded, else follows them. `states`: one for each row, if wanted.
+  void run(const sim::RobotModel& model, double delay, FilterDecisions& decisions,
+           std::vector<Innovation>& out, std::vector<MotionState>* states = nullptr) const;
+
+  const std::vector<ExecutedAction>& actions() const { return m_actions; }
+  /// Rows in which the robot may push the ball or another robot: its feet do not say how it moves.
+  const std::vector<bool>& disturbed() const { return m_disturbed; }
+
+  struct Start {
+    std::uint32_t row = 0;
+    Pose pose{};
+    /// Of x, y, yaw. Zero: nobody knows where it is, and corners are of no use.
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  };
+
+ private:
+  const CalibrationLog& m_log;
+  std::vector<ExecutedAction> m_actions;
+  std::vector<bool> m_disturbed;
+  std::vector<std::uint32_t> m_percepts;  // rows with ball or corners
+  std::array<Point, 4> m_corners;
+  bool m_seesCorners = false;
+  std::vector<Start> m_starts;  // in order
+  // After a jump, by row: found once, for all runs.
+  mutable std::map<std::uint32_t, Start> m_restarts;
+};
+
+/// The gait of the model for one step: speeds approach those of the action (m/s, rad/s). `moves`:
+/// the legs move, so that there is motion noise.
+struct GaitStep {
+  double forward = 0.0, left = 0.0, turn = 0.0;
+  bool moves = false;
+  void advance(const sim::RobotModel& model, const ExecutedAction& action, double dt);
+};
+
+double logLikelihood(const std::vector<Innovation>& innovations);
+
+}  // namespace pitchboard::link

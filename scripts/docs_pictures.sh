@@ -1,0 +1,128 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Makes docs/images/*.png from the program itself: scripts/docs_pictures.sh [NAME...]
+# Commit them when the window has changed. Needs a release build, xvfb, xdotool, imagemagick and optipng. Robots and a referee of
+# live.png are played by this script on the published ports, so no studio may be listening.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")/.."
+root=$PWD bin=$PWD/build/release/bin images=$PWD/docs/images
+if [ -z "${PITCHBOARD_PICTURES:-}" ]; then
+  PITCHBOARD_PICTURES=1 exec xvfb-run -a -s "-screen 0 1440x900x24" "$0" "$@"
+fi
+work=/tmp/pitchboard-pictures # its name can be seen in a picture
+rm -rf "$work" && mkdir -p "$work"
+trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$work"' EXIT
+cd "$work"
+export HOME=$work QT_QPA_PLATFORM=xcb LC_ALL=C.UTF-8 XDG_RUNTIME_DIR=$work
+chmod 700 "$work"
+
+# studio ARGUMENT...: opens the window, without what an earlier picture has left in the settings.
+studio() {
+  rm -f settings.ini
+  "$bin/pitchboard" --settings "$work/settings.ini" --size 1440x900 --theme "${theme:-dark}" "$@" &
+  window=$!
+  xdotool search --sync --onlyvisible --name Pitchboard >/dev/null
+  sleep 2
+  xdotool mousemove 0 0 search --onlyvisible --name Pitchboard windowfocus %@ 2>/dev/null || true
+}
+# find TEXT: types it into Ctrl+K and chooses the first entry.
+find() {
+  xdotool key ctrl+k && sleep 0.5
+  # Without a window manager nobody gives the new window the focus.
+  xdotool search --onlyvisible --class pitchboard | tail -1 | xargs xdotool windowfocus
+  xdotool type --delay 20 "$1" && sleep 0.7
+  xdotool key Return && sleep 0.7
+  xdotool search --onlyvisible --class pitchboard | head -1 | xargs xdotool windowfocus
+}
+# drag X FROM TO: the edge above the plots, for example.
+drag() {
+  xdotool mousemove "$1" "$2" sleep 0.3 mousedown 1 sleep 0.3 mousemove "$1" $((($2 + $3) / 2)) sleep 0.3 \
+    mousemove "$1" "$3" sleep 0.3 mouseup 1 sleep 0.7
+}
+# click X Y
+click() { xdotool mousemove "$1" "$2" click 1 && sleep 0.7; }
+# shoot NAME: takes the picture and closes the window.
+shoot() {
+  sleep "${2:-1}"
+  import -window root "$1.png"
+  kill "$window" && wait "$window" 2>/dev/null || true
+}
+recording() {
+  [ -f match.mcap ] || "$bin/pitchboard-cli" record --scenario match-3v3 --seed 7 --duration 2:00 -o match.mcap >/dev/null
+}
+
+studio-dark() { studio --scenario match-3v3 --play-to 3600; shoot studio-dark; }
+studio-light() { theme=light studio --scenario match-3v3 --play-to 3600; shoot studio-light; }
+scenario() {
+  sed -n '/^```json two-against-one.json$/,/^```$/{/^```/d;p}' "$root/docs/scenarios.md" >two.json
+  "$bin/pitchboard" --render-scenario two.json --picture scenario.png --size 800x600
+}
+referee() {
+  studio --scenario match --play-to 5400
+  find "Panels: Referee"
+  shoot referee
+}
+drawings() {
+  sed -n '/^```python draw_robot.py$/,/^```$/{/^```/d;p}' "$root/docs/drawings.md" >draw_robot.py
+  studio --scenario match-3v3 --match 0 --play-to 1800
+  python3 draw_robot.py 1 127.0.0.1:1240 &
+  shoot drawings 4
+  kill $!
+  convert drawings.png -crop 716x510+301+87 +repage drawings.png
+}
+processes() {
+  sed -n '/^```python chase.py$/,/^```$/{/^```/d;p}' "$root/docs/tutorial-python-robot.md" >chase.py
+  chmod +x chase.py
+  studio --scenario match-3v3 --runtime "B1=program=$work/chase.py"
+  find "Panels: Processes"
+  shoot processes 8
+}
+live() {
+  echo '{"name": "Our team", "number": 12, "colour": "blue"}' >ours.json
+  studio --live --team ours.json --our-team 12
+  # Three robots and the referee, as tests/data has recorded it.
+  python3 - "$root/tests/data/gamecontroller/v12hl640_2017.3_PLAYING.bin" <<'END' &
+import math, socket, sys, time
+udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+packet = open(sys.argv[1], "rb").read()
+for i in range(60):
+    for n, x, y, lamp, action, volts in ((1, 80, 300, 1, 0, 161), (2, 520 + 4 * i, 250, 1, 8, 148), (4, 420, 420 - 2 * i, 0, 3, 112)):
+        distance, bearing = math.hypot(700 - x, 330 - y), -math.degrees(math.atan2(330 - y, 700 - x))
+        fields = [n, x, y, 0, 9 + n, round(distance, 1), round(bearing, 1), 1, 1, 1, lamp, 1, action, 0.0, volts]
+        udp.sendto((" ".join(map(str, fields)) + " OUT").encode(), ("127.0.0.1", 1240 + n))
+    udp.sendto(packet, ("127.0.0.1", 3838))
+    time.sleep(0.25)
+END
+  shoot live 12
+}
+plots() {
+  studio --scenario match-3v3 --play-to 3600
+  find "B1/TRUE_X"
+  find "B1/BELIEF_X"
+  drag 720 621 420
+  shoot plots
+}
+replay() {
+  recording
+  studio --session match.mcap
+  click 900 855 # a moment in the timeline
+  shoot replay
+}
+experiments() {
+  studio --scenario one-robot --paused
+  find "Panels: Experiments"
+  drag 720 621 330
+  click 1311 374 # Start: 4000 short runs
+  sleep "${PITCHBOARD_EXPERIMENT_SECONDS:-60}"
+  click 98 420   # Measured
+  shoot experiments
+}
+
+[ $# -gt 0 ] || set -- studio-dark studio-light scenario referee drawings processes live plots replay experiments
+for name in "$@"; do
+  "$name"
+  convert "$name.png" -colors 200 "png8:$name.8.png"
+  optipng -quiet -o2 -strip all "$name.8.png"
+  mv "$name.8.png" "$images/$name.png"
+  echo "docs/images/$name.png"
+done

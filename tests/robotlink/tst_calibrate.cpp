@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Calibration from recordings: what is read of them, how it copes with bad ones, the file it makes.
+// How often its intervals hold is measured by the program calibration_proof.
+
+#include <QtTest>
+
+#include <cmath>
+#include <numbers>
+
+#include <robotlink/calibrate/calibration_file.h>
+
+#include "../support/calibration_trial.h"
+#include "posterior_grid.h"
+
+namespace tst_calibrate {
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+sim::RobotModel kidSize() {
+  return *loadRobotModel("kid-size");
+}
+
+Scenario drill(double duration = 0.0) {
+  Scenario scenario = *loadScenario("calibration-drill");
+  if (duration > 0.0) scenario.stop.duration = duration;
+  return scenario;
+}
+
+CalibrationLog logOf(const Scenario& scenario, const RecordingOptions& options = {}) {
+  const auto rows = recorded(scenario, options);
+  return *readCalibrationLog(**rows, scenario.settings.field, "drill", "B1");
+}
+
+bool mentions(const Calibration& calibration, const std::string& words) {
+  return std::ranges::any_of(calibration.notes, [&](const std::string& note) {
+    return note.find(words) != std::string::npos;
+  });
+}
+
+/// Near enough for a test of how bad rows are coped with.
+bool isNear(const Calibration& calibration, const char* key, double truth, double share) {
+  const CalibratedValue* value = calibration.find(key);
+  if (value == nullptr) qWarning("%s was not estimated", key);
+  if (value != nullptr && std::abs(value->value - truth) > share * truth) {
+    qWarning("%s is %g, not %g", key, value->value, truth);
+  }
+  return value != nullptr && std::abs(value->value - truth) <= share * truth;
+}
+
+}  // namespace
+
+class TestCalibrate : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void gridPosteriorsAreThoseOfClosedForms() {
+    // A normal likelihood of the logarithm times the prior: normal again.
+    const double sigma = 0.35, error = 0.05, median = 2.0, seen = std::log(2.5);
+    const auto posterior = positivePosterior(median, sigma, [&](double value) {
+      const double z = (std::log(value) - seen) / error;
+      return -0.5 * z * z;
+    });
+    const double precision = 1.0 / (sigma * sigma) + 1.0 / (error * error);
+    const double mean = (std::log(median) / (sigma * sigma) + seen / (error * error)) / precision;
+    const double half = 1.959964 / std::sqrt(precision);
+    QVERIFY(std::abs(std::log(posterior.median) - mean) < 1e-3);
+    QVERIFY(std::abs(std::log(posterior.low) - (mean - half)) < 2e-3);
+    QVERIFY(std::abs(std::log(posterior.high) - (mean + half)) < 2e-3);
+    // A cell that the prior fills evenly: 2.5 % are left off at either end.
+    const auto cell = positivePosterior(
+        1.0, 10.0, [](double value) { return value > 1.0 && value <= 1.01 ? 0.0 : -1e3; }, 400001);
+    QVERIFY(std::abs(cell.low - 1.00025) < 2e-4);
+    QVERIFY(std::abs(cell.high - 1.00975) < 2e-4);
+  }
+
+  /// The estimators read variables of the blackboard, never a truth column.
+  void truthIsNeverRead() {
+    const QDir folder(QStringLiteral(PITCHBOARD_SOURCE_DIR "/robotlink/calibrate/src"));
+    const QStringList files = folder.entryList({"*.cpp", "*.h"});
+    QVERIFY(files.size() > 8);
+    for (const QString& name : files) {
+      QFile file(folder.filePath(name));
+      QVERIFY(file.open(QIODevice::ReadOnly));
+      const QByteArray text = file.readAll();
+      for (const char* column : {"TRUE_", "HEAD_YAW", "\"ACTION\"", "FALLEN\"", "BELIEF_ERROR",
+                                 "BELIEF_X", "BALL_VX", "snapshot"}) {
+        QVERIFY2(!text.contains(column), qPrintable(name + " names " + column));
+      }
+    }
+  }
+
+  void theDrillIsCalibrated() {
+    const auto trial = playCalibrationTrial(10001, 0.0);
+    QVERIFY2(trial.has_value(), trial ? "" : trial.error().text().c_str());
+    const Calibration& c = trial->calibration;
+    for (const char* key : {"forward_fast", "backward_fast", "sideways"}) {
+      QVERIFY(isNear(c, key, trial->truth(key), 0.1));
+    }
+    QVERIFY(isNear(c, "turn", trial->truth("turn"), 0.02));
+    QVERIFY(isNear(c, "noise.imu_white", trial->truth("noise.imu_white"), 0.05));
+    QVERIFY(isNear(c, "noise.robot_distance", trial->truth("noise.robot_distance"), 0.3));
+    QVERIFY(c.kept.contains("kick_speed"));
+    QVERIFY(c.kept.contains("mass"));
+    QVERIFY(trial->rms < trial->rmsBase);
+    QVERIFY(c.check.windows > 5);
+    // Every number is either estimated or listed with the reason.
+    for (const std::string& key : calibrationKeys()) {
+      QVERIFY2((c.find(key) != nullptr) != c.kept.contains(key), key.c_str());
+    }
+    for (const CalibratedValue& value : c.values) {
+      QVERIFY2(value.low < value.value && value.value < value.high && value.samples > 0,
+               value.key.c_str());
+    }
+    fileAndReport(c);
+  }
+
+  void badRecordings_data() {
+    QTest::addColumn<QString>("what");
+    for (const char* what : {"20 Hz", "gap", "IMU reset", "carried"}) QTest::newRow(what) << what;
+  }
+  void badRecordings() {
+    QFETCH(QString, what);
+    const Scenario scenario = drill();
+    RecordingOptions options;
+    if (what == "20 Hz") options.everyNth = 3;
+    if (what == "IMU reset") {
+      options.at = [](SimulatedMatch& match, std::uint64_t tick) {
+        if (tick != 7100) return;  // turned away
+        Blackboard* board = match.blackboard(RobotId{1});
+        writeIfPresent(*board, match.variables().imuReset, 1);
+      };
+    }
+    if (what == "carried") {
+      options.at = [](SimulatedMatch& match, std::uint64_t tick) {
+        if (tick == 3900) (void)match.simulation().placeRobot(RobotId{1}, {{-2.0, 1.5}, -0.5});
+      };
+    }
+    CalibrationLog log = logOf(scenario, options);
+    if (what == "gap") {
+      std::erase_if(log.rows,
+                    [](const CalibrationRow& row) { return row.time > 66.0 && row.time < 70.0; });
+      log.robots.clear();
+    }
+    const auto calibration = calibrate(std::span(&log, 1), kidSize());
+    QVERIFY2(calibration.has_value(), calibration ? "" : calibration.error().text().c_str());
+    const sim::RobotModel truth = kidSize();
+    QVERIFY(isNear(*calibration, "forward_fast", truth.forwardFast, 0.15));
+    QVERIFY(isNear(*calibration, "turn", truth.turn, 0.03));
+    if (what == "20 Hz") {
+      QVERIFY(mentions(*calibration, "20 Hz"));
+      QVERIFY(calibration->kept.contains("vision_range"));
+    }
+    if (what == "gap") QVERIFY(calibration->leftOut.contains("gaps"));
+    if (what == "IMU reset") QVERIFY(mentions(*calibration, "IMU was reset"));
+    if (what == "carried") QVERIFY(mentions(*calibration, "outliers"));
+  }
+
+  /// One row a second, as some teams' telemetry: whatever it does not show is listed.
+  void oneRowASecond() {
+    RecordingOptions options;
+    options.everyNth = 60;
+    const CalibrationLog log = logOf(drill(), options);
+    const auto calibration = calibrate(std::span(&log, 1), kidSize());
+    if (!calibration) {
+      QCOMPARE(calibration.error().code, ErrorCode::NotFound);
+      return;
+    }
+    for (const char* key : {"vision_range", "field_of_view", "kick_time"}) {
+      QVERIFY2(calibration->kept.contains(key), key);
+    }
+    for (const CalibratedValue& value : calibration->values) {
+      QVERIFY2(std::isfinite(value.low) && std::isfinite(value.high), value.key.c_str());
+    }
+  }
+
+  void whatCannotBeUsedIsAnError() {
+    const Scenario scenario = drill(5.0);
+    const auto rows = recorded(scenario);
+    const auto absent = readCalibrationLog(**rows, scenario.settings.field, "drill", "R7");
+    QVERIFY(!absent);
+    QCOMPARE(absent.error().code, ErrorCode::NotFound);
+    QVERIFY(absent.error().message.find("B1") != std::string::npos);
+
+    telemetry::SeriesStore other;
+    telemetry::GroupInfo info;
+    info.name = "B1";
+    info.columns.resize(1);
+    info.columns[0].name = "TEMPERATURE";
+    info.attributes["team"] = "blue";
+    const auto group = other.addGroup(info);
+    for (int i = 0; i < 10; ++i) {
+      const double value = i;
+      other.append(group, {0.1 * i, {}, {&value, 1}});
+    }
+    const auto useless = readCalibrationLog(other, scenario.settings.field, "other", "B1");
+    QVERIFY(!useless);
+    QCOMPARE(useless.error().code, ErrorCode::InvalidArgument);
+    QVERIFY(useless.error().message.find("DECISION_ACTION_A") != std::string::npos);
+
+    // Standing tells of the IMU, and of no speed.
+    const auto log = readCalibrationLog(**rows, scenario.settings.field, "drill", "B1");
+    const auto stood = calibrate(std::span(&*log, 1), kidSize(), {0.5});
+    QVERIFY(stood.has_value());
+    QVERIFY(stood->kept.contains("forward_fast"));
+    QVERIFY(stood->find("noise.imu_white") != nullptr);
+    QVERIFY(!calibrate({}, kidSize()).has_value());
+    QVERIFY(!calibrate(std::span(&*log, 1), kidSize(), {0.9}).has_value());
+    const auto cancelled =
+        calibrate(std::span(&*log, 1), kidSize(), {}, [](double) { return false; });
+    QVERIFY(!cancelled);
+    QCOMPARE(cancelled.error().code, ErrorCode::Conflict);
+  }
+
+ private:
+  static void fileAndReport(const Calibration& c) {
+    const std::string text = calibrationToJson(c, "test");
+    const auto model = robotModelFromText(text, "robot.json");
+    QVERIFY2(model.has_value(), model ? "" : model.error().text().c_str());
+    for (const auto& parameter : sim::robotModelParameters) {
+      const double number = c.model.*parameter.member;
+      QVERIFY2(std::abs((*model).*parameter.member - number) <= 1e-12 * std::abs(number),
+               parameter.key);
+    }
+    QVERIFY(text.find("\"kept\"") != std::string::npos);
+    std::string bad = text;
+    bad.replace(bad.find("\"version\": 1"), 12, "\"version\": 2");
+    const auto refused = robotModelFromText(bad, "robot.json");
+    QVERIFY(!refused);
+    QVERIFY(refused.error().text().find("calibration.version") != std::string::npos);
+    const std::string page = calibrationReport(c, drill().settings.field);
+    for (const char* words : {"<h2>Values</h2>", "forward_fast", "Not estimated", "Residuals",
+                              "Simulated trajectories over recorded ones", "</html>"}) {
+      QVERIFY2(page.find(words) != std::string::npos, words);
+    }
+  }
+};
+
+}  // namespace tst_calibrate
+
+QTEST_GUILESS_MAIN(tst_calibrate::TestCalibrate)
+
+#include "tst_calibrate.moc"

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A recording of a robot with hidden numbers, drawn from the prior of calibrate(), and what
+// calibrate() says of it. For the program calibration_proof.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <base/angles.h>
+#include <robotlink/calibrate/calibrate.h>
+#include <robotlink/match/match_player.h>
+#include <robotlink/models/robot_models.h>
+#include <robotlink/session/match_sampler.h>
+#include <robotlink/session/row_slot.h>
+#include <robotlink/session/row_walk.h>
+#include <simcore/world/parameters.h>
+#include <telemetry/series/series_store.h>
+
+namespace pitchboard::link {
+
+struct CalibrationTrial {
+  Calibration calibration;
+  sim::RobotModel hidden;
+  double rolling = 0.0;
+  double rms = 0.0, rmsBase = 0.0;  ///< m, against the truth
+  std::size_t windows = 0;
+  /// The hidden number of a key.
+  double truth(const std::string& key) const {
+    const auto find = [&](const auto& parameters, const auto& values, const std::string& name) {
+      for (const auto& parameter : parameters) {
+        if (name == parameter.key) return values.*parameter.member;
+      }
+      return std::nan("");
+    };
+    if (key == "field.rolling_deceleration") return rolling;
+    return key.starts_with("noise.") ? find(sim::noiseParameters, hidden.noise, key.substr(6))
+                                     : find(sim::robotModelParameters, hidden, key);
+  }
+};
+
+/// Draws every number of calibrationKeys() round the base model.
+inline sim::RobotModel hiddenModel(const sim::RobotModel& base, std::uint64_t seed,
+                                   double& rolling) {
+  std::mt19937_64 random(seed * 7919 + 17);
+  std::normal_distribution<double> normal;
+  sim::RobotModel model = base;
+  const auto within = [&](const auto& parameters, auto& values, const std::string& key,
+                          double sigma, bool rate) {
+    for (const auto& parameter : parameters) {
+      if (key != parameter.key) continue;
+      double& value = values.*parameter.member;
+      if (rate) {
+        constexpr double weight = 8.0;
+        std::gamma_distribution<double> a(weight * value), b(weight * (1.0 - value));
+        const double x = a(random), y = b(random);
+        value = x / (x + y);
+      } else {
+        value *= std::exp(sigma * normal(random));
+      }
+    }
+  };
+  rolling = 0.3;
+  for (const std::string& key : calibrationKeys()) {
+    if (key == "field.rolling_deceleration") {
+      rolling *= std::exp(0.35 * normal(random));
+      continue;
+    }
+    const bool rate = key == "noise.landmark_probability" || key == "noise.missed_detection";
+    if (key.starts_with("noise.")) {
+      within(sim::noiseParameters, model.noise, key.substr(6), 0.7, rate);
+    } else {
+      const bool view = key == "field_of_view" || key == "vision_range";
+      within(sim::robotModelParameters, model, key, view ? 0.25 : 0.35, false);
+    }
+  }
+  model.kickContact = std::min(model.kickContact, model.kickTime - 0.02);
+  return model;
+}
+
+struct RecordingOptions {
+  int everyNth = 1;  ///< ticks per row
+  /// Before each tick.
+  std::function<void(SimulatedMatch&, std::uint64_t tick)> at;
+};
+
+/// Plays a scenario into memory.
+inline Result<std::shared_ptr<telemetry::SeriesStore>> recorded(
+    const Scenario& scenario, const RecordingOptions& recording = {}) {
+  auto match = SimulatedMatch::create(scenario, {});
+  if (!match) return tl::unexpected(match.error());
+  telemetry::SeriesOptions options;
+  options.memoryBudget = std::size_t{1} << 30;
+  const auto rows = std::make_shared<telemetry::SeriesStore>(options);
+  const auto sampler =
+      std::make_shared<MatchSampler>(rows, MatchSamplerOptions{recording.everyNth});
+  MatchPlayer player(std::move(*match));
+  player.observe(sampler);
+  while (!player.match().finished()) {
+    if (recording.at) recording.at(player.match(), player.currentTick());
+    player.tick();
+  }
+  player.stopObserving(sampler);
+  return rows;
+}
+
+/// Errors of the predictions of 5 s by the truth that the rows hold.
+inline void comparePredictions(const telemetry::SeriesStore& rows, CalibrationTrial& trial) {
+  std::vector<std::array<double, 3>> truth;
+  forEachRow(rows, {-1e18, 1e18}, [&](auto, const telemetry::GroupInfo& group, const auto& row) {
+    if (group.name != "B1") return;
+    truth.push_back(
+        {row.time, findSlot(group, {"TRUE_X"}).read(row), findSlot(group, {"TRUE_Y"}).read(row)});
+  });
+  const auto at = [&](double time) {
+    const auto found = std::ranges::lower_bound(
+        truth, time - 1e-6, {}, [](const std::array<double, 3>& one) { return one[0]; });
+    return found == truth.end() ? truth.back() : *found;
+  };
+  double sum = 0.0, sumBase = 0.0;
+  for (const PredictedWindow& window : trial.calibration.check.examples) {
+    if (window.places.empty()) continue;
+    const auto& last = window.places.back();
+    const auto& first = window.places.front();
+    // The way since the first place, so that an error of the first place counts for neither.
+    const auto begin = at(first.time), end = at(last.time);
+    const double x = end[1] - begin[1] + first.recorded.x, y = end[2] - begin[2] + first.recorded.y;
+    const auto square = [&](const Point& p) {
+      return (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y);
+    };
+    sum += square(last.calibrated);
+    sumBase += square(last.base);
+    ++trial.windows;
+  }
+  const auto n = static_cast<double>(std::max<std::size_t>(1, trial.windows));
+  trial.rms = std::sqrt(sum / n);
+  trial.rmsBase = std::sqrt(sumBase / n);
+}
+
+/// Two recordings (calibration-drill and calibration-kicks) of the robot number `seed`.
+inline Result<CalibrationTrial> playCalibrationTrial(std::uint64_t seed, double kickSeconds = 400) {
+  const auto base = loadRobotModel("kid-size");
+  if (!base) return tl::unexpected(base.error());
+  CalibrationTrial trial;
+  trial.hidden = hiddenModel(*base, seed, trial.rolling);
+  std::vector<CalibrationLog> logs;
+  std::shared_ptr<telemetry::SeriesStore> drill;
+  for (const std::string name : {"calibration-drill", "calibration-kicks"}) {
+    if (name == "calibration-kicks" && kickSeconds <= 0.0) continue;
+    auto scenario = loadScenario(name);
+    if (!scenario) return tl::unexpected(scenario.error());
+    scenario->settings.seed = seed;
+    scenario->settings.field.surface.deceleration = trial.rolling;
+    scenario->robots.front().model = trial.hidden;
+    if (name == "calibration-kicks") scenario->stop.duration = kickSeconds;
+    auto rows = recorded(*scenario);
+    if (!rows) return tl::unexpected(rows.error());
+    if (!drill) drill = *rows;
+    // Calibration knows the size of the field, not how the ball rolls on it.
+    sim::FieldSpec field = scenario->settings.field;
+    field.surface.deceleration = 0.3;
+    auto log = readCalibrationLog(**rows, field, name, "B1");
+    if (!log) return tl::unexpected(log.error());
+    logs.push_back(std::move(*log));
+  }
+  auto calibration = calibrate(logs, *base);
+  if (!calibration) return tl::unexpected(calibration.error());
+  trial.calibration = std::move(*calibration);
+  comparePredictions(*drill, trial);
+  return trial;
+}
+
+/// Sums over trials.
+class CalibrationTally {
+ public:
+  struct Row {
+    int estimated = 0, covered = 0, below = 0;
+    double squares = 0.0;  // of (estimate - truth) / half-width
+    double width = 0.0;
+  };
+  void add(const CalibrationTrial& trial) {
+    ++m_trials;
+    for (const CalibratedValue& value : trial.calibration.values) {
+      const double truth = trial.truth(value.key);
+      Row& row = m_rows[value.key];
+      ++row.estimated;
+      if (truth >= value.low && truth <= value.high) ++row.covered;
+      if (truth < value.low) ++row.below;
+      const double half = std::max(1e-12, 0.5 * (value.high - value.low));
+      row.squares += (value.value - truth) * (value.value - truth) / (half * half);
+      row.width += half / std::max(1e-12, value.value);
+    }
+    if (trial.windows > 0) {
+      ++m_predicted;
+      if (trial.rms < trial.rmsBase) ++m_better;
+      m_rms += trial.rms;
+      m_rmsBase += trial.rmsBase;
+    }
+  }
+  const std::map<std::string, Row>& rows() const { return m_rows; }
+  int intervals() const {
+    int sum = 0;
+    for (const auto& [key, row] : m_rows) sum += row.estimated;
+    return sum;
+  }
+  int covered() const {
+    int sum = 0;
+    for (const auto& [key, row] : m_rows) sum += row.covered;
+    return sum;
+  }
+  int predicted() const { return m_predicted; }
+  int better() const { return m_better; }
+
+  void print() const {
+    std::printf("%-28s %5s %8s %6s %6s %8s\n", "key", "n", "covered", "below", "z", "width");
+    for (const auto& [key, row] : m_rows) {
+      std::printf("%-28s %5d %6.1f %% %6d %6.2f %6.2f %%\n", key.c_str(), row.estimated,
+                  100.0 * row.covered / row.estimated, row.below,
+                  1.96 * std::sqrt(row.squares / row.estimated), 100.0 * row.width / row.estimated);
+    }
+    std::printf("all: %d intervals, %.2f %% covered\n", intervals(),
+                100.0 * covered() / std::max(1, intervals()));
+    std::printf("prediction better in %d of %d; mean rms %.3f m, base %.3f m\n", m_better,
+                m_predicted, m_rms / std::max(1, m_predicted),
+                m_rmsBase / std::max(1, m_predicted));
+    std::fflush(stdout);
+  }
+
+ private:
+  int m_trials = 0, m_predicted = 0, m_better = 0;
+  double m_rms = 0.0, m_rmsBase = 0.0;
+  std::map<std::string, Row> m_rows;
+};
+
+}  // namespace pitchboard::link
