@@ -65,7 +65,7 @@ void LiveBar::setRoom(Room room) {
   // With its text it would push the whole bar out of the tool bar.
   m_catalog->setToolButtonStyle(room == Room::Wide ? Qt::ToolButtonTextOnly
                                                    : Qt::ToolButtonIconOnly);
-  m_team->setFixedWidth(scaled(this, least ? 136 : 150));
+  m_team->setFixedWidth(scaled(this, least ? 146 : 150));
   layout()->setSpacing(scaled(this, least ? 2 : 8));
 }
 
