@@ -61,11 +61,11 @@ void LiveBar::setRoom(Room room) {
   const bool least = room == Room::Least;
   m_ports->setToolButtonStyle(room == Room::Wide ? Qt::ToolButtonTextBesideIcon
                                                  : Qt::ToolButtonIconOnly);
-  m_monitor->setToolButtonStyle(least ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextOnly);
-  // With its text it would push the whole bar out of the tool bar.
-  m_catalog->setToolButtonStyle(room == Room::Wide ? Qt::ToolButtonTextOnly
-                                                   : Qt::ToolButtonIconOnly);
-  m_team->setFixedWidth(scaled(this, least ? 146 : 150));
+  // With their texts both would push the whole bar out of the tool bar.
+  for (QToolButton* one : {m_monitor, m_catalog}) {
+    one->setToolButtonStyle(room == Room::Wide ? Qt::ToolButtonTextOnly : Qt::ToolButtonIconOnly);
+  }
+  m_team->setFixedWidth(scaled(this, least ? 136 : 150));
   layout()->setSpacing(scaled(this, least ? 2 : 8));
 }
 
