@@ -24,8 +24,6 @@ inline QString line(double time, const QString& kind, int robot, const QString& 
 inline QStringList linesOf(const std::vector<pitchboard::link::MatchEvent>& events) {
   QStringList lines;
   for (const auto& event : events) {
-    using Kind = pitchboard::link::MatchEventKind;
-    if (event.kind == Kind::BallSeen || event.kind == Kind::BallLost) continue;  // left out there
     const std::string kind(pitchboard::link::info(event.kind).name);
     const std::string side(event.side ? pitchboard::link::sideName(*event.side) : "");
     lines << line(event.time, QString::fromStdString(kind), event.robot.number,

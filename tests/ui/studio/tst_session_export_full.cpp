@@ -60,7 +60,7 @@ class TestSessionExportFull : public QObject {
         }
         QVERIFY2(contents(path) == "old", what.constData());
         // The file is too large here: that is what this disk has for "full".
-        QVERIFY2(message(dialog).contains(QStringLiteral("largest file size")),
+        QVERIFY2(message(dialog).contains(QStringLiteral("reached the largest")),
                  (what + ": " + message(dialog).toUtf8()).constData());
         QVERIFY2(!dialog->isWriting(), what.constData());
       }
