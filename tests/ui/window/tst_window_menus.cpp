@@ -153,8 +153,8 @@ class TestWindowMenus : public QObject {
     s.window.timeline()->seek(0.2);
     s.window.findChild<QAction*>(QStringLiteral("continueFromHere"))->trigger();
     QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(12));
-    QVERIFY2(s.window.notices()->text().contains("restart with the belief they had at"),
-             qPrintable(s.window.notices()->text()));
+    QTRY_VERIFY2(s.window.notices()->text().contains("restart with the belief they had at"),
+                 qPrintable(s.window.notices()->text()));
   }
 
   void viewIsGrouped() {

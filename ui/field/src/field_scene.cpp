@@ -213,6 +213,12 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
   robot.body.setLook(look);
   robot.body.setVisible(now.poseKnown());
 
+  // Who goes to another moment of a recording has not seen the way there.
+  constexpr double longestGap = 1.0;  // s; less than a step of the fastest replay
+  if (m_frame->origin == link::FrameOrigin::Recorded &&
+      m_frame->snapshot.time - robot.trail.now() > longestGap) {
+    robot.trail.clear();
+  }
   robot.trail.append(now.pose.position, m_frame->snapshot.time);
   robot.trail.setVisible(now.poseKnown() && m_style.shows(FieldLayer::Trails) && isTrailShown(id));
   // Where a robot that is heard looks, it does not say.

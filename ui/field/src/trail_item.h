@@ -17,6 +17,7 @@ class TrailItem : public FieldItem {
 
   using FieldItem::FieldItem;
 
+  double now() const { return m_now; }  ///< of its end, s
   /// `time` in simulated seconds; going back in time or jumping starts the trail anew.
   void append(const Point& position, double time);
   void clear();

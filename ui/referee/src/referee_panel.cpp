@@ -223,6 +223,7 @@ class RefereePanel : public QScrollArea {
   void addPenalties() {
     m_who = label("refereeChosen", TypeRole::Secondary);
     m_who->setForegroundRole(QPalette::PlaceholderText);
+    m_who->setWordWrap(true);  // it would make the whole panel wider than its room
     m_column->addWidget(m_who);
     m_penalties = new QWidget(m_inside);
     m_penaltyRows = new QBoxLayout(QBoxLayout::LeftToRight, m_penalties);

@@ -132,27 +132,27 @@ void MatchMemory::continueFrom(double time) {
     return;
   }
   m_match->edits()->adopt(*moment);
-  tellWhatIsLost(*moment, m_match->cognition());
   const double from = static_cast<double>(tick) / newest->settings->tickRate;
   const auto left = std::make_shared<MatchBranch>();
   left->from = from;
-  m_match->post(
-      {QStringLiteral("Cannot continue the match from this moment"),
-       [moment = std::move(*moment), rows = m_kept.rows, left](link::SimulatedMatch& match) {
-         auto entered = match.restore(moment);
-         if (!entered) return entered;
-         const std::size_t before = rows->store().memoryBytes();
-         left->rows = rows->store().branch();
-         rows->rewind(left->from);
-         left->bytes = before - std::min(before, rows->store().memoryBytes());
-         return entered;
-       },
-       {},
-       [this, left] {
-         emit branching(*left);
-         emit m_match->rewound(left->from);
-         emit branched(*left);
-       }});
+  const auto entering = std::make_shared<const link::Moment>(std::move(*moment));
+  m_match->post({QStringLiteral("Cannot continue the match from this moment"),
+                 [entering, rows = m_kept.rows, left](link::SimulatedMatch& match) {
+                   auto entered = match.restore(*entering);
+                   if (!entered) return entered;
+                   const std::size_t before = rows->store().memoryBytes();
+                   left->rows = rows->store().branch();
+                   rows->rewind(left->from);
+                   left->bytes = before - std::min(before, rows->store().memoryBytes());
+                   return entered;
+                 },
+                 {},
+                 [this, entering, left] {
+                   emit branching(*left);
+                   emit m_match->rewound(left->from);
+                   emit branched(*left);
+                   tellWhatIsLost(*entering, m_match->cognition());
+                 }});
 }
 
 }  // namespace pitchboard::ui
