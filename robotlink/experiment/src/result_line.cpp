@@ -76,10 +76,10 @@ bool readTeam(const Json& json, TeamResult& team) {
       !halves.is_array() || halves.size() > mostHalves || !std::ranges::all_of(halves, isCount)) {
     return false;
   }
-  const auto known = std::ranges::find(teamColors, colour.get<std::string>(), &TeamColorInfo::name);
+  const auto known = teamColorNamed(colour.get<std::string>());
   const auto defends = sideNamed(side.get<std::string>());
-  if (known == teamColors.end() || !defends) return false;
-  team.colour = known->color;
+  if (!known || !defends) return false;
+  team.colour = *known;
   team.side = *defends;
   team.name = name.get<std::string>();
   team.score = score.get<int>();

@@ -25,9 +25,8 @@ std::vector<TeamColor> coloursOf(const Json& scenario) {
   for (const Json& robot : scenario.value("robots", Json::array())) {
     const Json team = robot.is_object() ? robot.value("team", Json()) : Json();
     if (!team.is_string()) continue;
-    const auto known = std::ranges::find(teamColors, team.get<std::string>(), &TeamColorInfo::name);
-    if (known == teamColors.end() || std::ranges::find(out, known->color) != out.end()) continue;
-    out.push_back(known->color);
+    const auto known = teamColorNamed(team.get<std::string>());
+    if (known && std::ranges::find(out, *known) == out.end()) out.push_back(*known);
   }
   return out;
 }

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include <base/ids.h>
 #include <robotlink/frame/match_event.h>
+#include <simcore/world/team_color.h>
 #include <simcore/world/world_state.h>
 
 namespace pitchboard::link {
