@@ -69,6 +69,10 @@ void MainWindow::restoreLayout() {
     resize(qMin(scaled(this, 1440), room.width()), qMin(scaled(this, 900), room.height()));
   }
   resetLayout();
+  // Panels that float are windows, and Qt would show them now, before the window they belong to. A
+  // window manager that has not seen that one does not know whose they are, and puts it over them
+  // at the first click.
+  for (QDockWidget* dock : m_docks) dock->setAttribute(Qt::WA_DontShowOnScreen);
   const QByteArray saved = m_settings->value(layoutKey).toByteArray();
   if (!saved.isEmpty() && restoreState(saved, layoutVersion)) {
     m_followsSize = m_settings->value(untouchedKey, false).toBool();
@@ -77,6 +81,11 @@ void MainWindow::restoreLayout() {
     m_notices->show(
         {QStringLiteral("layout")},
         QStringLiteral("The saved layout is from another version, so the default layout is used."));
+  }
+  for (QDockWidget* dock : m_docks) {
+    if (!dock->isFloating() || !dock->isVisible()) {
+      dock->setAttribute(Qt::WA_DontShowOnScreen, false);
+    }
   }
   if (!isKept) m_firstSize = size();
   m_savedLayout = saveState(layoutVersion);
@@ -144,11 +153,10 @@ void MainWindow::showEvent(QShowEvent* event) {
     fitScreen();
     // Docks that were never laid out have no sizes that could be given to them.
     if (m_followsSize) shareRoomOut();
-    // Panels that float were shown before the window. A window manager that had not seen it then
-    // does not know whose they are, and puts the window over them at the first click.
     for (QDockWidget* dock : m_docks) {
       if (!dock->isFloating() || !dock->isVisible()) continue;
       dock->hide();
+      dock->setAttribute(Qt::WA_DontShowOnScreen, false);
       dock->show();
       dock->raise();
     }
