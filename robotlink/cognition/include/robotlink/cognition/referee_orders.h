@@ -20,19 +20,22 @@ struct RefereeOrder {
   int word = refereeStop;                     ///< 1 stop, 2 play, 11 ready, 12 set
   sim::SetPlay setPlay = sim::SetPlay::None;  ///< that the referee has given
   bool setPlayIsOurs = false;                 ///< the robot's team takes it
+  int goalsOwn = 0, goalsTheirs = 0;
+  int secondsLeft = 0;  ///< of this half
   bool operator==(const RefereeOrder&) const = default;
 };
 
-/// Where an order stands: COM_REFEREE, and COM_SET_PLAY and COM_SET_PLAY_OURS of the extension
-/// where the map has them.
+/// Where an order stands: COM_REFEREE, and of the extension, where the map has them, COM_SET_PLAY,
+/// COM_SET_PLAY_OURS, COM_GOALS_OWN, COM_GOALS_THEIRS and COM_SECONDS_LEFT.
 class RefereeVariables {
  public:
   explicit RefereeVariables(const VariableCatalog& map);
-  /// `extended`: the set play, too. Other robots may keep something else on those words.
+  /// `extended`: set play, score and time, too. Other robots may keep something else on those
+  /// words.
   void write(Blackboard& board, const RefereeOrder& order, bool extended) const;
 
  private:
-  IntVar m_word, m_setPlay, m_setPlayIsOurs;
+  IntVar m_word, m_setPlay, m_setPlayIsOurs, m_goalsOwn, m_goalsTheirs, m_secondsLeft;
 };
 
 /// Hears the packets of one robot's referee, of any version. Remembers whose ball a restart is:
