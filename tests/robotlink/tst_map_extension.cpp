@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include <robotlink/cognition/process_registry.h>
+#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/match/blackboard_bridge.h>
 #include <robotlink/match/simulated_match.h>
 #include <simcore/world/published_frame.h>

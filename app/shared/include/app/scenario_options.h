@@ -16,16 +16,17 @@ namespace pitchboard::shared {
 struct ScenarioOptions : link::ScenarioOverrides {
   std::string scenario = "match";
   std::vector<std::string> robotModels;  ///< "kid-size", "red=my-robot.json"; the last one wins
+  std::vector<std::string> advised;      ///< teams that think ahead: "blue"
 };
 
-/// --scenario, --seed, --noise, --physics and --robot-model.
+/// --scenario, --seed, --noise, --physics, --robot-model and --advisor.
 void addScenarioOptions(CLI::App& command, ScenarioOptions& options);
 
 /// A check of options that take a whole number: what is wrong with one below 0, which would become
 /// a huge one; empty when it is none.
 std::string refuseNegative(const std::string& text);
 
-/// Puts seed, noise, physics and robot models into a scenario.
+/// Puts seed, noise, physics, robot models and advisors into a scenario.
 Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& options);
 
 /// What the scenario asks of its physics in vain, as warnings on stderr.

@@ -28,6 +28,15 @@ struct Clock {
 
 class ProcessTurns;
 
+/// How an advisor thinks (docs/advisor.md).
+struct AdvisorOptions {
+  int rollouts = 72;     ///< for each decision
+  double horizon = 5.0;  ///< s that each of them plays
+  /// Of one core, when no match waits for it: it plays as many rollouts as fit. 0: `rollouts`.
+  double share = 0.0;
+  bool operator==(const AdvisorOptions&) const = default;
+};
+
 class CognitiveProcess {
  public:
   virtual ~CognitiveProcess() = default;
@@ -82,6 +91,7 @@ struct ProcessOptions {
   int team = 0;  ///< team: robots of one number hear each other, 0..99
   /// team: the in-process channel of lock-step runs; empty = UDP.
   std::shared_ptr<TeamChannel> teamChannel;
+  AdvisorOptions advisor;
   /// Of a process whose time is that of a match; empty: the clock on the wall.
   std::shared_ptr<ProcessTurns> turns;
 

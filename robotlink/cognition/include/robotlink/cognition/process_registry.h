@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Every reference process and every behaviour of decision: the lists that programs, scenarios and
-// tests read. A new one is a class and its line in process_registry.cpp. Any thread.
+// The reference processes of this module and every behaviour of decision. A new one is a class and
+// its line in process_registry.cpp. Programs and matches read the list of all processes, which has
+// the advisor, too: <robotlink/advisor/reference_processes.h>. Any thread.
 
 #include <memory>
 #include <span>
@@ -20,9 +21,8 @@ struct ProcessInfo {
   std::string_view example;  ///< a command line for --help
 };
 
-/// Every reference process, in starting order: the one list that programs and tests read.
+/// In starting order.
 std::span<const ProcessInfo> cognitiveProcesses();
-const ProcessInfo* findProcess(std::string_view name);
 
 struct BehaviourInfo {
   std::string_view name;

@@ -12,6 +12,7 @@
 #include <base/geometry.h>
 #include <base/inline_vector.h>
 #include <robotlink/cognition/act.h>
+#include <robotlink/cognition/advice.h>
 #include <simcore/world/game_state.h>
 #include <simcore/world/robot_io.h>
 
@@ -65,7 +66,9 @@ struct SoccerInput {
   /// The opponents that are in view; looked at only after a cycle of Vision::Opponents.
   std::array<std::optional<SeenAt>, sim::Percepts::maxSeenRobots> robots;
   std::array<std::optional<TeamMate>, mostTeamMates> mates;
-  Points matePlaces;  ///< of all team-mates that are known of, up to ten
+  Points matePlaces;    ///< of all team-mates that are known of, up to ten
+  Advice advice;        ///< of the robot's advisor
+  int adviceStamp = 0;  ///< changes when the advice is new
 };
 
 }  // namespace pitchboard::link

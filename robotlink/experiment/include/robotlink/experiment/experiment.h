@@ -117,6 +117,7 @@ struct TournamentTeam {
   std::string name;
   int number = 0;               ///< the referee's; 0: that of its colour
   std::string runtime;          ///< as runtimeChoiceToText() writes it; empty: the scenario's
+  std::string advisor;          ///< JSON, as a team of a scenario has it; empty: none
   std::vector<Setting> robots;  ///< a later one wins
   int line = 1;
   bool operator==(const TournamentTeam&) const = default;

@@ -36,7 +36,8 @@ struct ProfileProcess {
     Behaviour,  ///< not for a robot without a behaviour of ours
     Pose,       ///< only for behaviours that use the pose
     Separate,   ///< not where processes run inside the program
-    Target      ///< only for behaviours of ours, whose decision says where to walk
+    Target,     ///< only for behaviours of ours, whose decision says where to walk
+    Advised     ///< only for robots of a team that thinks ahead
   };
   /// Whose time a team program's clocks tell.
   enum class Clock {

@@ -18,6 +18,7 @@
 #include <string_view>
 
 #include <base/result.h>
+#include <robotlink/cognition/advice.h>
 #include <robotlink/rollout/belief.h>
 
 namespace pitchboard::rollout {
@@ -37,6 +38,8 @@ enum class Column : std::uint8_t {
   LookX,
   LookY,
   LastTouch,
+  NearLeft,
+  NearRight,
   Count
 };
 inline constexpr std::size_t columnCount = static_cast<std::size_t>(Column::Count);
@@ -54,6 +57,9 @@ struct PlayOptions {
   double look = 5.0;  ///< s: LookX and LookY are the ball's then, or where the rollout ended before
   /// After a goal the ball lies on the centre mark, outside 1 m inside, and the game goes on.
   bool goOn = false;
+  /// What its advisor suggests to one player, all the time.
+  link::Advice advice{};
+  std::size_t advised = 0;  ///< that player
 };
 
 struct RolloutsOptions {
