@@ -8,6 +8,7 @@
 
 #include <base/try.h>
 #include <robotlink/processes/match_turns.h>
+#include <simcore/world/action_codes.h>
 
 #include "candidates.h"
 #include "game_belief.h"
@@ -28,6 +29,11 @@ double cpuTime() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+bool isKick(const Act& act) {
+  const auto index = static_cast<std::size_t>(act.action);
+  return index < knownActions.size() && knownActions[index].kind == ActionKind::Kick;
+}
+
 class Advisor final : public CognitiveProcess {
  public:
   Advisor(const ProcessOptions& options, rollout::Rollouts rollouts)
@@ -39,11 +45,15 @@ class Advisor final : public CognitiveProcess {
     const double now = clock.seconds;
     const Situation& situation = m_mind.reader.read(board, now);
     m_mind.opponents.update(situation.opponents, now);
-    if (m_mind.next > now + thoughtPeriod) m_mind.next = now;  // the clock was put back
+    constexpr double longestWait = 5.0;                      // s, of a kick
+    if (m_mind.next > now + longestWait) m_mind.next = now;  // the clock was put back
     const auto state = [&] {
       if (m_mind.thought) return AdvisorState::Thinks;
       return knowsEnough(situation) ? AdvisorState::NothingToDecide : AdvisorState::KnowsTooLittle;
     };
+    // Rollouts know nothing of a kick that goes on, and nobody can change it.
+    if (isKick(situation.doing))
+      m_mind.next = std::max(m_mind.next, now + m_options.model.kickTime);
     if (!m_mind.thought) begin(situation, now);
     writeIfPresent(board, m_variables.state, static_cast<int>(state()));
     if (m_mind.thought) think(board);

@@ -193,6 +193,7 @@ struct ExperimentChanges {
   std::optional<std::uint64_t> seed;
   std::optional<std::size_t> runs;       ///< of each condition
   std::optional<std::size_t> matches{};  ///< of each pairing of a tournament
+  std::vector<std::string> advised{};    ///< names of its teams that think ahead
 };
 
 struct ExperimentName {
