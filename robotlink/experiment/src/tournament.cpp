@@ -68,6 +68,7 @@ bool addTeam(const TournamentTeam& team, TeamColor colour, const Json& scenario,
 Json teamJson(const TournamentTeam& team, TeamColor colour) {
   Json out{{"colour", info(colour).name}, {"name", team.name}};
   if (team.number != 0) out["number"] = team.number;
+  if (!team.advisor.empty()) out["advisor"] = Json::parse(team.advisor);
   return out;
 }
 

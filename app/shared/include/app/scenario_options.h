@@ -16,16 +16,17 @@ namespace pitchboard::shared {
 struct ScenarioOptions : link::ScenarioOverrides {
   std::string scenario = "match";
   std::vector<std::string> robotModels;  ///< "kid-size", "red=my-robot.json"; the last one wins
+  std::vector<std::string> advised;      ///< teams that think ahead: "blue"
 };
 
-/// Adds --scenario, --seed, --noise, --physics and --robot-model.
+/// Adds --scenario, --seed, --noise, --physics, --robot-model and --advisor.
 void addScenarioOptions(CLI::App& command, ScenarioOptions& options);
 
 /// Checks an option that takes a whole number. Returns an error message for a negative number,
 /// which would otherwise become a huge one; empty if the number is valid.
 std::string refuseNegative(const std::string& text);
 
-/// Applies seed, noise, physics and robot models to a scenario.
+/// Applies seed, noise, physics, robot models and advisors to a scenario.
 Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& options);
 
 /// Prints a warning to stderr for each value of the scenario that its physics ignores.

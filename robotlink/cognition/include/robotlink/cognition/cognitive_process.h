@@ -29,6 +29,15 @@ struct Clock {
 
 class ProcessTurns;
 
+/// How an advisor thinks (docs/advisor.md).
+struct AdvisorOptions {
+  int rollouts = 72;     ///< for each decision
+  double horizon = 5.0;  ///< s that each of them plays
+  /// Of one core, when no match waits for it: it plays as many rollouts as fit. 0: `rollouts`.
+  double share = 0.0;
+  bool operator==(const AdvisorOptions&) const = default;
+};
+
 class CognitiveProcess {
  public:
   virtual ~CognitiveProcess() = default;
@@ -86,6 +95,7 @@ struct ProcessOptions {
   int team = 0;  ///< team: 0..99; robots with the same number exchange messages
   /// team: the channel of robots inside this program; null: UDP.
   std::shared_ptr<TeamChannel> teamChannel;
+  AdvisorOptions advisor;
   /// For a process that follows the time of a match; null: it follows real time.
   std::shared_ptr<ProcessTurns> turns;
 

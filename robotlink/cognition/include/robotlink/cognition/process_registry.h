@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Lists all reference processes and all behaviours of the decision process, for programs, scenarios
-// and tests. To add one, write its class and add a line to process_registry.cpp. Any thread.
+// Lists the reference processes of this module and all behaviours of the decision process. To add
+// one, write its class and add a line to process_registry.cpp. Programs and matches read the list of
+// all processes, which contains the advisor, too: <robotlink/advisor/reference_processes.h>. Any
+// thread.
 
 #include <memory>
 #include <span>
@@ -22,8 +24,6 @@ struct ProcessInfo {
 
 /// Returns the reference processes in the order in which they are started.
 std::span<const ProcessInfo> cognitiveProcesses();
-/// Returns null for an unknown name.
-const ProcessInfo* findProcess(std::string_view name);
 
 struct BehaviourInfo {
   std::string_view name;

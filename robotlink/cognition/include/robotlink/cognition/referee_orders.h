@@ -20,19 +20,22 @@ struct RefereeOrder {
   int word = refereeStop;                     ///< value of COM_REFEREE
   sim::SetPlay setPlay = sim::SetPlay::None;  ///< the current set play
   bool setPlayIsOurs = false;                 ///< the robot's team takes the set play
+  int goalsOwn = 0, goalsTheirs = 0;
+  int secondsLeft = 0;  ///< of this half
   bool operator==(const RefereeOrder&) const = default;
 };
 
-/// Writes orders to COM_REFEREE, and to COM_SET_PLAY and COM_SET_PLAY_OURS of the extension if the
-/// map contains them.
+/// Writes orders to COM_REFEREE, and to COM_SET_PLAY, COM_SET_PLAY_OURS, COM_GOALS_OWN,
+/// COM_GOALS_THEIRS and COM_SECONDS_LEFT of the extension if the map contains them.
 class RefereeVariables {
  public:
   explicit RefereeVariables(const VariableCatalog& map);
-  /// Writes the set play only if `extended`, because other teams may use those words differently.
+  /// Writes set play, score and time only if `extended`, because other teams may use those words
+  /// differently.
   void write(Blackboard& board, const RefereeOrder& order, bool extended) const;
 
  private:
-  IntVar m_word, m_setPlay, m_setPlayIsOurs;
+  IntVar m_word, m_setPlay, m_setPlayIsOurs, m_goalsOwn, m_goalsTheirs, m_secondsLeft;
 };
 
 /// Follows the packets of a referee, of any version, for one robot. It remembers which team has the

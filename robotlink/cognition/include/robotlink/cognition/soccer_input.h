@@ -12,6 +12,7 @@
 #include <base/geometry.h>
 #include <base/inline_vector.h>
 #include <robotlink/cognition/act.h>
+#include <robotlink/cognition/advice.h>
 #include <simcore/world/game_state.h>
 #include <simcore/world/robot_io.h>
 
@@ -65,7 +66,9 @@ struct SoccerInput {
   /// Opponents in view. Used only if the previous cycle asked vision to look for opponents.
   std::array<std::optional<SeenAt>, sim::Percepts::maxSeenRobots> robots;
   std::array<std::optional<TeamMate>, mostTeamMates> mates;
-  Points matePlaces;  ///< positions of all known team-mates, at most ten
+  Points matePlaces;    ///< positions of all known team-mates, at most ten
+  Advice advice;        ///< from the robot's advisor
+  int adviceStamp = 0;  ///< changes with every new advice
 };
 
 }  // namespace pitchboard::link

@@ -119,6 +119,7 @@ struct TournamentTeam {
   std::string name;
   int number = 0;               ///< its number at the referee; 0: that of its colour
   std::string runtime;          ///< as runtimeChoiceToText() writes it; empty: the scenario's
+  std::string advisor;          ///< JSON, as for a team of a scenario; empty: none
   std::vector<Setting> robots;  ///< later settings override earlier ones
   int line = 1;
   bool operator==(const TournamentTeam&) const = default;
@@ -194,6 +195,7 @@ struct ExperimentChanges {
   std::optional<std::uint64_t> seed;
   std::optional<std::size_t> runs;       ///< for each condition
   std::optional<std::size_t> matches{};  ///< for each pairing of a tournament
+  std::vector<std::string> advised{};    ///< names of the tournament's teams that think ahead
 };
 
 struct ExperimentName {

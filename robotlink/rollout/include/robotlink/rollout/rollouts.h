@@ -18,6 +18,7 @@
 #include <string_view>
 
 #include <base/result.h>
+#include <robotlink/cognition/advice.h>
 #include <robotlink/rollout/belief.h>
 
 namespace pitchboard::rollout {
@@ -37,6 +38,8 @@ enum class Column : std::uint8_t {
   LookX,
   LookY,
   LastTouch,
+  NearLeft,
+  NearRight,
   Count
 };
 inline constexpr std::size_t columnCount = static_cast<std::size_t>(Column::Count);
@@ -55,6 +58,9 @@ struct PlayOptions {
   /// If true, a goal or a ball that is out does not end a rollout: the ball is put on the centre
   /// mark or 1 m inside the line.
   bool goOn = false;
+  /// What its advisor suggests to one player, all the time.
+  link::Advice advice{};
+  std::size_t advised = 0;  ///< that player
 };
 
 struct RolloutsOptions {
