@@ -135,11 +135,17 @@ struct BehaviourChoice {
 };
 
 /// The value of `key`: a name of `known`, or an object {"name": ..., "kick_distance": ...} with
-/// numbers that this behaviour has. What is left out is a striker with the usual numbers.
+/// numbers that this behaviour has. What is left out is a striker with the usual numbers; with
+/// "from": ..., a file or an object of numbers, those of them that the behaviour reads.
 BehaviourChoice readBehaviour(const JsonObject& parent, JsonReport& report, std::string_view key,
                               std::span<const std::string_view> known);
-/// The same of a command line: a name of behaviours(), or such an object.
-Result<BehaviourChoice> behaviourFromText(std::string_view nameOrJson, std::string_view source);
+/// The same of a command line: a name of behaviours(), or such an object. `usual`: the numbers that
+/// it does not name, as far as the behaviour reads them.
+Result<BehaviourChoice> behaviourFromText(std::string_view nameOrJson, std::string_view source,
+                                          const BehaviourParameters& usual = {});
+/// The numbers of a team in a file, as `pitchboard-cli learn` writes it: {"version": 1,
+/// "parameters": {"kick_distance": 0.03}}. What is left out keeps its default.
+Result<BehaviourParameters> loadBehaviourParameters(const std::string& path);
 /// The name alone where nothing differs. Reading it gives exactly these numbers, as far as the
 /// behaviour reads them.
 std::string behaviourToText(std::string_view name, const BehaviourParameters& parameters);
