@@ -58,6 +58,7 @@ struct Condition {
   Scenario scenario;                 ///< with the settings; without stop conditions
   std::string json;                  ///< the same as text, for what is drawn for each run
   std::vector<PlacedByHand> placed;  ///< the experiment's and its own, in order of time
+  TeamColor team = TeamColor::Blue;  ///< whose values its runs have
   bool teamPrograms = false;         ///< a team's own programs play, too
 };
 
@@ -138,7 +139,7 @@ struct TeamAssertion {
 };
 
 /// Matches between teams. Each pairing is a condition of the experiment, or two of them, one behind
-/// the other, with the sides swapped.
+/// the other, with the sides swapped. The values of a match are those of the first of its pairing.
 struct Tournament {
   std::vector<TournamentTeam> teams;
   std::vector<Pairing> pairings;
@@ -155,7 +156,7 @@ struct Experiment {
   std::uint64_t seed = 1;
   std::size_t runs = 1;              ///< of each condition
   bool commonSeeds = true;           ///< run i has the same seed in every condition
-  TeamColor team = TeamColor::Blue;  ///< whose experiment it is
+  TeamColor team = TeamColor::Blue;  ///< whose experiment it is; a condition may be another's
   std::vector<Condition> conditions;
   std::vector<RandomSetting> random;
   std::vector<StartSpread> starts;

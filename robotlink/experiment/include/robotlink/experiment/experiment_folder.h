@@ -67,6 +67,10 @@ class ExperimentFolder {
 Result<Experiment> experimentOf(const std::string& folder);
 /// All runs that are there. Paths only of those that are drawn.
 Result<ResultTable> resultsOf(const std::string& folder, const Experiment& experiment);
+/// Adds those of a folder to others of the same experiment, also while another program plays into
+/// it. Nothing yet if there is no run; Conflict for another experiment's folder.
+Result<void> addResults(ResultTable& table, const std::string& folder,
+                        const Experiment& experiment);
 /// One run; NotFound when it has not been played.
 Result<RunResult> resultOf(const std::string& folder, const Experiment& experiment,
                            std::size_t number);

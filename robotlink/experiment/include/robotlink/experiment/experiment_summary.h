@@ -8,8 +8,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include <base/result.h>
 #include <robotlink/experiment/run_result.h>
 #include <robotlink/experiment/statistics.h>
 #include <robotlink/experiment/tournament.h>
@@ -83,6 +85,11 @@ struct ExperimentSummary {
 };
 
 ExperimentSummary summarize(const Experiment& experiment, const ResultTable& table);
+
+/// The value of an expression over metrics, "goals - goals_against", in every run of a condition by
+/// its index. NaN where it has none. Error NotFound for an unknown metric.
+Result<std::vector<double>> valuesOf(std::string_view expression, const ResultTable& table,
+                                     std::size_t condition);
 
 /// Metrics that say something: some run has a value, and not all values of all conditions are 0.
 std::vector<std::size_t> tellingMetrics(const ExperimentSummary& summary);
