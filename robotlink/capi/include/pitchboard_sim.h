@@ -2,7 +2,7 @@
 #pragma once
 
 // The simulator as a library with a plain C interface, for learning and for other languages: many
-// worlds of one scenario, stepped together, read and written as arrays (docs/learning.md has a
+// worlds of one scenario, stepped together, read and written as arrays (docs/worlds.md has a
 // worked example). Handles are opaque; what was destroyed or never made is noticed and refused. Any
 // thread may call; calls with the same handle wait for one another, and the text of an error
 // belongs to the thread. Metres, seconds, radians in the field's frame (x to the right goal, y up);

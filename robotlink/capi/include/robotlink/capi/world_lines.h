@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Worlds behind lines of JSON (docs/learning.md): a request is an object on a line, and so is its
+// Worlds behind lines of JSON (docs/worlds.md): a request is an object on a line, and so is its
 // answer. Whatever a line holds, there is an answer, and the next line is served. Units and shapes
 // are those of Worlds. For one thread; owned by whoever reads the lines.
 
@@ -37,7 +37,7 @@ class WorldLines {
   /// The answer: an object on one line, without the line's end. It has "ok", and an "error" when
   /// that is false; the "id" of the request is repeated.
   std::string answer(std::string_view line);
-  /// What "do" may say; the table of docs/learning.md has a row for each.
+  /// What "do" may say; the table of docs/worlds.md has a row for each.
   static std::vector<std::string_view> requests();
 
  private:
