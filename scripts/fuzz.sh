@@ -39,7 +39,7 @@ cp tests/data/gamecontroller/*.bin "$seeds/referee/"
 cp resources/profiles/*.json "$seeds/profile/"
 cp resources/teams/*.json "$seeds/formats/"
 cp resources/rules/*.json resources/robots/*.json resources/runtime/*.json "$seeds/rules/"
-cp resources/experiments/*.json resources/situations/*.json "$seeds/experiment/"
+cp resources/experiments/*.json resources/situations/*.json docs/examples/*.json "$seeds/experiment/"
 cp tests/data/sessions/{small,plain_broken_off}.mcap "$seeds/session/"  # small ones: more inputs a second
 cp tests/data/sessions/*.mcap "$seeds/moments/"
 cp resources/scenarios/*.json "$seeds/scenario/"

@@ -264,6 +264,7 @@ class TestLearn : public QObject {
   void theExampleCanBePlayed() {
     const auto example = loadLearning(PITCHBOARD_SOURCE_DIR "/docs/examples/learn-match-team.json");
     QVERIFY2(example.has_value(), example ? "" : example.error().text().c_str());
+    QCOMPARE(learningFrom(example->text).text, example->text);
     const auto e = trainingOf(*example, "one", twoCandidates(*example), 2, 1);
     QVERIFY(e.has_value());
     QVERIFY(e->tournament->wholeMatches);
