@@ -77,11 +77,11 @@ class TestCliLearn : public QObject {
              loaded);
     // So does a tournament.
     const QByteArray tournament =
-        R"({"version": 1, "name": "proof", "scenario": "one-robot", "matches": 2,
-      "set": {"robots": [{"team": "blue", "number": 1, "x": -1, "y": 0, "behaviour": "naive"},
-                         {"team": "red", "number": 1, "x": 1, "y": 0, "behaviour": "naive"}]},
-      "stop": {"duration": 1}, "teams": [{"name": "a"},
-                                         {"name": "b", "robots": {"*": {"behaviour.from": "BEST"}}}]})";
+        R"({"version": 1, "name": "proof", "matches": 2, "stop": {"duration": 1},
+      "scenario": {"version": 1, "noise": "none", "ball": {"x": 0, "y": 0},
+      "robots": [{"team": "blue", "number": 1, "x": -1, "y": 0, "behaviour": "naive"},
+                 {"team": "red", "number": 1, "x": 1, "y": 0, "behaviour": "naive"}]},
+      "teams": [{"name": "a"}, {"name": "b", "robots": {"*": {"behaviour.from": "BEST"}}}]})";
     const ProgramRun proof = cli(
         {"tournament", write("proof.json", QByteArray(tournament).replace("BEST", best.toUtf8())),
          "--out", in("proof")});
