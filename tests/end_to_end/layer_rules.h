@@ -33,7 +33,8 @@ inline QStringList all(const QString& library) {
       {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session"}},
       {"robotlink",
        {"blackboard", "processes", "models", "cognition", "rollout", "advisor", "scenario", "frame",
-        "match", "live", "session", "report", "experiment", "calibrate", "conformance", "capi"}},
+        "match", "live", "session", "report", "experiment", "learn", "calibrate", "conformance",
+        "capi"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
         "noise", "processes", "log", "referee", "experiments", "window"}}};
@@ -95,6 +96,10 @@ inline const QList<Module>& table() {
          below + QStringList{board, processes, models, cognition, scenario, frame, match, session,
                              "robotlink/report", "resources"},
          {"boost/", "nlohmann/"}},
+        // The only one with pagmo.
+        {"robotlink/learn",
+         {base, models, cognition, scenario, "robotlink/experiment", "robotlink/report"},
+         {"nlohmann/", "pagmo/"}},
         {"robotlink/calibrate",
          below + QStringList{board, models, frame, live, session, "robotlink/report"},
          {"Eigen/", "boost/", "nlohmann/"}},
@@ -259,6 +264,7 @@ inline QString headerOfPackage(const QString& target) {
                                                {"PkgConfig::muparser", "muParser.h"},
                                                {"Boost::headers", "boost/"},
                                                {"CLI11::CLI11", "CLI/"},
+                                               {"Pagmo::pagmo", "pagmo/"},
                                                {"Threads::Threads", {}}};
   if (target.startsWith("Qt6::")) return "Q";
   return headers.value(target, target);

@@ -3,7 +3,7 @@
 
 // The simulator as a library with a plain C interface, for learning and for other languages. It
 // simulates many worlds of a scenario, which are stepped together and are read and written as
-// arrays (docs/learning.md has a complete example). Handles are opaque; a handle that was destroyed
+// arrays (docs/worlds.md has a complete example). Handles are opaque; a handle that was destroyed
 // or is invalid gives PB_STALE_HANDLE. Any thread may call; calls with the same handle wait for one
 // another. Each thread has its own error text. Metres, seconds, radians in the field's frame (x to
 // the right goal, y up); percepts and variables have the robots' own units. The caller owns all

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Controls Worlds with lines of JSON (docs/learning.md). Each request and each answer is an object
+// Controls Worlds with lines of JSON (docs/worlds.md). Each request and each answer is an object
 // on a line. Every line gets an answer, even an invalid one. Units and shapes are those of Worlds.
 // Used on one thread.
 
@@ -37,7 +37,7 @@ class WorldLines {
   /// Carries out a request and returns the answer without a line end: an object with "ok", with
   /// "error" if that is false, and with the "id" of the request.
   std::string answer(std::string_view line);
-  /// Returns the possible values of "do"; docs/learning.md describes each.
+  /// Returns the possible values of "do"; docs/worlds.md describes each.
   static std::vector<std::string_view> requests();
 
  private:

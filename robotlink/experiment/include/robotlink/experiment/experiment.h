@@ -60,6 +60,7 @@ struct Condition {
   Scenario scenario;                 ///< with the settings applied; without stop conditions
   std::string json;                  ///< the same as text, in which numbers are drawn for each run
   std::vector<PlacedByHand> placed;  ///< those of the experiment and its own, in order of time
+  TeamColor team = TeamColor::Blue;  ///< the team whose metrics are measured
   bool teamPrograms = false;         ///< team programs take part
 };
 
@@ -141,7 +142,7 @@ struct TeamAssertion {
 };
 
 /// Matches between teams. Each pairing is one condition of the experiment, or with swapSides two
-/// successive ones.
+/// successive ones. The metrics of a match are those of the first team of its pairing.
 struct Tournament {
   std::vector<TournamentTeam> teams;
   std::vector<Pairing> pairings;
@@ -158,7 +159,7 @@ struct Experiment {
   std::uint64_t seed = 1;
   std::size_t runs = 1;              ///< for each condition
   bool commonSeeds = true;           ///< run i has the same seed in every condition
-  TeamColor team = TeamColor::Blue;  ///< the team whose metrics are measured
+  TeamColor team = TeamColor::Blue;  ///< the team whose metrics are measured; conditions may differ
   std::vector<Condition> conditions;
   std::vector<RandomSetting> random;
   std::vector<StartSpread> starts;

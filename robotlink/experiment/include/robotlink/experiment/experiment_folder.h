@@ -68,6 +68,11 @@ class ExperimentFolder {
 Result<Experiment> experimentOf(const std::string& folder);
 /// Reads all results; paths only of those runs that the report draws.
 Result<ResultTable> resultsOf(const std::string& folder, const Experiment& experiment);
+/// Adds the results of a folder to those of the same experiment, also while another program plays
+/// into it. Adds nothing if the folder has no results yet. Error Conflict for the folder of another
+/// experiment.
+Result<void> addResults(ResultTable& table, const std::string& folder,
+                        const Experiment& experiment);
 /// Reads the result of a run. Error NotFound if it has not been played.
 Result<RunResult> resultOf(const std::string& folder, const Experiment& experiment,
                            std::size_t number);

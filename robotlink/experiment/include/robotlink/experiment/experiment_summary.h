@@ -8,8 +8,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include <base/result.h>
 #include <robotlink/experiment/run_result.h>
 #include <robotlink/experiment/statistics.h>
 #include <robotlink/experiment/tournament.h>
@@ -83,6 +85,12 @@ struct ExperimentSummary {
 };
 
 ExperimentSummary summarize(const Experiment& experiment, const ResultTable& table);
+
+/// Returns the value of an expression over metrics, such as "goals - goals_against", for every run
+/// of a condition, in the order of its runs. NaN where a metric has no value. Error NotFound for an
+/// unknown metric.
+Result<std::vector<double>> valuesOf(std::string_view expression, const ResultTable& table,
+                                     std::size_t condition);
 
 /// Returns the metrics worth showing: some run has a value, and not all values are 0.
 std::vector<std::size_t> tellingMetrics(const ExperimentSummary& summary);
