@@ -54,7 +54,16 @@ struct PlayOptions {
   double look = 5.0;  ///< s: LookX and LookY are the ball's then, or where the rollout ended before
   /// After a goal the ball lies on the centre mark, outside 1 m inside, and the game goes on.
   bool goOn = false;
+  double traceEvery = 1.0;  ///< s between two points of a trace
 };
+
+/// A moment of one rollout.
+struct TracePoint {
+  Point ball;
+  int goalsLeft = 0, goalsRight = 0;  ///< since the beginning, as Column::GoalsLeft
+};
+/// Points that a rollout has in a trace: its beginning, and then one every `traceEvery` seconds.
+std::size_t tracePoints(const PlayOptions& options);
 
 struct RolloutsOptions {
   int threads = 1;
@@ -79,11 +88,12 @@ class Rollouts {
   /// Plays one rollout for each seed into `out`, a row of columnCount for each. The same seed is
   /// the same noise, whatever the belief. Fails before it plays, on a belief of other players or
   /// with numbers that are not finite, and when `out` has another size. `cancelled` is looked at
-  /// between tiles; rows that were not played are NaN. With one thread it allocates nothing after
-  /// the first call.
+  /// between tiles; rows that were not played are NaN. `trace` is empty or has tracePoints() for
+  /// each seed; a rollout that ends early repeats its last point. With one thread it allocates
+  /// nothing after the first call.
   Result<void> play(const Belief& belief, std::span<const std::uint64_t> seeds,
                     const PlayOptions& options, std::span<double> out,
-                    const std::atomic<bool>* cancelled = nullptr);
+                    const std::atomic<bool>* cancelled = nullptr, std::span<TracePoint> trace = {});
 
  private:
   struct Parts;
