@@ -33,6 +33,7 @@ void addExperimentCommand(CLI::App& parent, int& exitCode);
 void addTournamentCommand(CLI::App& parent, int& exitCode);
 void addTestCommand(CLI::App& parent, int& exitCode);
 void addCalibrateCommand(CLI::App& parent, int& exitCode);
+void addExploreCommand(CLI::App& parent, int& exitCode);
 
 using shared::addGroup;
 using shared::reportError;
