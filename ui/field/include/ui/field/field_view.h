@@ -14,6 +14,7 @@
 #include <base/robot_key.h>
 #include <ui/field/field_layers.h>
 #include <ui/sources/field_pictures.h>
+#include <ui/sources/forecast.h>
 #include <ui/sources/match_controller.h>
 
 class QAction;
@@ -45,6 +46,8 @@ class FieldView : public QWidget, public FieldPictures {
   void showOther(const FramePtr& frame);
   /// A moment of another session, drawn over this one; null: none.
   void showCompared(const FramePtr& frame);
+  /// What may follow a moment, drawn in the layer Exploration; null: nothing.
+  void showForecast(const ForecastPtr& forecast);
 
   std::vector<RobotKey> selection() const;
   void select(const std::vector<RobotKey>& ids);
