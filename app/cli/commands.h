@@ -34,6 +34,7 @@ void addTournamentCommand(CLI::App& parent, int& exitCode);
 void addTestCommand(CLI::App& parent, int& exitCode);
 void addLearnCommand(CLI::App& parent, int& exitCode);
 void addCalibrateCommand(CLI::App& parent, int& exitCode);
+void addExploreCommand(CLI::App& parent, int& exitCode);
 
 using shared::addGroup;
 using shared::reportError;

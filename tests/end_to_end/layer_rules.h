@@ -33,11 +33,11 @@ inline QStringList all(const QString& library) {
       {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session"}},
       {"robotlink",
        {"blackboard", "processes", "models", "cognition", "rollout", "advisor", "scenario", "frame",
-        "match", "live", "session", "report", "experiment", "learn", "calibrate", "conformance",
-        "capi"}},
+        "match", "live", "session", "report", "experiment", "learn", "calibrate", "conformance", "capi",
+        "explore"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
-        "noise", "processes", "log", "referee", "experiments", "window"}}};
+        "noise", "processes", "log", "referee", "experiments", "explore", "window"}}};
   QStringList folders;
   for (const QString& module : modules.value(library)) folders << library + '/' + module;
   return folders;
@@ -109,6 +109,9 @@ inline const QList<Module>& table() {
         {"robotlink/capi",
          {base, world, simulation, board, processes, models, cognition, rollout, scenario, match},
          {"nlohmann/"}},
+        {"robotlink/explore",
+         {base, world, cognition, models, rollout, scenario, frame, session, "robotlink/capi"},
+         {}},
         // What more than one program needs of its command line.
         {"app/shared", {base, models, scenario, match}, {"CLI/"}},
         // A robot's processes know nothing of matches, scenarios, sessions and windows.

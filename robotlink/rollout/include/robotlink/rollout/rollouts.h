@@ -58,10 +58,19 @@ struct PlayOptions {
   /// If true, a goal or a ball that is out does not end a rollout: the ball is put on the centre
   /// mark or 1 m inside the line.
   bool goOn = false;
-  /// What its advisor suggests to one player, all the time.
+  /// The advisor's suggestion to one player, all the time.
   link::Advice advice{};
   std::size_t advised = 0;  ///< that player
+  double traceEvery = 1.0;  ///< s between two points of a trace
 };
+
+/// A moment of one rollout.
+struct TracePoint {
+  Point ball;
+  int goalsLeft = 0, goalsRight = 0;  ///< since the beginning, as Column::GoalsLeft
+};
+/// Points that a rollout has in a trace: its beginning, and then one every `traceEvery` seconds.
+std::size_t tracePoints(const PlayOptions& options);
 
 struct RolloutsOptions {
   int threads = 1;
@@ -86,11 +95,12 @@ class Rollouts {
   /// Plays a rollout for each seed and writes a row of columnCount numbers for each to `out`. Equal
   /// seeds have equal noise, whatever the belief. Fails before playing if the belief does not match
   /// the players, contains a number that is not finite, or `out` has the wrong size. `cancelled` is
-  /// checked between tiles; rows that were not played are NaN. With one thread, it allocates
+  /// checked between tiles; rows that were not played are NaN. `trace` is empty or has tracePoints()
+  /// for each seed; a rollout that ends early repeats its last point. With one thread, it allocates
   /// nothing after the first call.
   Result<void> play(const Belief& belief, std::span<const std::uint64_t> seeds,
                     const PlayOptions& options, std::span<double> out,
-                    const std::atomic<bool>* cancelled = nullptr);
+                    const std::atomic<bool>* cancelled = nullptr, std::span<TracePoint> trace = {});
 
  private:
   struct Parts;

@@ -16,6 +16,9 @@ struct Share {
   double value = 0.0, low = 0.0, high = 1.0;
 };
 
+/// Of `hits` in `count` trials.
+Share shareOf(double hits, double count);
+
 struct Summary {
   std::size_t rollouts = 0;
   Share goalLeft, goalRight;    ///< rollouts in which the team on this side scored

@@ -23,6 +23,7 @@ enum class FieldLayer {
   StarVars,
   Particles,
   PlannedPath,
+  Exploration,
   Drawings
 };
 
@@ -46,6 +47,7 @@ inline constexpr std::array fieldLayers{
     FieldLayerInfo{FieldLayer::StarVars, "starVars", "StarVars sectors", false},
     FieldLayerInfo{FieldLayer::Particles, "particles", "Particles of localization", false},
     FieldLayerInfo{FieldLayer::PlannedPath, "plannedPath", "Planned path", false},
+    FieldLayerInfo{FieldLayer::Exploration, "exploration", "Exploration", true},
     FieldLayerInfo{FieldLayer::Drawings, "drawings", "Drawings", true},
 };
 inline constexpr std::size_t fieldLayerCount = fieldLayers.size();

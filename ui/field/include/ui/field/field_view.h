@@ -13,6 +13,7 @@
 #include <base/robot_key.h>
 #include <ui/field/field_layers.h>
 #include <ui/sources/field_pictures.h>
+#include <ui/sources/forecast.h>
 #include <ui/sources/match_controller.h>
 
 class QAction;
@@ -44,6 +45,8 @@ class FieldView : public QWidget, public FieldPictures {
   void showOther(const FramePtr& frame);
   /// Draws a moment of another session on top; null: none.
   void showCompared(const FramePtr& frame);
+  /// What may follow a moment, drawn in the layer Exploration; null: nothing.
+  void showForecast(const ForecastPtr& forecast);
 
   std::vector<RobotKey> selection() const;
   void select(const std::vector<RobotKey>& ids);

@@ -26,6 +26,7 @@ class AbandonedFuture;
 class Alarms;
 class AttachedBoards;
 class ComparedSession;
+class Explorer;
 class FieldOnly;
 class FieldView;
 class KeyMap;
@@ -147,6 +148,7 @@ class MainWindow : public QMainWindow {
   StudioStatusBar* m_status;
   ScenarioFiles* m_files;
   SituationTests* m_tests;
+  Explorer* m_explorer;
   PlotsDock* m_plotsDock = nullptr;
   FieldOnly* m_fieldOnly;
   Alarms* m_alarms;
