@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What an advisor suggests to the decision process of its robot, and where that stands on the
-// blackboard (ADVISOR_*, docs/advisor.md). Metres and radians, the studio's frame; centimetres and
-// degrees of the LOCALIZATION frame on the blackboard. Plain values; any thread, one at a time.
+// The suggestion of an advisor to the decision process of its robot, and the variables that hold it
+// on the blackboard (ADVISOR_*, docs/advisor.md). Metres and radians in the studio's frame; on the
+// blackboard centimetres and degrees in the frame of LOCALIZATION_*. Plain values; one thread at a
+// time.
 
 #include <array>
 #include <cstddef>
@@ -14,7 +15,7 @@
 
 namespace pitchboard::link {
 
-/// ADVISOR_CHOICE; its labels are in resources/variables.json.
+/// The values of ADVISOR_CHOICE, described in resources/variables.json.
 enum class AdviceKind : int {
   None = 0,        ///< the behaviour decides
   StrongKick = 1,  ///< to `place`
@@ -34,19 +35,19 @@ struct Advice {
   bool operator==(const Advice&) const = default;
 };
 
-/// A place where the ball is to go.
+/// Returns whether `Advice::place` is a target for the ball.
 constexpr bool isForBall(AdviceKind kind) {
   return kind == AdviceKind::StrongKick || kind == AdviceKind::WeakKick ||
          kind == AdviceKind::Dribble;
 }
 
-/// ADVISOR_STATE; its labels are in resources/variables.json.
+/// The values of ADVISOR_STATE, described in resources/variables.json.
 enum class AdvisorState : int { Off = 0, NothingToDecide = 1, Thinks = 2, KnowsTooLittle = 3 };
 
 inline constexpr std::size_t mostCandidates = 6;
 inline constexpr int heatColumns = 16, heatRows = 10, heatWords = 20;
 
-/// The variables of an advisor; of a map without them the index is -1.
+/// The variables of an advisor. Their index is -1 if the map does not contain them.
 struct AdvisorVariables {
   explicit AdvisorVariables(const VariableCatalog& catalog = VariableCatalog::extended());
 
@@ -56,10 +57,10 @@ struct AdvisorVariables {
   std::array<FloatVar, mostCandidates> candidateValue;
   std::array<IntVar, heatWords> heat;
 
-  /// What is suggested now; AdviceKind::None when the numbers make no sense.
+  /// Reads the current advice; AdviceKind::None if the numbers are not valid.
   Advice read(const Blackboard& board, const sim::FieldSpec& field) const;
   void write(Blackboard& board, const sim::FieldSpec& field, const Advice& advice) const;
-  /// As ADVISOR_CANDIDATEn holds it.
+  /// Returns the advice as a value of ADVISOR_CANDIDATEn.
   static int packed(const sim::FieldSpec& field, const Advice& advice);
 };
 

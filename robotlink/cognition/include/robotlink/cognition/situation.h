@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a robot's blackboard says of the game, as its decision process understands it, for processes
-// beside it. Turned so that the robot's team attacks towards +x; metres, radians, seconds. One
-// thread at a time.
+// The game as a robot's decision process understands it, read from the robot's blackboard by other
+// processes. Coordinates are turned so that the robot's team attacks towards +x; metres, radians,
+// seconds. One thread at a time.
 
 #include <memory>
 #include <optional>
@@ -18,7 +18,7 @@ struct Situation {
   sim::SetPlay setPlay = sim::SetPlay::None;
   bool setPlayIsOurs = false;
   int goalsOwn = 0, goalsTheirs = 0;
-  int secondsLeft = 0;  ///< of this half; 0 or less: not told
+  int secondsLeft = 0;  ///< of this half; 0 or less: unknown
 
   bool fallen = false;
   bool localized = false;
@@ -30,7 +30,7 @@ struct Situation {
   double ballAge = 1e9;  ///< s since this robot saw it
   Velocity ballVelocity;
   std::array<std::optional<TeamMate>, mostTeamMates> mates;
-  Points opponents;  ///< that decision remembers
+  Points opponents;  ///< opponents that the decision process remembers
 };
 
 class SituationReader {
@@ -42,9 +42,9 @@ class SituationReader {
   SituationReader& operator=(SituationReader&&) noexcept;
   ~SituationReader();
 
-  /// Ten times a second, with the seconds of the process's clock.
+  /// Reads the blackboard. Call it ten times a second; `now` is in seconds of the process's clock.
   const Situation& read(const Blackboard& board, double now);
-  /// To the studio's frame, whichever side the team attacks.
+  /// Converts a turned pose to the studio's frame.
   Pose toStudio(const Pose& turned) const;
   bool attacksLeft() const;
 

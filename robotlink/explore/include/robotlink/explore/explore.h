@@ -2,7 +2,7 @@
 #pragma once
 
 // Explores what may follow a moment: plays rounds of rollouts from it and summarizes where the ball
-// goes, how likely goals are, and what a chosen robot had best do. The alternatives of that robot
+// goes, how likely goals are, and which action of a chosen robot is best. The actions of that robot
 // are played with the same seeds (common random numbers), so that small differences show. Metres,
 // seconds, the studio's frame. Runs on the calling thread and blocks it until done or cancelled.
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a robot's advisor thinks, as it is shown: read from the ADVISOR_ variables of its
-// blackboard, whatever the source. Plain values in metres and seconds, in the studio's frame; any
-// thread.
+// What the screen shows of a robot's advisor, read from the ADVISOR_ variables of its blackboard,
+// for every source. Plain values in metres and seconds, in the studio's frame; any thread.
 
 #include <cstdint>
 #include <memory>

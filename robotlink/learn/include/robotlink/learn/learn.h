@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Learns: plays generation after generation of candidates, lets the last means and the best points
-// play for the choice, and the one that is chosen against the opponents of the validation, once.
-// All of it is in a folder, from which an interrupted learning continues; several programs may
-// share the work in one folder. What is learned depends on the file only: not on threads, shards
-// or interruptions. One thread, which starts those that play.
+// Learns the parameters of a team. It plays generations of candidates, then chooses between the
+// last means and the best points in further matches, and at last plays the chosen team once against
+// the opponents of the validation. Everything is kept in a folder, in which an interrupted learning
+// continues; several programs may share the work in one folder. The result depends only on the
+// file, not on threads, shards or interruptions. Call it on one thread; it starts the threads that
+// play.
 
 #include <cstddef>
 #include <functional>
@@ -21,15 +22,15 @@
 namespace pitchboard::link {
 
 struct LearnSettings {
-  /// learn.json (the file with its scenario inside), journal.jsonl (a line for each generation),
-  /// a folder of results for each generation, round of the choice and the validation; at the end
-  /// curve.csv, best.json, report.html and junit.xml.
+  /// Contains learn.json (the file with its scenario included), journal.jsonl (a line for each
+  /// generation), and a folder of results for each generation, each round of the choice and the
+  /// validation; at the end also curve.csv, best.json, report.html and junit.xml.
   std::string folder;
   std::size_t shard = 1, shards = 1, jobs = 1;
   bool resume = false;
   PlaySettings play{};
   std::string program{};  ///< name and version, for files
-  /// How far it is, for people: "generation 3 of 60: 417 of 640 matches". Empty: tell nobody.
+  /// Called with the progress, such as "generation 3 of 60: 417 of 640 matches"; may be empty.
   std::function<void(const std::string&)> progress{};
 };
 
@@ -45,13 +46,14 @@ struct LearnedTeam {
   ExperimentSummary summary;  ///< of the validation
 };
 
-/// Error Conflict for a folder of another learning, for one that is not resumed, and when it was
-/// interrupted. All shards return the same; the first one writes the files.
+/// Error Conflict if the folder belongs to another learning, if it is not empty without `resume`,
+/// or if the learning was interrupted. All shards return the same result; the first one writes the
+/// files.
 Result<LearnedTeam> learn(const Learning& learning, const LearnSettings& settings);
 
-/// The text of best.json: what loadBehaviourParameters() reads.
+/// Returns the text of best.json, which loadBehaviourParameters() reads.
 std::string bestJson(const Learning& learning, const LearnedTeam& team, const std::string& program);
-/// A line for each generation.
+/// Returns curve.csv, with a line for each generation.
 std::string curveCsv(const Learning& learning, const LearnedTeam& team);
 std::string learnReportHtml(const Learning& learning, const LearnedTeam& team,
                             const std::string& program);
