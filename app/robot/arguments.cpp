@@ -160,6 +160,11 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->capture_default_str()
       ->check(checkBehaviour);
   command
+      .add_option("--parameters", a.parameters,
+                  "Numbers of the behaviour that --behaviour does not name, such as best.json of "
+                  "`pitchboard-cli learn`")
+      ->type_name("FILE");
+  command
       .add_option("--distance-to-kick", a.distanceToKick,
                   "The naive behaviour's distance_to_kick: 25 in simulation, 40 on a robot")
       ->type_name("CM");
@@ -253,7 +258,9 @@ Result<link::IniFile> settle(CLI::App& command, Arguments& a) {
                                         ? link::loadRobotModel(a.model)
                                         : link::robotModelFromText(a.model, "--robot-model"));
   a.process.model = model;
-  const auto behaviour = TRY(link::behaviourFromText(a.behaviour, "--behaviour"));
+  link::BehaviourParameters usual;
+  if (!a.parameters.empty()) usual = TRY(link::loadBehaviourParameters(a.parameters));
+  const auto behaviour = TRY(link::behaviourFromText(a.behaviour, "--behaviour", usual));
   a.process.behaviour = behaviour.name;
   a.process.parameters = behaviour.parameters;
   if (a.distanceToKick) a.process.parameters.distanceToKick = *a.distanceToKick;

@@ -24,6 +24,7 @@ struct Arguments {
   // Instead of the match's.
   std::optional<int> telemetryPortBase, teamPortBase, refereePort;
   std::string behaviour = "striker", field = "published", model = "published", attack;
+  std::string parameters;                // a file
   std::optional<double> distanceToKick;  // instead of the behaviour's
   double telemetryRate = 1.0;            // Hz
   std::optional<int> cognitionDebugPort;

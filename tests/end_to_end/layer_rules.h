@@ -33,10 +33,11 @@ inline QStringList all(const QString& library) {
       {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session"}},
       {"robotlink",
        {"blackboard", "processes", "models", "cognition", "rollout", "advisor", "scenario", "frame",
-        "match", "live", "session", "report", "experiment", "calibrate", "conformance", "capi"}},
+        "match", "live", "session", "report", "experiment", "learn", "calibrate", "conformance", "capi",
+        "explore"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
-        "noise", "processes", "log", "referee", "experiments", "window"}}};
+        "noise", "processes", "log", "referee", "experiments", "explore", "window"}}};
   QStringList folders;
   for (const QString& module : modules.value(library)) folders << library + '/' + module;
   return folders;
@@ -95,6 +96,10 @@ inline const QList<Module>& table() {
          below + QStringList{board, processes, models, cognition, scenario, frame, match, session,
                              "robotlink/report", "resources"},
          {"boost/", "nlohmann/"}},
+        // The only one with pagmo.
+        {"robotlink/learn",
+         {base, models, cognition, scenario, "robotlink/experiment", "robotlink/report"},
+         {"nlohmann/", "pagmo/"}},
         {"robotlink/calibrate",
          below + QStringList{board, models, frame, live, session, "robotlink/report"},
          {"Eigen/", "boost/", "nlohmann/"}},
@@ -104,6 +109,9 @@ inline const QList<Module>& table() {
         {"robotlink/capi",
          {base, world, simulation, board, processes, models, cognition, rollout, scenario, match},
          {"nlohmann/"}},
+        {"robotlink/explore",
+         {base, world, cognition, models, rollout, scenario, frame, session, "robotlink/capi"},
+         {}},
         // What more than one program needs of its command line.
         {"app/shared", {base, models, scenario, match}, {"CLI/"}},
         // A robot's processes know nothing of matches, scenarios, sessions and windows.
@@ -259,6 +267,7 @@ inline QString headerOfPackage(const QString& target) {
                                                {"PkgConfig::muparser", "muParser.h"},
                                                {"Boost::headers", "boost/"},
                                                {"CLI11::CLI11", "CLI/"},
+                                               {"Pagmo::pagmo", "pagmo/"},
                                                {"Threads::Threads", {}}};
   if (target.startsWith("Qt6::")) return "Q";
   return headers.value(target, target);

@@ -98,7 +98,7 @@ class TestDocuments : public QObject {
     row("experiment", "experiments.md", namesOf(builtInExperiments(), itsName));
     row("situation test", "experiments.md", namesOf(builtInSituations(), itsName));
     row("metric", "experiments.md", namesOf(teamMetrics(), itsName));
-    row("request", "learning.md", namesOf(WorldLines::requests(), itself));
+    row("request", "worlds.md", namesOf(WorldLines::requests(), itself));
     row("profile of messages", "live.md", namesOf(telemetry::builtInProfiles(), itself));
     row("format of messages", "live.md", formats());
     row("meaning of a field", "live.md", meanings());

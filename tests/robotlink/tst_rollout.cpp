@@ -135,6 +135,32 @@ class TestRollout : public QObject {
     QCOMPARE(row[Column::Time], row[Column::TimeToGoal]);
   }
 
+  /// A point every half second, the same as those of a look; a rollout that has ended stays there.
+  void tracesShowTheBallOnItsWay() {
+    const Setup setup = setupOf({player(Side::Left, "idle")});
+    Belief belief;
+    belief.robots = {at(-3, 2, 0)};
+    belief.ball = ballAt(3.0, 0.2, {3, 0});
+    auto rollouts = Rollouts::create(setup).value();
+    PlayOptions options{.seconds = 5.0};
+    options.traceEvery = 0.5;
+    QCOMPARE(tracePoints(options), std::size_t{11});
+    std::vector<double> out(2 * columnCount);
+    std::vector<TracePoint> trace(2 * tracePoints(options));
+    QVERIFY(rollouts.play(belief, seedsFrom(1, 2), options, out, nullptr, trace));
+    QCOMPARE(trace[0].ball, (Point{3.0, 0.2}));
+    QCOMPARE(trace[0].goalsLeft, 0);
+    QVERIFY(trace[1].ball.x > 3.5 && trace[1].ball.x < 4.5);
+    QCOMPARE(trace[10].goalsLeft, 1);
+    QCOMPARE(trace[10].ball.x, out[static_cast<std::size_t>(Column::BallX)]);
+    QCOMPARE(trace[11].ball, trace[0].ball);  // the next rollout
+    options.look = 0.5;
+    const Row look = playOne(setup, belief, options);
+    QCOMPARE(look[Column::LookX], trace[1].ball.x);
+    trace.pop_back();
+    QVERIFY(!rollouts.play(belief, seedsFrom(1, 2), options, out, nullptr, trace));
+  }
+
   void goalsOutAndPosts() {
     const Setup setup = setupOf({player(Side::Left, "idle")});
     Belief belief;

@@ -193,7 +193,15 @@ void TestTournament::aFolderDoesNotShowHowItWasFilled() {
   QVERIFY(bytesIn(in("resumed")) == whole);
   QVERIFY(bytesIn(in("merged")) == whole);
   QVERIFY(whole.at("table.csv").find("\nwalks,4,") != std::string::npos);
-  QVERIFY(whole.at("runs.csv").find(",stands,walks,") != std::string::npos);
+  // On both sides the values are those of the first of the pairing, here the one that walks.
+  QVERIFY(whole.at("runs.csv").find(",stands,walks,") == std::string::npos);
+  const ResultTable table = resultsOf(in("whole"), e).value();
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::vector<double> walked = valuesOf("walked_m", table, side).value();
+    QVERIFY(std::ranges::all_of(walked, [](double metres) { return metres > 0.0; }));
+  }
+  QCOMPARE(valuesOf("2 * time_s + kicks - kicks", table, 1).value(), (std::vector<double>{4, 4}));
+  QVERIFY(!valuesOf("walked", table, 0));
   QVERIFY(whole.at("report.md").find("| walks | 4 |") != std::string::npos);
   QVERIFY(whole.at("junit.xml").find("low95(goal_difference)") != std::string::npos);
   QVERIFY(whole.at("junit.xml").find("failures=\"1\"") != std::string::npos);

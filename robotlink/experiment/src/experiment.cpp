@@ -73,6 +73,7 @@ bool makeConditions(Experiment& e, const ConditionParts& parts, JsonReport& repo
   for (const auto& one : named) {
     for (std::size_t combination = 0; combination < combinations; ++combination) {
       Condition condition{one.name, parts.common, {}, {}, e.placed};
+      condition.team = one.team.value_or(e.team);
       condition.placed.insert(condition.placed.end(), one.placed.begin(), one.placed.end());
       std::ranges::stable_sort(condition.placed,
                                [](const auto& a, const auto& b) { return a.time < b.time; });

@@ -11,7 +11,7 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr std::size_t mostTeams = 32, mostPairings = 500, mostTeamAssertions = 1000;
+constexpr std::size_t mostTeams = 128, mostPairings = 4000, mostTeamAssertions = 1000;
 constexpr std::size_t longestRuntimeText = 4096, longestTournamentTeam = 64;
 constexpr int mostMatches = 1'000'000;
 

@@ -108,7 +108,8 @@ Result<RolloutWorld> RolloutWorld::create(std::shared_ptr<const RolloutConstants
 
 // The beginning.
 
-void RolloutWorld::begin(const Belief& belief, std::uint64_t seed, const PlayOptions& options) {
+void RolloutWorld::begin(const Belief& belief, std::uint64_t seed, const PlayOptions& options,
+                         std::span<TracePoint> trace) {
   m_seed = seed;
   m_tick = m_cycle = 0;
   m_goOn = options.goOn;
@@ -129,6 +130,10 @@ void RolloutWorld::begin(const Belief& belief, std::uint64_t seed, const PlayOpt
   }
   sample(belief);
   m_setPlayBall = m_ball;
+  m_trace = trace;
+  m_traced = 0;
+  m_traceTicks = options.traceEvery / m_constants->dt;
+  traceUntil(1);
   remindOf(belief);
   for (std::size_t ago = 0; ago < m_constants->moments; ++ago) {
     m_tick = ago;
@@ -463,6 +468,11 @@ void RolloutWorld::tick() {
   ++m_tick;
   judge(before);
   remember();
+  if (m_traced < m_trace.size()) {
+    constexpr double rounding = 1e-6;  // ticks
+    traceUntil(static_cast<std::size_t>((static_cast<double>(m_tick) + rounding) / m_traceTicks) +
+               1);
+  }
 }
 
 void RolloutWorld::select(Body& body, int code, int b, bool inMotion) const {
@@ -780,6 +790,12 @@ void RolloutWorld::judge(const Point& before) {
   m_over = true;
 }
 
+void RolloutWorld::traceUntil(std::size_t points) {
+  for (; m_traced < std::min(points, m_trace.size()); ++m_traced) {
+    m_trace[m_traced] = {m_ball, m_goalsLeft, m_goalsRight};
+  }
+}
+
 void RolloutWorld::restart(const Point& ball) {
   m_ball = ball;
   m_ballVelocity = {};
@@ -836,7 +852,8 @@ Point RolloutWorld::ballRests() const {
           std::clamp(m_ball.y + way * m_ballVelocity.y, -y, y)};
 }
 
-void RolloutWorld::write(std::span<double> row) const {
+void RolloutWorld::write(std::span<double> row) {
+  traceUntil(m_trace.size());
   const auto put = [row](Column column, double value) {
     row[static_cast<std::size_t>(column)] = value;
   };

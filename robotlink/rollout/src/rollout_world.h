@@ -47,10 +47,12 @@ class RolloutWorld {
  public:
   static Result<RolloutWorld> create(std::shared_ptr<const RolloutConstants> constants);
 
-  void begin(const Belief& belief, std::uint64_t seed, const PlayOptions& options);
+  /// `trace` is empty or outlives the rollout; write() fills what is left of it.
+  void begin(const Belief& belief, std::uint64_t seed, const PlayOptions& options,
+             std::span<TracePoint> trace);
   /// False when the rollout has ended.
   bool cycle();
-  void write(std::span<double> row) const;
+  void write(std::span<double> row);
 
  private:
   static constexpr std::size_t most = Rollouts::mostPlayers;
@@ -118,6 +120,7 @@ class RolloutWorld {
               Velocity& velocity);
   void judge(const Point& before);
   void restart(const Point& ball);
+  void traceUntil(std::size_t points);
   void remember();
   const Point& ballAt(std::size_t ticksAgo) const;
   const Seen& bodyAt(std::size_t ticksAgo, std::size_t i) const;
@@ -150,6 +153,9 @@ class RolloutWorld {
   double m_timeToGoal = 0.0;
   Point m_look;
   bool m_looked = false;
+  std::span<TracePoint> m_trace;
+  std::size_t m_traced = 0;  // points that are there
+  double m_traceTicks = 1.0;
 };
 
 }  // namespace pitchboard::rollout

@@ -89,6 +89,11 @@ std::span<const ColumnInfo, columnCount> columns() {
   return columnInfos;
 }
 
+std::size_t tracePoints(const PlayOptions& options) {
+  constexpr double rounding = 1e-9;  // s
+  return static_cast<std::size_t>((options.seconds + rounding) / options.traceEvery) + 1;
+}
+
 struct Rollouts::Parts {
   RolloutsOptions options;
   std::shared_ptr<const RolloutConstants> constants;
@@ -125,7 +130,7 @@ std::size_t Rollouts::players() const {
 
 Result<void> Rollouts::play(const Belief& belief, std::span<const std::uint64_t> seeds,
                             const PlayOptions& options, std::span<double> out,
-                            const std::atomic<bool>* cancelled) {
+                            const std::atomic<bool>* cancelled, std::span<TracePoint> trace) {
   TRY(check(belief, players()));
   if (!(options.seconds > 0.0 && options.seconds <= longest)) {
     return refuse("A rollout takes more than 0 and at most 600 s.", "seconds");
@@ -135,6 +140,17 @@ Result<void> Rollouts::play(const Belief& belief, std::span<const std::uint64_t>
     return refuse(
         "There must be room for " + std::to_string(columnCount) + " numbers for each seed.",
         "outcomes");
+  }
+  std::size_t points = 0;
+  if (!trace.empty()) {
+    if (!(options.traceEvery >= 0.01 && options.traceEvery <= longest)) {
+      return refuse("Points of a trace are 0.01 to 600 s apart.", "trace_every");
+    }
+    points = tracePoints(options);
+    if (trace.size() != seeds.size() * points) {
+      return refuse("There must be room for " + std::to_string(points) + " points for each seed.",
+                    "trace");
+    }
   }
   std::ranges::fill(out, std::numeric_limits<double>::quiet_NaN());
 
@@ -147,7 +163,8 @@ Result<void> Rollouts::play(const Belief& belief, std::span<const std::uint64_t>
       if (first >= seeds.size()) return;
       const std::size_t count = std::min(tile, seeds.size() - first);
       for (std::size_t i = 0; i < count; ++i) {
-        worlds[i].begin(belief, seeds[first + i], options);
+        worlds[i].begin(belief, seeds[first + i], options,
+                        trace.subspan((first + i) * points, points));
       }
       for (bool any = true; any;) {
         any = false;

@@ -12,15 +12,6 @@ double cell(std::span<const double> row, Column column) {
   return row[static_cast<std::size_t>(column)];
 }
 
-Share shareOf(double hits, double n) {
-  constexpr double z = 1.959963984540054;
-  if (n <= 0.0) return {};
-  const double p = hits / n, scale = 1.0 + z * z / n;
-  const double middle = (p + z * z / (2.0 * n)) / scale;
-  const double half = z / scale * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
-  return {p, std::max(0.0, middle - half), std::min(1.0, middle + half)};
-}
-
 template <class Use>
 void forEachRow(std::span<const double> outcomes, const Use& use) {
   for (std::size_t at = 0; at + columnCount <= outcomes.size(); at += columnCount) {
@@ -30,6 +21,15 @@ void forEachRow(std::span<const double> outcomes, const Use& use) {
 }
 
 }  // namespace
+
+Share shareOf(double hits, double count) {
+  constexpr double z = 1.959963984540054;
+  if (count <= 0.0) return {};
+  const double p = hits / count, scale = 1.0 + z * z / count;
+  const double middle = (p + z * z / (2.0 * count)) / scale;
+  const double half = z / scale * std::sqrt(p * (1.0 - p) / count + z * z / (4.0 * count * count));
+  return {p, std::max(0.0, middle - half), std::min(1.0, middle + half)};
+}
 
 Summary summaryOf(std::span<const double> outcomes) {
   Summary out;

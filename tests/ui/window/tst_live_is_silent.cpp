@@ -12,6 +12,7 @@
 #include <atomic>
 #include <mutex>
 
+#include <ui/explore/explorer.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/window/main_window.h>
@@ -130,6 +131,10 @@ class TestLiveIsSilent : public QObject {
       for (QAction* action : s.window.findChildren<QAction*>()) {
         if (action->text().contains(QStringLiteral("Overlay"))) action->trigger();
       }
+      auto* explorer = s.window.findChild<Explorer*>();
+      explorer->setRobot(live->frame()->robots.front().key);
+      explorer->start();
+      QTRY_VERIFY_WITH_TIMEOUT(explorer->found() && explorer->found()->result.rollouts > 0, 60'000);
       s.window.grab();
       live->clear();
       s.window.showSource(SourceKind::Simulate);

@@ -6,8 +6,10 @@
 #include <limits>
 
 #include <ui/base/robot_words.h>
+#include <ui/base/theme.h>
 #include <ui/sources/pose_difference.h>
 
+#include "advice_items.h"
 #include "ball_item.h"
 #include "belief_item.h"
 #include "compared_item.h"
@@ -26,6 +28,7 @@ namespace {
 
 // From the ground up.
 enum Height {
+  heatHeight,
   wedgeHeight,
   sectorHeight,
   trailHeight,
@@ -35,11 +38,17 @@ enum Height {
   ballHeight,
   robotHeight,
   drawingHeight,
+  adviceHeight,
   nameHeight,
   toolHeight
 };
 
 constexpr double hitMargin_px = 3.0;
+
+/// Stands out from the grass of both themes, and is no team's.
+QColor explorationColor() {
+  return {255, 214, 64};
+}
 
 }  // namespace
 
@@ -77,6 +86,8 @@ FieldScene::FieldScene(QObject* parent)
       m_teamBalls(new TeamBallsItem(&m_style)),
       m_drawings(std::make_unique<DrawingItems>(this, &m_style, drawingHeight)),
       m_compared(new ComparedItem(&m_style)),
+      m_heat(new HeatItem(&m_style)),
+      m_actions(new ActionArrowsItem(&m_style)),
       m_eopra(new SectorItem(&m_style, SectorItem::Kind::Eopra)),
       m_starVars(new SectorItem(&m_style, SectorItem::Kind::StarVars)),
       m_names(new NameLabelsItem(&m_style)),
@@ -85,9 +96,10 @@ FieldScene::FieldScene(QObject* parent)
   // Everything moves all the time: an index would cost more than it saves.
   setItemIndexMethod(QGraphicsScene::NoIndex);
   const std::pair<QGraphicsItem*, Height> items[] = {
-      {m_ball, ballHeight},    {m_teamBalls, ballHeight},  {m_compared, beliefHeight},
-      {m_eopra, sectorHeight}, {m_starVars, sectorHeight}, {m_names, nameHeight},
-      {m_ruler, toolHeight},   {m_band, toolHeight}};
+      {m_ball, ballHeight},       {m_teamBalls, ballHeight}, {m_compared, beliefHeight},
+      {m_heat, heatHeight},       {m_actions, adviceHeight}, {m_eopra, sectorHeight},
+      {m_starVars, sectorHeight}, {m_names, nameHeight},     {m_ruler, toolHeight},
+      {m_band, toolHeight}};
   for (const auto& [item, height] : items) {
     item->setZValue(height);
     item->setVisible(false);
@@ -102,6 +114,7 @@ void FieldScene::styleChanged() {
     if (auto* shown = dynamic_cast<FieldItem*>(item)) shown->styleChanges();
   }
   if (m_frame) showFrame(m_frame);
+  showForecastItems();
   update();
 }
 
@@ -238,6 +251,29 @@ void FieldScene::showOther(const FramePtr& frame) {
 
 void FieldScene::showCompared(const FramePtr& frame) {
   m_compared->setFrame(frame);
+}
+
+void FieldScene::showForecast(const ForecastPtr& forecast) {
+  m_forecast = forecast;
+  showForecastItems();
+}
+
+void FieldScene::showForecastItems() {
+  const bool shown = m_forecast && m_style.shows(FieldLayer::Exploration);
+  m_heat->setVisible(shown && m_forecast->heat);
+  m_heat->setHeat(m_forecast ? m_forecast->heat : nullptr, explorationColor());
+  std::vector<DrawnAction> actions;
+  if (shown && m_forecast->best) {
+    const ForecastAction& best = *m_forecast->best;
+    DrawnAction& drawn = actions.emplace_back();
+    drawn.from = toScene(best.from);
+    if (best.to) drawn.to = toScene(*best.to);
+    drawn.text = best.text;
+    drawn.color = theme().accentLine;
+    drawn.dashed = !best.isClear;
+  }
+  m_actions->setVisible(!actions.empty());
+  m_actions->setActions(std::move(actions));
 }
 
 void FieldScene::showOtherPose(Robot& robot, const link::RobotFrame& now) {

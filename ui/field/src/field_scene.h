@@ -11,16 +11,19 @@
 #include <set>
 #include <vector>
 
+#include <ui/sources/forecast.h>
 #include <ui/sources/frame_source.h>
 
 #include "field_style.h"
 
 namespace pitchboard::ui {
 
+class ActionArrowsItem;
 class BallItem;
 class BeliefItem;
 class ComparedItem;
 class DrawingItems;
+class HeatItem;
 class NameLabelsItem;
 class OtherPoseItem;
 class RobotItem;
@@ -60,6 +63,8 @@ class FieldScene : public QGraphicsScene {
   void showOther(const FramePtr& frame);
   /// A moment of another session, drawn over this one; null: none.
   void showCompared(const FramePtr& frame);
+  /// What may follow a moment; null: nothing.
+  void showForecast(const ForecastPtr& forecast);
 
   const std::vector<RobotKey>& selection() const { return m_selection; }
   /// Those of the selection in a simulated match, for orders.
@@ -99,6 +104,7 @@ class FieldScene : public QGraphicsScene {
   void showOtherPose(Robot& robot, const link::RobotFrame& now);
   void showNames();
   void showDebugOverlay();
+  void showForecastItems();
   void showSelected();
   void setSelection(std::vector<RobotKey> ids);
 
@@ -113,6 +119,9 @@ class FieldScene : public QGraphicsScene {
   TeamBallsItem* m_teamBalls;
   std::unique_ptr<DrawingItems> m_drawings;
   ComparedItem* m_compared;
+  HeatItem* m_heat;
+  ActionArrowsItem* m_actions;
+  ForecastPtr m_forecast;
   SectorItem* m_eopra;
   SectorItem* m_starVars;
   NameLabelsItem* m_names;

@@ -251,6 +251,9 @@ void FieldView::showOther(const FramePtr& frame) {
 void FieldView::showCompared(const FramePtr& frame) {
   d->scene->showCompared(frame);
 }
+void FieldView::showForecast(const ForecastPtr& forecast) {
+  d->scene->showForecast(forecast);
+}
 
 std::vector<RobotKey> FieldView::selection() const {
   return d->scene->selection();

@@ -2,6 +2,7 @@
 #include "dock_list.h"
 
 #include <ui/experiments/experiments_dock.h>
+#include <ui/explore/explore_dock.h>
 #include <ui/live/attach_dialog.h>
 #include <ui/live/bad_messages_dock.h>
 #include <ui/log/log_dock.h>
@@ -59,6 +60,9 @@ QWidget* badMessages(const StudioParts& s, QWidget* parent) {
 QWidget* experiments(const StudioParts& s, QWidget* parent) {
   return makeExperimentsDock({s.replay, s.compared, s.tests}, parent);
 }
+QWidget* explore(const StudioParts& s, QWidget* parent) {
+  return makeExploreDock({s.explorer, s.source, s.selection, s.timeline}, parent);
+}
 QWidget* log(const StudioParts& s, QWidget* parent) {
   return makeLogDock(s.controller, s.source, s.timeline, parent);
 }
@@ -76,6 +80,7 @@ std::span<const DockInfo> studioDocks() {
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, plots},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, processes},
       {"referee", "Referee", Qt::RightDockWidgetArea, false, referee},
+      {"explore", "Explore", Qt::RightDockWidgetArea, false, explore},
       {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, badMessages},
       {"log", "Log", Qt::BottomDockWidgetArea, true, log},
       {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, experiments, false, 300},

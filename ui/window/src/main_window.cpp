@@ -23,6 +23,7 @@
 #include <ui/base/undo_history.h>
 #include <ui/base/wheel_guard.h>
 #include <ui/experiments/situation_tests.h>
+#include <ui/explore/explorer.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/processes/orphan_notice.h>
@@ -126,6 +127,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   setStatusBar(m_status);
   m_files = new ScenarioFiles(controller, m_field, m_bar->scenarios(), this);
   m_tests = new SituationTests({m_source, controller, m_replay, settings}, this);
+  m_explorer = new Explorer({m_source, controller, m_replay}, this);
   makeDocks();
   m_plotsDock = findChild<PlotsDock*>();
   new TabCorner(qobject_cast<QDockWidget*>(m_plotsDock->parentWidget()), m_plotsDock->pageTabs(),
@@ -197,6 +199,7 @@ void MainWindow::shutDown() {
   delete m_compared;
   delete m_files;
   qDeleteAll(std::exchange(m_docks, {}));
+  delete m_explorer;
   delete m_bar;
   delete m_status;
   delete takeCentralWidget();
@@ -214,7 +217,7 @@ void MainWindow::shutDown() {
 StudioParts MainWindow::parts() const {
   return {m_controller, m_source,   m_selection,       m_field,  m_time,      m_settings,
           m_plots,      m_timeline, m_timelineActions, m_replay, m_recording, m_live,
-          m_overlay,    m_compared, m_future,          m_tests,  m_boards};
+          m_overlay,    m_compared, m_future,          m_tests,  m_boards,    m_explorer};
 }
 
 QStringList MainWindow::recentSessions() const {
@@ -385,6 +388,7 @@ void MainWindow::connectField() {
           &RobotSelection::blackboardRequested);
   connect(m_overlay, &LiveOverlay::otherReceived, m_field, &FieldView::showOther);
   connect(m_compared, &ComparedSession::momentReached, m_field, &FieldView::showCompared);
+  connect(m_explorer, &Explorer::forecastChanged, m_field, &FieldView::showForecast);
   connect(m_future, &AbandonedFuture::momentReached, m_field, [this](const FramePtr& frame) {
     if (!m_compared->isOn()) m_field->showCompared(frame);
   });

@@ -13,6 +13,7 @@
 #include <ui/base/notice_bar.h>
 #include <ui/base/undo_history.h>
 #include <ui/experiments/situation_tests.h>
+#include <ui/explore/explorer.h>
 #include <ui/field/field_view.h>
 #include <ui/live/attach_dialog.h>
 #include <ui/live/live_settings_dialog.h>
@@ -353,6 +354,19 @@ void StudioMenus::makeTimeline() {
     asItWas->setEnabled(!frame || frame->truthKnown);
     goOn->setEnabled(timeline->isLookingBack() && source->kind() == SourceKind::Simulate);
   };
+  Explorer* explorer = m_parts.explorer;
+  QAction* explore =
+      menu->addAction(QStringLiteral("E&xplore from this moment"), explorer, &Explorer::start);
+  explore->setObjectName(QStringLiteral("exploreMoment"));
+  explore->setToolTip(QStringLiteral(
+      "Shows where the ball may go, how likely a goal is, and what a robot had best do"));
+  for (QDockWidget* dock : m_context.docks) {
+    if (dock->objectName() != QLatin1String("explore")) continue;
+    QObject::connect(explore, &QAction::triggered, dock, [dock] {
+      dock->show();
+      dock->raise();
+    });
+  }
   QObject::connect(timeline, &Timeline::lookingBackChanged, goOn, refresh);
   QObject::connect(timeline, &Timeline::sourceChanged, goOn, refresh);
   QObject::connect(menu, &QMenu::aboutToShow, goOn, refresh);

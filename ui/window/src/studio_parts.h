@@ -11,6 +11,7 @@ namespace pitchboard::ui {
 class AttachedBoards;
 class AbandonedFuture;
 class ComparedSession;
+class Explorer;
 class FieldView;
 class LinkedTime;
 class LiveController;
@@ -44,6 +45,7 @@ struct StudioParts {
   AbandonedFuture* future = nullptr;    ///< what the match has left by going on from earlier
   SituationTests* tests = nullptr;      ///< moments that are saved as tests
   AttachedBoards* boards = nullptr;     ///< blackboards of this computer
+  Explorer* explorer = nullptr;         ///< what may follow the moment shown
 };
 
 }  // namespace pitchboard::ui

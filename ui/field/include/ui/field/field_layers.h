@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What can be shown or hidden on the field: the one table from which the layers menu, the settings
-// and the first look of the field are made. Constant data, safe in every thread.
+// The layers that can be shown or hidden on the field. The layers menu, the settings and the
+// defaults all use this table. Constant data; any thread.
 
 #include <array>
 #include <cstddef>
@@ -23,14 +23,15 @@ enum class FieldLayer {
   StarVars,
   Particles,
   PlannedPath,
+  Exploration,
   Drawings
 };
 
 struct FieldLayerInfo {
   FieldLayer layer;
-  const char* key;   ///< its word in settings: never change it
-  const char* name;  ///< on the screen
-  bool shown;        ///< at first
+  const char* key;   ///< name in the settings; must never change
+  const char* name;  ///< name on the screen
+  bool shown;        ///< by default
 };
 
 inline constexpr std::array fieldLayers{
@@ -46,6 +47,7 @@ inline constexpr std::array fieldLayers{
     FieldLayerInfo{FieldLayer::StarVars, "starVars", "StarVars sectors", false},
     FieldLayerInfo{FieldLayer::Particles, "particles", "Particles of localization", false},
     FieldLayerInfo{FieldLayer::PlannedPath, "plannedPath", "Planned path", false},
+    FieldLayerInfo{FieldLayer::Exploration, "exploration", "Exploration", true},
     FieldLayerInfo{FieldLayer::Drawings, "drawings", "Drawings", true},
 };
 inline constexpr std::size_t fieldLayerCount = fieldLayers.size();

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The panel Explore: a moment is explored from the menu and from the panel, in Simulate, while
+// looking back, in Replay and in Live; the field shows what was found.
+
+#include <QComboBox>
+#include <QDockWidget>
+#include <QGraphicsView>
+#include <QLabel>
+#include <QMenu>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QSlider>
+#include <QTableWidget>
+
+#include <ui/explore/explorer.h>
+#include <ui/field/field_view.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/replay_controller.h>
+
+#include "../support/menu_entry.h"
+#include "../support/robot_keys.h"
+#include "advice_items.h"
+#include "live_rig.h"
+#include "session_rig.h"
+
+namespace tst_explore_panel {
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+using session_rig::Studio;
+
+namespace {
+
+constexpr int patience_ms = 60'000;
+
+struct Panel {
+  explicit Panel(MainWindow& of)
+      : window(of),
+        dock(of.findChild<QDockWidget*>(QStringLiteral("explore"))),
+        explorer(of.findChild<Explorer*>()) {}
+
+  template <class T>
+  T* find(const char* name) const {
+    T* found = dock->findChild<T*>(QLatin1String(name));
+    if (found == nullptr) qFatal("there is no %s", name);
+    return found;
+  }
+  QString text(const char* label) const { return find<QLabel>(label)->text(); }
+  void press(const char* button) const {
+    QTest::mouseClick(find<QPushButton>(button), Qt::LeftButton);
+  }
+  /// As a person does with the arrow keys.
+  void chooseRobot(const QString& name) const {
+    auto* box = find<QComboBox>("exploreRobot");
+    box->setFocus();
+    while (box->currentIndex() > 0) QTest::keyClick(box, Qt::Key_Up);
+    for (int i = 0; i < box->count() && box->currentText() != name; ++i) {
+      QTest::keyClick(box, Qt::Key_Down);
+    }
+  }
+  bool hasResult() const {
+    return explorer->found() != nullptr && explorer->found()->result.rollouts > 0;
+  }
+  template <class Item>
+  Item* item() const {
+    auto* view = window.field()->findChild<QGraphicsView*>();
+    for (QGraphicsItem* one : view->scene()->items()) {
+      if (auto* found = dynamic_cast<Item*>(one); found != nullptr && found->isVisible()) {
+        return found;
+      }
+    }
+    return nullptr;
+  }
+
+  MainWindow& window;
+  QDockWidget* dock;
+  Explorer* explorer;
+};
+
+/// Opens the menu and clicks the entry.
+void clickInMenu(MainWindow& window, const char* menu, const char* entry) {
+  QMenuBar* bar = window.menuBar();
+  QAction* top = menu_entry::called(bar->actions(), QLatin1String(menu));
+  QTest::mouseClick(bar, Qt::LeftButton, {}, bar->actionGeometry(top).center());
+  QAction* action = menu_entry::called(top->menu()->actions(), QLatin1String(entry));
+  QVERIFY(action != nullptr);
+  QTest::mouseClick(top->menu(), Qt::LeftButton, {}, top->menu()->actionGeometry(action).center());
+}
+
+}  // namespace
+
+class TestExplorePanel : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void aMomentOfAMatchIsExplored() {
+    Studio s(900);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(900), patience_ms);
+    Panel panel(s.window);
+    QVERIFY(!panel.dock->isVisible());
+    clickInMenu(s.window, "Timeline", "Explore from this moment");
+    QVERIFY(panel.dock->isVisible());
+    QVERIFY(panel.explorer->isRunning());
+    QVERIFY(panel.find<QPushButton>("exploreCancel")->isVisible());
+    QTRY_VERIFY_WITH_TIMEOUT(panel.hasResult(), patience_ms);
+    QCOMPARE(panel.explorer->found()->time, 15.0);
+    QVERIFY(panel.text("exploreNotes").contains(QStringLiteral("true positions")));
+    QVERIFY(panel.text("exploreGoals").contains(QStringLiteral("Blue scores")));
+    QVERIFY(panel.find<QTableWidget>("exploreActions")->isHidden());  // no robot is chosen
+    QVERIFY(panel.item<HeatItem>() != nullptr);
+    QVERIFY(panel.item<ActionArrowsItem>() == nullptr);
+    panel.press("exploreCancel");
+    QVERIFY(!panel.explorer->isRunning());
+    QVERIFY(panel.hasResult());
+
+    // Other times of the ball.
+    auto* slider = panel.find<QSlider>("exploreSecond");
+    QCOMPARE(slider->value(), 5);
+    QCOMPARE(panel.text("exploreSecondText"), QStringLiteral("Ball in 5 s"));
+    const QImage before = s.window.field()->grab().toImage();
+    slider->setFocus();
+    QTest::keyClick(slider, Qt::Key_End);
+    QCOMPARE(panel.text("exploreSecondText"), QStringLiteral("Ball in 30 s"));
+    QVERIFY(s.window.field()->grab().toImage() != before);
+
+    // The layer hides it, Clear forgets it.
+    auto* layer = s.window.findChild<QAction*>(QStringLiteral("layer.exploration"));
+    layer->trigger();
+    QVERIFY(panel.item<HeatItem>() == nullptr);
+    layer->trigger();
+    QVERIFY(panel.item<HeatItem>() != nullptr);
+    panel.press("exploreClear");
+    QVERIFY(panel.item<HeatItem>() == nullptr);
+    QVERIFY(panel.explorer->found() == nullptr);
+  }
+
+  void actionsOfTheChosenRobotAreCompared() {
+    Studio s(900);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(900), patience_ms);
+    Panel panel(s.window);
+    panel.dock->show();
+    s.window.field()->select({blue(2)});  // the selected robot is offered
+    QCOMPARE(panel.find<QComboBox>("exploreRobot")->currentText(), QStringLiteral("B2"));
+    panel.chooseRobot(QStringLiteral("B1"));
+    QVERIFY(panel.explorer->robot() == blue(1));
+    panel.press("exploreStart");
+    QTRY_VERIFY_WITH_TIMEOUT(panel.hasResult(), patience_ms);
+    const link::ExploreResult& result = panel.explorer->found()->result;
+    auto* table = panel.find<QTableWidget>("exploreActions");
+    QCOMPARE(std::size_t(table->rowCount()), result.actions.size());
+    const int best = int(result.best);
+    QVERIFY(table->item(best, 0)->font().bold());
+    QCOMPARE(table->item(best, 2)->text(), QStringLiteral("best"));
+    QVERIFY(table->item(best == 0 ? 1 : 0, 2)->text().contains(QStringLiteral(" ± ")));
+    QCOMPARE(panel.text("exploreVerdict"), QString::fromStdString(result.verdict()));
+    const auto* arrows = panel.item<ActionArrowsItem>();
+    QVERIFY(arrows != nullptr);
+    QCOMPARE(arrows->actions().size(), std::size_t(1));
+    QVERIFY(arrows->actions()[0].text.startsWith(
+        QString::fromStdString(result.actions[result.best].text)));
+    QCOMPARE(arrows->actions()[0].dashed, !result.isClear());
+    // Another match: what was found is of the old one.
+    s.controller.open(link::loadScenario("one-robot").value(), true);
+    QTRY_VERIFY(panel.explorer->found() == nullptr && !panel.explorer->isRunning());
+    QTRY_COMPARE(panel.find<QComboBox>("exploreRobot")->count(), 2);
+  }
+
+  void thePastAndARecordingAreExplored() {
+    Studio s(900);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(900), patience_ms);
+    Panel panel(s.window);
+    panel.dock->show();
+    s.window.timeline()->seek(10.0);
+    QVERIFY(s.window.timeline()->isLookingBack());
+    panel.press("exploreStart");
+    QTRY_VERIFY_WITH_TIMEOUT(panel.hasResult(), patience_ms);
+    QCOMPARE(panel.explorer->found()->time, 10.0);
+    QVERIFY(panel.text("exploreNotes").contains(QStringLiteral("true positions")));
+    s.window.timeline()->goLive();
+    const QString session = s.recorded(60);
+    QVERIFY(!session.isEmpty());
+    s.window.openSession(session);
+    QTRY_VERIFY(s.window.timeline()->isRecording());
+    QTRY_VERIFY(panel.explorer->found() == nullptr);
+    s.window.timeline()->seek(s.window.timeline()->available()->end);
+    QTRY_VERIFY(s.window.replay()->frame() && s.window.replay()->frame()->robots.size() == 6);
+    panel.press("exploreStart");
+    QTRY_VERIFY_WITH_TIMEOUT(panel.hasResult(), patience_ms);
+    QVERIFY(panel.text("exploreNotes").contains(QStringLiteral("where they believe to be")));
+    panel.press("exploreCancel");
+  }
+
+  void liveRobotsAreExplored() {
+    Studio s(0);
+    const link::LiveOptions options = live_rig::options();
+    s.window.live()->setOptions(options);
+    s.window.showSource(SourceKind::Live);
+    QTRY_VERIFY(!s.window.live()->details().network.ports.empty());
+    Panel panel(s.window);
+    panel.dock->show();
+    QVERIFY(!panel.find<QPushButton>("exploreStart")->isEnabled());
+    const live_rig::Robot one(options, 1), two(options, 2);
+    QTRY_VERIFY(one.say() && two.say() && s.window.live()->frame() &&
+                s.window.live()->frame()->robots.size() == 2);
+    QTRY_VERIFY(panel.find<QPushButton>("exploreStart")->isEnabled());
+    panel.press("exploreStart");
+    QVERIFY2(panel.explorer->isRunning(), qPrintable(panel.explorer->problem()));
+    QTRY_VERIFY_WITH_TIMEOUT(panel.hasResult(), patience_ms);
+    QVERIFY(panel.text("exploreNotes").contains(QStringLiteral("Only one team is known")));
+    QVERIFY(panel.text("exploreNotes").contains(QStringLiteral("kid-size")));
+    QVERIFY(panel.item<HeatItem>() != nullptr);
+    panel.press("exploreCancel");
+    QVERIFY(!one.received() && !two.received());
+  }
+};
+
+PITCHBOARD_GUI_TEST(TestExplorePanel)
+
+}  // namespace tst_explore_panel
+
+#include "tst_explore_panel.moc"

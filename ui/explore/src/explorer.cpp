@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/explore/explorer.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <ui/base/robot_words.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/scenario_behind.h>
+#include <ui/sources/source_switch.h>
+
+namespace pitchboard::ui {
+namespace {
+
+using link::ExploreResult;
+
+std::array<std::optional<TeamColor>, 2> teamsOf(const link::ExploreStart& start,
+                                                const link::MatchFrame& frame) {
+  std::array<std::optional<TeamColor>, 2> teams;
+  for (std::size_t i = 0; i < start.robots.size(); ++i) {
+    const link::RobotFrame* robot = frame.robot(start.robots[i]);
+    if (robot == nullptr) continue;
+    teams[static_cast<std::size_t>(start.setup.players[i].side)] = robot->identity.team;
+  }
+  return teams;
+}
+
+ForecastPtr forecastOf(const ExploredMoment* found, int second) {
+  if (found == nullptr || found->result.times.empty()) return nullptr;
+  const ExploreResult& result = found->result;
+  auto forecast = std::make_shared<Forecast>();
+  const std::size_t at = std::min(static_cast<std::size_t>(second), result.times.size() - 1);
+  forecast->heat = std::make_shared<const link::BallHeat>(
+      link::BallHeat{result.columns, result.rows, result.times[at].heat});
+  if (!result.actions.empty()) {
+    const link::ExploredAction& best = result.actions[result.best];
+    const QString sign = best.value.value < 0.0 ? QString() : QStringLiteral("+");
+    forecast->best = ForecastAction{
+        best.from, best.to,
+        QStringLiteral("%1  %2%3")
+            .arg(QString::fromStdString(best.text), sign, numberText(best.value.value, 2)),
+        result.isClear()};
+  }
+  return forecast;
+}
+
+}  // namespace
+
+Explorer::Explorer(const Parts& parts, QObject* parent) : QObject(parent), m_parts(parts) {
+  connect(m_parts.source, &SourceSwitch::changed, this, &Explorer::clear);
+  connect(m_parts.source, &FrameSource::restarted, this, &Explorer::clear);
+}
+
+Explorer::~Explorer() {
+  if (m_running) *m_running = true;
+  m_worker.waitForDone();
+}
+
+void Explorer::setRobot(std::optional<RobotKey> robot) {
+  if (robot == m_robot) return;
+  m_robot = robot;
+  emit changed();
+}
+
+void Explorer::start() {
+  cancel();
+  const FramePtr frame = m_parts.source->frame();
+  if (!frame) return;
+  const auto scenario = scenarioBehind(*m_parts.source, *m_parts.match, *m_parts.replay);
+  link::ExploreStartOptions options;
+  // The true match is shown only where it is simulated.
+  options.useTruth = m_parts.source->kind() == SourceKind::Simulate;
+  options.base = scenario ? &*scenario : nullptr;
+  options.earlier = [this](double time) { return m_parts.source->frameAt(time); };
+  auto start = link::exploreStart(*frame, options);
+  m_found.reset();
+  m_problem.clear();
+  m_progress = 0.0;
+  if (!start) {
+    m_problem = QString::fromStdString(start.error().text());
+    return tell();
+  }
+  m_found = std::make_unique<ExploredMoment>();
+  m_found->time = frame->snapshot.time;
+  m_found->teams = teamsOf(*start, *frame);
+  m_found->start = *start;
+  link::ExploreOptions explore;
+  explore.seconds = seconds;
+  if (m_robot && std::ranges::count(start->robots, *m_robot) > 0) explore.robot = m_robot;
+  m_found->robot = explore.robot;
+  m_running = std::make_shared<std::atomic<bool>>(false);
+  m_worker.start([this, job = m_running, begin = std::move(*start), explore] {
+    const auto result = link::explore(
+        begin, explore,
+        [&](double done, const ExploreResult& soFar) {
+          m_ui.post([this, job, done, soFar] { take(job, done, soFar); });
+          return !job->load();
+        },
+        job.get());
+    const QString problem =
+        result || job->load() ? QString() : QString::fromStdString(result.error().text());
+    m_ui.post([this, job, problem] { end(job, problem); });
+  });
+  tell();
+}
+
+void Explorer::take(const std::shared_ptr<std::atomic<bool>>& job, double progress,
+                    const ExploreResult& result) {
+  if (job != m_running) return;
+  m_progress = progress;
+  m_found->result = result;
+  tell();
+}
+
+void Explorer::end(const std::shared_ptr<std::atomic<bool>>& job, const QString& problem) {
+  if (job != m_running) return;
+  m_running.reset();
+  m_problem = problem;
+  tell();
+}
+
+void Explorer::cancel() {
+  if (!m_running) return;
+  *m_running = true;
+  m_running.reset();
+  if (m_found && m_found->result.times.empty()) m_found.reset();
+  tell();
+}
+
+void Explorer::clear() {
+  if (!m_running && !m_found && m_problem.isEmpty()) return;
+  cancel();
+  m_found.reset();
+  m_problem.clear();
+  tell();
+}
+
+void Explorer::showSecond(int second) {
+  second = std::clamp(second, 0, seconds);
+  if (second == m_second) return;
+  m_second = second;
+  tell();
+}
+
+void Explorer::tell() {
+  emit changed();
+  emit forecastChanged(forecastOf(m_found.get(), m_second));
+}
+
+}  // namespace pitchboard::ui
