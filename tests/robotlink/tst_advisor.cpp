@@ -363,6 +363,25 @@ class TestAdvisor : public QObject {
     }
   }
 
+  /// When no match waits for it, it plays what its share of a core allows, and also comes to an
+  /// end.
+  void itRunsFreely() {
+    Mind mind;
+    mind.put({{2.5, 0.0}, 0.0});
+    mind.see(0.4, 0.0);
+    ProcessOptions options = kidSize();
+    options.advisor.share = 0.25;
+    const auto advisor = findProcess("advisor")->make(options).value();
+    for (int i = 0; i < 30; ++i) {
+      // It stands where it is, and stays at the ball.
+      mind.board.write(*words().intVar("DECISION_STATE"), static_cast<int>(Intention::Ball));
+      advisor->step(mind.board, {0.1 * i});
+    }
+    QVERIFY(mind.word("ADVISOR_STAMP") >= 2);
+    QVERIFY(mind.word("ADVISOR_ROLLOUTS") >= 12);
+    QVERIFY(mind.word("ADVISOR_CANDIDATES") >= 3);
+  }
+
   void refusesOptions() {
     for (const AdvisorOptions wrong :
          {AdvisorOptions{.rollouts = 0}, {.horizon = std::nan("")}, {.share = 2.0}}) {
