@@ -101,6 +101,19 @@ struct Mind {
     board.write(v.visionBallDist, static_cast<float>(100.0 * away));
     board.write(v.visionPanDeg, static_cast<float>(bearing * 180.0 / pi));
   }
+  /// What a team-mate has told.
+  void tell(const Point& place, Intention intention) {
+    const auto cm = sim::published_frame::localizationFromStudio(field, {place, 0.0});
+    const auto write = [this](const char* name, int value) {
+      board.write(*words().intVar(name), value);
+    };
+    write("COM_STATE_ROBOT1", 1);
+    write("COM_ACTION_ROBOT1", static_cast<int>(intention));
+    write("COM_POS_ROBOT1",
+          static_cast<int>(std::lround(cm.x)) * 10000 + static_cast<int>(std::lround(cm.y)));
+    write("COM_POS_BALL_ROBOT1", -1);
+  }
+  int word(const char* name) const { return board.read(*words().intVar(name)); }
   void advise(const Advice& advice) {
     variables.write(board, field, advice);
     board.write(variables.stamp, ++stamp);
@@ -281,6 +294,40 @@ class TestAdvisor : public QObject {
     QVERIFY(told.kicks(40));  // nobody says it again
   }
 
+  void adviceSaysWhoGoesAndWhereToStand() {
+    const auto mindWith = [](const Point& mate, Intention intention) {
+      Mind mind;
+      mind.see(1.0, 0.0);
+      mind.tell(mate, intention);
+      mind.actions(5);
+      return mind;
+    };
+    const Advice leave = kick(AdviceKind::LeaveBall, {1.0, 0.0});
+    const Advice go = kick(AdviceKind::GoToBall, {1.0, 0.0});
+    Mind first = mindWith({-2.0, 0.5}, Intention::Support);
+    QCOMPARE(first.word("DECISION_STATE"), static_cast<int>(Intention::Ball));
+    first.advise(leave);
+    first.actions(3);
+    QCOMPARE(first.word("DECISION_STATE"), static_cast<int>(Intention::Support));
+    // Nobody else would go.
+    Mind alone = mindWith({-2.0, 0.5}, Intention::Idle);
+    alone.advise(leave);
+    alone.actions(3);
+    QCOMPARE(alone.word("DECISION_STATE"), static_cast<int>(Intention::Ball));
+
+    Mind second = mindWith({0.7, 0.1}, Intention::Ball);
+    QCOMPARE(second.word("DECISION_STATE"), static_cast<int>(Intention::Support));
+    second.advise(go);
+    second.actions(3);
+    QCOMPARE(second.word("DECISION_STATE"), static_cast<int>(Intention::Ball));
+    second.actions(20);  // nobody says it again
+    QCOMPARE(second.word("DECISION_STATE"), static_cast<int>(Intention::Support));
+    second.advise({AdviceKind::Stand, {{-1.0, 1.0}, 0.0}});
+    second.actions(3);
+    QCOMPARE(second.word("DECISION_POSITION_A"), 350);
+    QCOMPARE(second.word("DECISION_POSITION_B"), 200);
+  }
+
   /// As without: advice that nobody renews, of an earlier program, and numbers without sense.
   void staleAndHostileWordsMoveNobody_data() {
     QTest::addColumn<int>("choice");
@@ -314,6 +361,25 @@ class TestAdvisor : public QObject {
       }
       QCOMPARE(told.actions(1), usual.actions(1));
     }
+  }
+
+  /// When no match waits for it, it plays what its share of a core allows, and also comes to an
+  /// end.
+  void itRunsFreely() {
+    Mind mind;
+    mind.put({{2.5, 0.0}, 0.0});
+    mind.see(0.4, 0.0);
+    ProcessOptions options = kidSize();
+    options.advisor.share = 0.25;
+    const auto advisor = findProcess("advisor")->make(options).value();
+    for (int i = 0; i < 30; ++i) {
+      // It stands where it is, and stays at the ball.
+      mind.board.write(*words().intVar("DECISION_STATE"), static_cast<int>(Intention::Ball));
+      advisor->step(mind.board, {0.1 * i});
+    }
+    QVERIFY(mind.word("ADVISOR_STAMP") >= 2);
+    QVERIFY(mind.word("ADVISOR_ROLLOUTS") >= 12);
+    QVERIFY(mind.word("ADVISOR_CANDIDATES") >= 3);
   }
 
   void refusesOptions() {

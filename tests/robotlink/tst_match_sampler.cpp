@@ -93,6 +93,30 @@ class TestMatchSampler : public QObject {
     QVERIFY(old == view->info());
   }
 
+  /// What advisors say is sampled where a team thinks ahead, and nowhere else.
+  void advisorsAreSampled() {
+    Scenario scenario = loadScenario("match-3v3").value();
+    scenario.advisors[TeamColor::Blue];
+    auto match = SimulatedMatch::create(scenario, {}).value();
+    auto store = std::make_shared<SeriesStore>();
+    MatchSampler sampler(store, {});
+    for (int i = 0; i < 600; ++i) {
+      match.tick();
+      sampler.ticked(match, 12us);
+    }
+    const auto latest = [&](const char* name) {
+      const auto id = store->find("B1", name);
+      return id ? store->view(id->group)->latest(id->column)->value : -1.0;
+    };
+    const IntVar stamp = *VariableCatalog::extended().intVar("ADVISOR_STAMP");
+    QCOMPARE(latest("ADVISOR_STAMP"), match.blackboard(RobotId{1})->read(stamp));
+    QVERIFY(latest("ADVISOR_STAMP") > 0.0);
+    for (const char* name : {"ADVISOR_GAIN", "ADVISOR_HEAT01", "ADVISOR_CANDIDATE1"}) {
+      QVERIFY2(store->find("B1", name), name);
+    }
+    QVERIFY(!Rig().store->find("B1", "ADVISOR_STAMP"));
+  }
+
   void oneSampleServesWhoeverWantsIt() {
     class Places : public telemetry::RowSink {
      public:
