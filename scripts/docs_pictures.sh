@@ -59,6 +59,7 @@ scenario() {
 }
 referee() {
   studio --scenario match --play-to 5400
+  sleep 5 # until it has played so far
   find "Panels: Referee"
   shoot referee
 }
@@ -68,7 +69,63 @@ drawings() {
   python3 draw_robot.py 1 127.0.0.1:1240 &
   shoot drawings 4
   kill $!
-  convert drawings.png -crop 716x510+301+87 +repage drawings.png
+  convert drawings.png -crop 716x492+301+104 +repage drawings.png
+}
+blackboard() {
+  studio --scenario match-3v3 --play-to 3600
+  xdotool mousemove 1150 102 click 1 && sleep 0.5
+  xdotool type --delay 20 "b1/decision" && sleep 1
+  shoot blackboard
+  convert blackboard.png -crop 418x300+1022+62 +repage blackboard.png
+}
+behaviours() {
+  studio --scenario match-3v3 --play-to 900
+  find "Particles of localization"
+  find "Planned path"
+  shoot behaviours
+  convert behaviours.png -crop 716x492+301+104 +repage behaviours.png
+}
+agent() {
+  # The robots of a match stand in for real ones; the agent reads their blackboards.
+  "$bin/pitchboard-cli" simulate --scenario match-3v3 --cognition external --match 0 --speed 1 --duration 60 >/dev/null 2>&1 &
+  sleep 2
+  for robot in 1 2 3; do "$bin/pitchboard-agent" --robot "$robot" --to 127.0.0.1 2>/dev/null & done
+  echo '{"name": "Our team", "number": 12, "colour": "blue"}' >ours.json
+  studio --live --robots 3 --team ours.json --our-team 12
+  shoot agent 15
+}
+rollouts() {
+  PYTHONPATH=$root/docs/examples PITCHBOARD_SIM_LIBRARY=$root/build/release/lib/libpitchboard_sim.so.1 python3 - >heat.mvg <<'END'
+# Where the ball is after 5 s: shares of rollouts in cells of 0.25 m, on a field of 9 m by 6 m, 80 pixels a metre.
+import collections
+from pitchboard_rollout import Rollouts
+
+with_ball = {"ball_x": 1.6, "ball_y": 0.6, "ball_sigma": 0.1, "state": 3}
+rollouts = Rollouts("match-3v3")
+belief = rollouts.beginning()
+belief.game.update(with_ball)
+belief.robots[0].update(x=1.3, y=0.5, yaw=0.3, sigma=0.1)
+belief.robots[3].update(x=2.4, y=0.3, yaw=3.1, sigma=0.15)
+outcomes = rollouts.play(belief, count=3000, seconds=10)
+cells = collections.Counter((int((x + 5.5) * 4), int((y + 4) * 4))
+                            for x, y in zip(outcomes.column("look_x"), outcomes.column("look_y")))
+px = lambda x: 440 + 80 * x
+py = lambda y: 320 - 80 * y
+print("stroke none")
+most = max(cells.values())
+for (i, j), n in sorted(cells.items()):
+    x, y = i / 4 - 5.5, j / 4 - 4
+    print("fill rgba(240,163,94,%.2f) rectangle %g,%g %g,%g" % (min(1, 0.1 + 0.9 * (n / most) ** 0.5), px(x), py(y + 0.25), px(x + 0.25) - 1, py(y) - 1))
+print("fill none stroke #c3cec6 stroke-width 4")
+print("rectangle %g,%g %g,%g line %g,%g %g,%g circle %g,%g %g,%g" % (px(-4.5), py(3), px(4.5), py(-3), px(0), py(3), px(0), py(-3), px(0), py(0), px(0.75), py(0)))
+for side in (-1, 1):
+    print("rectangle %g,%g %g,%g rectangle %g,%g %g,%g" % (min(px(side * 4.5), px(side * 3.9)), py(1.725), max(px(side * 4.5), px(side * 3.9)), py(-1.725), min(px(side * 4.5), px(side * 5.1)), py(0.9), max(px(side * 4.5), px(side * 5.1)), py(-0.9)))
+print("stroke white stroke-width 2")
+for number, robot in enumerate(belief.robots):
+    print("fill %s circle %g,%g %g,%g" % ("#4f8fe3" if number < 3 else "#d8605b", px(robot["x"]), py(robot["y"]), px(robot["x"]) + 13, py(robot["y"])))
+print("fill #f0a35e circle %g,%g %g,%g" % (px(1.6), py(0.6), px(1.6) + 7, py(0.6)))
+END
+  convert -size 880x640 xc:'#33453a' -draw "$(cat heat.mvg)" rollouts.png
 }
 processes() {
   sed -n '/^```python chase.py$/,/^```$/{/^```/d;p}' "$root/docs/tutorial-python-robot.md" >chase.py
@@ -118,7 +175,7 @@ experiments() {
   shoot experiments
 }
 
-[ $# -gt 0 ] || set -- studio-dark studio-light scenario referee drawings processes live plots replay experiments
+[ $# -gt 0 ] || set -- studio-dark studio-light scenario referee drawings blackboard behaviours agent rollouts processes live plots replay experiments
 for name in "$@"; do
   "$name"
   convert "$name.png" -colors 200 "png8:$name.8.png"

@@ -39,7 +39,7 @@ cp tests/data/gamecontroller/*.bin "$seeds/referee/"
 cp resources/profiles/*.json "$seeds/profile/"
 cp resources/teams/*.json "$seeds/formats/"
 cp resources/rules/*.json resources/robots/*.json resources/runtime/*.json "$seeds/rules/"
-cp resources/experiments/*.json resources/situations/*.json "$seeds/experiment/"
+cp resources/experiments/*.json resources/situations/*.json docs/examples/*.json "$seeds/experiment/"
 cp tests/data/sessions/{small,plain_broken_off}.mcap "$seeds/session/"  # small ones: more inputs a second
 cp tests/data/sessions/*.mcap "$seeds/moments/"
 cp resources/scenarios/*.json "$seeds/scenario/"
@@ -73,7 +73,7 @@ printf 'PB2 3 7 4500300 @REFRESH=2000 @WAITING=0 @BLACKBOARD=1 DECISION_ACTION_A
   printf '\003\062PB2 4 0 1000 @REFRESH=2000 @WAITING=0 @BLACKBOARD=1 LOCALIZATION_X=450 LOCALIZATION_Y=300 OUT\n'
   printf '\003\375PB2 4 1 9000 VISION_BALL_DIST=80.5 OUR_GAIT=3 OUT\n\003\062PB2 4 0 8900 VOLTAGE=189 OUT\n'
 } > "$seeds/variables/conversation.txt"
-grep '^→ ' docs/learning.md | sed 's/^→ //; s/"scenario": "one-robot", //; s/"ticks": [0-9]*/"ticks": 2/' \
+grep '^→ ' docs/worlds.md | sed 's/^→ //; s/"scenario": "one-robot", //; s/"ticks": [0-9]*/"ticks": 2/' \
   > "$seeds/lines/conversation.txt"
 number=0
 while IFS=$'\t' read -r _ _ datagram; do

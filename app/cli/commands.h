@@ -32,6 +32,7 @@ void addExportCommand(CLI::App& parent, int& exitCode);
 void addExperimentCommand(CLI::App& parent, int& exitCode);
 void addTournamentCommand(CLI::App& parent, int& exitCode);
 void addTestCommand(CLI::App& parent, int& exitCode);
+void addLearnCommand(CLI::App& parent, int& exitCode);
 void addCalibrateCommand(CLI::App& parent, int& exitCode);
 void addExploreCommand(CLI::App& parent, int& exitCode);
 

@@ -21,24 +21,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr int exitAssertionFailed = 1;
 
-struct Shard {
-  std::size_t index = 1, count = 1;
-};
-
-Result<Shard> shardFrom(const std::string& text) {
-  if (text.empty()) return Shard{};
-  const std::size_t slash = text.find('/');
-  const auto index = shared::numberFrom(text.substr(0, slash));
-  const auto count =
-      slash == std::string::npos ? std::nullopt : shared::numberFrom(text.substr(slash + 1));
-  if (!index || !count || *index < 1 || *count < 1 || *index > *count || *count > 1e6 ||
-      *index != static_cast<double>(static_cast<std::size_t>(*index)) ||
-      *count != static_cast<double>(static_cast<std::size_t>(*count))) {
-    return failure(ErrorCode::InvalidArgument, "--shard must be i/n, such as 2/8: the second of 8");
-  }
-  return Shard{static_cast<std::size_t>(*index), static_cast<std::size_t>(*count)};
-}
-
 /// Runs that are this shard's and have not been played.
 std::vector<std::size_t> numbersOf(const link::ExperimentFolder& folder, const Shard& shard) {
   std::vector<std::size_t> numbers;
@@ -133,6 +115,26 @@ void addPlayInto(CLI::App& command, PlayInto& o) {
       ->type_name("FILE");
 }
 
+Result<Shard> shardFrom(const std::string& text) {
+  if (text.empty()) return Shard{};
+  const std::size_t slash = text.find('/');
+  const auto index = shared::numberFrom(text.substr(0, slash));
+  const auto count =
+      slash == std::string::npos ? std::nullopt : shared::numberFrom(text.substr(slash + 1));
+  if (!index || !count || *index < 1 || *count < 1 || *index > *count || *count > 1e6 ||
+      *index != static_cast<double>(static_cast<std::size_t>(*index)) ||
+      *count != static_cast<double>(static_cast<std::size_t>(*count))) {
+    return failure(ErrorCode::InvalidArgument, "--shard must be i/n, such as 2/8: the second of 8");
+  }
+  return Shard{static_cast<std::size_t>(*index), static_cast<std::size_t>(*count)};
+}
+
+std::size_t jobsFor(const PlayInto& options, bool teamPrograms) {
+  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+  if (options.jobs > 0) return options.jobs;
+  return teamPrograms ? std::max<std::size_t>(1, processors / 2) : processors;
+}
+
 std::string robotProgram(const std::string& chosen) {
   return chosen.empty() ? link::besideTeamProgram("pitchboard-robot") : chosen;
 }
@@ -148,10 +150,7 @@ Result<int> playInto(const link::Experiment& experiment, const PlayInto& options
   settings.folder = options.folder;
   settings.program = programName;
   const std::vector<std::size_t> numbers = numbersOf(folder, shard);
-  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
-  const std::size_t jobs = options.jobs > 0               ? options.jobs
-                           : experiment.hasTeamPrograms() ? std::max<std::size_t>(1, processors / 2)
-                                                          : processors;
+  const std::size_t jobs = jobsFor(options, experiment.hasTeamPrograms());
   const auto begin = Clock::now();
   std::size_t done = 0;
   double busy = 0.0, simulated = 0.0;
@@ -192,9 +191,7 @@ Result<int> playInto(const link::Experiment& experiment, const PlayInto& options
   return 0;
 }
 
-Result<int> printResults(const link::Experiment& experiment, const link::ExperimentFolder& folder) {
-  const auto table = TRY(link::resultsOf(folder.path(), experiment));
-  const link::ExperimentSummary summary = link::summarize(experiment, table);
+int printSummary(const link::Experiment& experiment, const link::ExperimentSummary& summary) {
   if (summary.tournament) {
     printTable(*summary.tournament);
   } else {
@@ -211,8 +208,14 @@ Result<int> printResults(const link::Experiment& experiment, const link::Experim
     std::printf("%s  %s: %s (%s)\n", one.holds ? "holds " : "FAILED", one.condition.c_str(),
                 one.text.c_str(), one.values.c_str());
   }
-  std::printf("%s\n", (std::filesystem::path(folder.path()) / "report.html").c_str());
   return summary.holds() ? 0 : exitAssertionFailed;
+}
+
+Result<int> printResults(const link::Experiment& experiment, const link::ExperimentFolder& folder) {
+  const auto table = TRY(link::resultsOf(folder.path(), experiment));
+  const int ended = printSummary(experiment, link::summarize(experiment, table));
+  std::printf("%s\n", (std::filesystem::path(folder.path()) / "report.html").c_str());
+  return ended;
 }
 
 }  // namespace pitchboard::cli

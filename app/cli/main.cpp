@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
                                 &addCatalogCommands, &addListenCommand,      &addDecodeCommand,
                                 &addRecordCommand,   &addInspectCommand,     &addRepairCommand,
                                 &addExportCommand,   &addExperimentCommand,  &addTournamentCommand,
-                                &addTestCommand,     &addCalibrateCommand,   &addExploreCommand};
+                                &addTestCommand,     &addCalibrateCommand,   &addLearnCommand,
+                                &addExploreCommand};
   for (const AddCommand add : commands) add(app, exitCode);
 
   if (const auto ended = pitchboard::shared::parse(app, argc, argv)) return *ended;

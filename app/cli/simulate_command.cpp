@@ -239,7 +239,7 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
   command->add_flag("--list", a.list, "List the built-in scenarios");
   CLI::Option* stdio = command->add_flag(
       "--stdio", a.stdio,
-      "Let another program step worlds with lines of JSON on standard input (docs/learning.md)");
+      "Let another program step worlds with lines of JSON on standard input (docs/worlds.md)");
   for (const char* other : {"--scenario", "--seed", "--noise", "--physics"}) {
     from->excludes(command->get_option(other));
   }

@@ -18,11 +18,12 @@ struct TournamentOptions {
   PlayInto play;
   std::optional<std::uint64_t> seed;
   std::optional<std::size_t> matches;
+  std::vector<std::string> advised;
 };
 
 Result<int> playTournament(const TournamentOptions& options) {
   const auto tournament =
-      TRY(link::loadExperiment(options.file, {options.seed, {}, options.matches}));
+      TRY(link::loadExperiment(options.file, {options.seed, {}, options.matches, options.advised}));
   if (!tournament.tournament) {
     return failure(ErrorCode::InvalidArgument,
                    "has no \"teams\", so it is no tournament; play it with pitchboard-cli "
@@ -62,6 +63,10 @@ void addTournamentCommand(CLI::App& parent, int& exitCode) {
   command->add_option("--seed", o.seed, "Seed of the first match; default: the tournament's")
       ->check(shared::refuseNegative)
       ->type_name("N");
+  command
+      ->add_option("--advisor", o.advised,
+                   "Let the team of this name think ahead (docs/advisor.md); may be repeated")
+      ->type_name("TEAM");
   command->add_option("--junit", o.junit, "Also write the results as JUnit XML to this file")
       ->type_name("FILE.xml");
   whenChosen(*command, options, exitCode, playTournament);

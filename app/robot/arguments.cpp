@@ -160,6 +160,11 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->capture_default_str()
       ->check(checkBehaviour);
   command
+      .add_option("--parameters", a.parameters,
+                  "Numbers of the behaviour that --behaviour does not name, such as best.json of "
+                  "`pitchboard-cli learn`")
+      ->type_name("FILE");
+  command
       .add_option("--distance-to-kick", a.distanceToKick,
                   "The naive behaviour's distance_to_kick: 25 in simulation, 40 on a robot")
       ->type_name("CM");
@@ -192,12 +197,31 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->capture_default_str();
   command.add_flag("--published-localization", a.process.publishedLocalization,
                    "Localization with the published filter's parameters");
+  command
+      .add_option("--advisor-rollouts", a.process.advisor.rollouts,
+                  "Advisor: rollouts for a decision, while a match waits for it")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(4, 5000));
+  command
+      .add_option("--advisor-horizon", a.process.advisor.horizon,
+                  "Advisor: seconds that a rollout plays ahead")
+      ->type_name("S")
+      ->capture_default_str()
+      ->check(CLI::Range(0.5, 30.0));
+  command
+      .add_option("--advisor-share", a.process.advisor.share,
+                  "Advisor: share of a processor core that it uses, when no match waits for it")
+      ->type_name("SHARE")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1.0));
   shared::addGroup(
       command, "Network",
       {"--udp-address", "--telemetry-port-base", "--telemetry-rate", "--team-port-base", "--team",
        "--referee-team", "--set-play", "--shirt", "--referee-port", "--debug-port"});
   shared::addGroup(command, "Tuning",
-                   {"--distance-to-kick", "--particles", "--seed", "--published-localization"});
+                   {"--distance-to-kick", "--particles", "--seed", "--published-localization",
+                    "--advisor-rollouts", "--advisor-horizon", "--advisor-share"});
 }
 
 std::vector<std::string> givenOptions(const CLI::App& command) {
@@ -234,7 +258,9 @@ Result<link::IniFile> settle(CLI::App& command, Arguments& a) {
                                         ? link::loadRobotModel(a.model)
                                         : link::robotModelFromText(a.model, "--robot-model"));
   a.process.model = model;
-  const auto behaviour = TRY(link::behaviourFromText(a.behaviour, "--behaviour"));
+  link::BehaviourParameters usual;
+  if (!a.parameters.empty()) usual = TRY(link::loadBehaviourParameters(a.parameters));
+  const auto behaviour = TRY(link::behaviourFromText(a.behaviour, "--behaviour", usual));
   a.process.behaviour = behaviour.name;
   a.process.parameters = behaviour.parameters;
   if (a.distanceToKick) a.process.parameters.distanceToKick = *a.distanceToKick;

@@ -24,10 +24,15 @@ struct Arguments {
   // Instead of the match's.
   std::optional<int> telemetryPortBase, teamPortBase, refereePort;
   std::string behaviour = "striker", field = "published", model = "published", attack;
+  std::string parameters;                // a file
   std::optional<double> distanceToKick;  // instead of the behaviour's
   double telemetryRate = 1.0;            // Hz
   std::optional<int> cognitionDebugPort;
-  link::ProcessOptions process;
+  link::ProcessOptions process = [] {
+    link::ProcessOptions usual;
+    usual.advisor.share = 0.25;
+    return usual;
+  }();
 
   int blackboardKey() const;  // once settled
 };

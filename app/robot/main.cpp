@@ -4,8 +4,8 @@
 
 #include <app/command_line.h>
 #include <base/try.h>
+#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/blackboard/system_v.h>
-#include <robotlink/cognition/process_registry.h>
 #include <robotlink/processes/guard.h>
 #include <robotlink/processes/keeper.h>
 #include <robotlink/processes/match_turns.h>
@@ -58,7 +58,7 @@ Result<void> run(const link::ProcessInfo& info, CLI::App& command, Arguments& ar
 
 void printList() {
   std::puts("Processes:");
-  for (const link::ProcessInfo& info : link::cognitiveProcesses()) {
+  for (const link::ProcessInfo& info : link::referenceProcesses()) {
     std::printf("  %-14s %s\n", std::string(info.name).c_str(),
                 std::string(info.description).c_str());
   }
@@ -98,7 +98,7 @@ int parseAndRun(int argc, char** argv) {
     addOptions(*command, arguments);
     return command;
   };
-  for (const link::ProcessInfo& info : link::cognitiveProcesses()) {
+  for (const link::ProcessInfo& info : link::referenceProcesses()) {
     add(info.name, info.description, info.example);
   }
   CLI::App* management = add("management", managementDescription,

@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include <base/try.h>
+#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/blackboard/system_v.h>
-#include <robotlink/cognition/process_registry.h>
 #include <robotlink/processes/management_config.h>
 #include <robotlink/processes/process_manager.h>
 #include <robotlink/processes/team_program.h>
@@ -27,7 +27,7 @@ void replaceAll(std::string& text, std::string_view what, const std::string& wit
 
 std::vector<std::string> referenceProcesses() {
   std::vector<std::string> names;
-  for (const link::ProcessInfo& info : link::cognitiveProcesses()) names.emplace_back(info.name);
+  for (const link::ProcessInfo& info : link::referenceProcesses()) names.emplace_back(info.name);
   return names;
 }
 

@@ -60,12 +60,22 @@ void addScenarioOptions(CLI::App& command, ScenarioOptions& options) {
                   "kid-size, adult-size or a file; may be repeated")
       ->type_name("[TEAM=]NAME|FILE");
   addGroup(command, "Models", {"--physics", "--robot-model"});
+  std::vector<std::string> colours;
+  for (const TeamColorInfo& team : teamColors) colours.emplace_back(team.name);
+  command
+      .add_option("--advisor", options.advised,
+                  "Let this team think ahead (docs/advisor.md); may be repeated")
+      ->type_name("TEAM")
+      ->check(CLI::IsMember(colours));
 }
 
 Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& options) {
   scenario = TRY(link::changed(std::move(scenario), options));
   for (const std::string& text : options.robotModels) {
     TRY(chooseModel(scenario, text));
+  }
+  for (const std::string& team : options.advised) {
+    scenario.advisors.try_emplace(teamColorNamed(team).value());
   }
   return scenario;
 }

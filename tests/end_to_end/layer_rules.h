@@ -32,8 +32,9 @@ inline QStringList all(const QString& library) {
       {"simcore", {"base", "world", "rules", "physics", "simulation"}},
       {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session"}},
       {"robotlink",
-       {"blackboard", "processes", "models", "cognition", "rollout", "scenario", "frame", "match",
-        "live", "session", "report", "experiment", "calibrate", "conformance", "capi", "explore"}},
+       {"blackboard", "processes", "models", "cognition", "rollout", "advisor", "scenario", "frame",
+        "match", "live", "session", "report", "experiment", "learn", "calibrate", "conformance", "capi",
+        "explore"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
         "noise", "processes", "log", "referee", "experiments", "explore", "window"}}};
@@ -49,9 +50,9 @@ inline const QList<Module>& table() {
     const QString wire = "telemetry/wire", series = "telemetry/series";
     const QString board = "robotlink/blackboard", processes = "robotlink/processes",
                   models = "robotlink/models", cognition = "robotlink/cognition",
-                  rollout = "robotlink/rollout", scenario = "robotlink/scenario",
-                  frame = "robotlink/frame", match = "robotlink/match", live = "robotlink/live",
-                  session = "robotlink/session";
+                  rollout = "robotlink/rollout", advisor = "robotlink/advisor",
+                  scenario = "robotlink/scenario", frame = "robotlink/frame",
+                  match = "robotlink/match", live = "robotlink/live", session = "robotlink/session";
     const QStringList below = all("simcore") + all("telemetry");
     const QStringList belowUi = below + all("robotlink");
     const QStringList qt{"Q"};
@@ -75,12 +76,14 @@ inline const QList<Module>& table() {
         {cognition, {base, world, wire, board, processes, models}, {"Eigen/", "nlohmann/"}},
         // As a robot's processes, it knows nothing of matches and scenarios.
         {rollout, {base, world, cognition}, {}},
+        {advisor, {base, world, board, processes, cognition, rollout}, {}},
         {scenario,
          {base, world, simulation, wire, board, processes, models, cognition, "resources"},
          {"nlohmann/"}},
         {frame, {base, world, series, wire, board, processes, cognition}, {}},
         {match,
-         all("simcore") + QStringList{wire, board, processes, models, cognition, scenario, frame},
+         all("simcore") +
+             QStringList{wire, board, processes, models, cognition, advisor, scenario, frame},
          {}},
         {live,
          {base, world, simulation, "telemetry/pb2", wire, series, board, frame},
@@ -93,6 +96,10 @@ inline const QList<Module>& table() {
          below + QStringList{board, processes, models, cognition, scenario, frame, match, session,
                              "robotlink/report", "resources"},
          {"boost/", "nlohmann/"}},
+        // The only one with pagmo.
+        {"robotlink/learn",
+         {base, models, cognition, scenario, "robotlink/experiment", "robotlink/report"},
+         {"nlohmann/", "pagmo/"}},
         {"robotlink/calibrate",
          below + QStringList{board, models, frame, live, session, "robotlink/report"},
          {"Eigen/", "boost/", "nlohmann/"}},
@@ -109,7 +116,7 @@ inline const QList<Module>& table() {
         {"app/shared", {base, models, scenario, match}, {"CLI/"}},
         // A robot's processes know nothing of matches, scenarios, sessions and windows.
         {"app/robot",
-         {base, world, wire, board, processes, models, cognition, "app/shared"},
+         {base, world, wire, board, processes, models, cognition, advisor, "app/shared"},
          {"CLI/"}},
         // For the robot's computer: one small static program without packages.
         {"app/agent", {base, "telemetry/pb2", wire, board}, {}},
@@ -260,6 +267,7 @@ inline QString headerOfPackage(const QString& target) {
                                                {"PkgConfig::muparser", "muParser.h"},
                                                {"Boost::headers", "boost/"},
                                                {"CLI11::CLI11", "CLI/"},
+                                               {"Pagmo::pagmo", "pagmo/"},
                                                {"Threads::Threads", {}}};
   if (target.startsWith("Qt6::")) return "Q";
   return headers.value(target, target);

@@ -6,8 +6,8 @@
 #include <QSet>
 #include <QtTest>
 
+#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/capi/world_lines.h>
-#include <robotlink/cognition/process_registry.h>
 #include <robotlink/experiment/experiment.h>
 #include <robotlink/experiment/run_result.h>
 #include <robotlink/frame/match_event.h>
@@ -93,12 +93,12 @@ class TestDocuments : public QObject {
     row("physics model", "scenarios.md", namesOf(sim::physicsModels(), itsName));
     row("rule set", "referee.md", namesOf(refereeRuleSets(), itsName));
     row("runtime profile", "robot-programs.md", namesOf(builtInRuntimes(), itself));
-    row("process", "robot-programs.md", namesOf(cognitiveProcesses(), itsName));
+    row("process", "robot-programs.md", namesOf(referenceProcesses(), itsName));
     row("behaviour", "behaviours.md", namesOf(behaviours(), itsName));
     row("experiment", "experiments.md", namesOf(builtInExperiments(), itsName));
     row("situation test", "experiments.md", namesOf(builtInSituations(), itsName));
     row("metric", "experiments.md", namesOf(teamMetrics(), itsName));
-    row("request", "learning.md", namesOf(WorldLines::requests(), itself));
+    row("request", "worlds.md", namesOf(WorldLines::requests(), itself));
     row("profile of messages", "live.md", namesOf(telemetry::builtInProfiles(), itself));
     row("format of messages", "live.md", formats());
     row("meaning of a field", "live.md", meanings());

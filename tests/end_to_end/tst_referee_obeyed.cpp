@@ -6,9 +6,9 @@
 #include <QtTest>
 #include <csignal>
 
+#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/blackboard/system_v.h>
-#include <robotlink/cognition/process_registry.h>
 #include <simcore/world/game_state.h>
 #include <telemetry/wire/gamecontroller.h>
 

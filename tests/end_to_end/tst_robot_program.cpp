@@ -91,6 +91,41 @@ class TestRobotProgram : public QObject {
     QVERIFY(process.waitForFinished());
   }
 
+  /// A file of numbers, named on the command line or in the INI file.
+  void parametersFromAFile() {
+    QTemporaryDir folder;
+    const auto write = [&](const char* name, const QByteArray& text) {
+      QFile file(folder.filePath(name));
+      if (!file.open(QIODevice::WriteOnly)) qFatal("cannot write");
+      file.write(text);
+      return file.fileName();
+    };
+    const QString best =
+        write("best.json", R"({"version": 1, "parameters": {"distance_to_kick": 40}})");
+    const QString ini = write("robot.ini",
+                              "[Communication]\nno_player_robofei = 2\n[Pitchboard]\n"
+                              "behaviour = naive\nparameters = " +
+                                  best.toUtf8() + '\n');
+    for (const QStringList& arguments :
+         {QStringList{"--robot", "2", "--behaviour", "naive", "--parameters", best},
+          QStringList{"--config", ini}}) {
+      QProcess process;
+      start(process, withBase(QStringList("decision") + arguments));
+      auto board = SystemVSegments::open(m_base + 200, AttachMode::AttachOnly);
+      QVERIFY(board);
+      board->write(m_variables.visionPanDeg, 10.0F);
+      board->write(m_variables.visionBallDist, 39.0F);
+      board->write(m_variables.comReferee, 2);
+      QTRY_COMPARE(board->read(m_variables.decisionActionA), 5);
+      process.kill();
+      QVERIFY(process.waitForFinished());
+      removeSegment(m_base + 200);
+    }
+    const ProgramRun none =
+        robot(withBase({"decision", "--robot", "2", "--parameters", "nowhere.json"}));
+    QVERIFY2(none.exitCode == 2 && none.err.contains("nowhere.json"), none.err.constData());
+  }
+
   void endSignals_data() {
     QTest::addColumn<int>("signal");
     QTest::addColumn<QString>("name");

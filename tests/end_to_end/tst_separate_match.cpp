@@ -77,11 +77,13 @@ class TestSeparateMatch : public QObject {
   void theStateIsThatOfAMatchInside_data() {
     QTest::addColumn<QString>("name");
     QTest::newRow("striker, supporter, keeper") << "match-3v3";
+    QTest::newRow("blue thinks ahead") << "advised";
     QTest::newRow("as published") << "scenario-1";
   }
   void theStateIsThatOfAMatchInside() {
     QFETCH(QString, name);
-    Scenario scenario = name == "match-3v3" ? soccer() : loadScenario("scenario-1").value();
+    Scenario scenario = name == "scenario-1" ? loadScenario("scenario-1").value() : soccer();
+    if (name == "advised") scenario.advisors[TeamColor::Blue];
     auto inside = make(scenario, {});
     auto outside = make(scenario, separate());
     for (int second = 0; second < 20; ++second) {

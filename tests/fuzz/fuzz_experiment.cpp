@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Experiment files, and lines of their results (inputs that begin with a line's brace and "run").
-// Whatever is accepted can be expanded, and its text is the same experiment again.
+// Experiment files, lines of their results (inputs that begin with a line's brace and "run"), and
+// files of `learn` (those with "opponents"). Whatever is accepted can be expanded, and its text is
+// the same experiment again.
 
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
 #include <robotlink/experiment/experiment.h>
+#include <robotlink/learn/learning.h>
 
 #include "result_line.h"
 
@@ -22,6 +24,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (const auto result = resultFromLine(text, small, metrics)) {
       const std::string line = lineOf(*result);
       if (!resultFromLine(line, small, metrics)) std::abort();
+    }
+    return 0;
+  }
+  if (text.find("\"opponents\"") != std::string_view::npos) {
+    if (const auto learning = learningFromJson(text, "fuzz")) {
+      Candidate one{"candidate", {}};
+      for (const LearnedParameter& parameter : learning->parameters) {
+        one.values.push_back(parameter.at(1.0));
+      }
+      (void)trainingOf(*learning, "generation", {&one, 1}, learning->matches, firstTrainingSeed);
+      const auto again = learningFromJson(learning->text, "again");
+      if (!again || again->text != learning->text) std::abort();
     }
     return 0;
   }

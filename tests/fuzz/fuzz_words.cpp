@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/cognition/cognition_debug.h>
-#include <robotlink/cognition/process_registry.h>
 #include <robotlink/live/attached_robots.h>
 #include <telemetry/expression/expression.h>
 #include <telemetry/wire/sender_filter.h>

@@ -4,6 +4,7 @@
 // follow; what a robot does with them; the same match inside and with separate processes.
 
 #include <QFile>
+#include <QTemporaryDir>
 #include <QtTest>
 
 #include <array>
@@ -11,8 +12,8 @@
 #include <limits>
 #include <set>
 
+#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/cognition/behaviour_parameters.h>
-#include <robotlink/cognition/process_registry.h>
 #include <robotlink/experiment/run_player.h>
 #include <robotlink/match/simulated_match.h>
 
@@ -104,6 +105,7 @@ class TestBehaviourParameters : public QObject {
   void everyNumberHasOneRowAndAGoodDefault();
   void textKeepsEveryNumber();
   void scenariosKeepThem();
+  void aFileGivesNumbersToAll();
   void errorsNameLineAndKey_data();
   void errorsNameLineAndKey();
   void programsRefuseWhatIsOutOfRange();
@@ -162,6 +164,54 @@ void TestBehaviourParameters::scenariosKeepThem() {
   // Without a name they are a striker's.
   QCOMPARE(scenarioFrom(scenarioWith(R"({"kick_distance": 0.1})")).robots[0].behaviour,
            std::string("striker"));
+}
+
+/// Of the numbers of a file each robot takes those that its behaviour reads.
+void TestBehaviourParameters::aFileGivesNumbersToAll() {
+  QTemporaryDir folder;
+  const std::string path = folder.filePath("best.json").toStdString();
+  const auto write = [&](const std::string& parameters) {
+    QFile file(QString::fromStdString(path));
+    if (!file.open(QIODevice::WriteOnly)) qFatal("cannot write");
+    file.write(QByteArray::fromStdString(R"({"version": 1, "name": "best", "learned": {"x": [1]},
+  "parameters": )" + parameters + "}"));
+  };
+  write(R"({"kick_distance": 0.07, "keeper_line": 0.6, "aim_most": 30})");
+  const auto loaded = loadBehaviourParameters(path);
+  QVERIFY2(loaded.has_value(), loaded ? "" : loaded.error().text().c_str());
+  QCOMPARE(loaded->kickDistance, 0.07);
+  QCOMPARE(loaded->aimMost, radiansFromDegrees(30.0));
+  QCOMPARE(loaded->aimLeast, BehaviourParameters{}.aimLeast);
+
+  const auto numbersOf = [&](const std::string& behaviour) {
+    const Scenario scenario = scenarioFrom(scenarioWith(behaviour));
+    // What is written reads back to the same.
+    if (scenarioFrom(scenarioToJson(scenario)) != scenario) qFatal("another scenario");
+    return scenario.robots[0].parameters;
+  };
+  const std::string from = "\"from\": \"" + path + "\"";
+  QCOMPARE(numbersOf("{\"name\": \"striker\", " + from + "}").kickDistance, 0.07);
+  QCOMPARE(numbersOf("{\"name\": \"striker\", " + from + "}").keeperLine, 0.2);
+  QCOMPARE(numbersOf("{\"name\": \"keeper\", " + from + "}").keeperLine, 0.6);
+  QCOMPARE(numbersOf("{\"name\": \"keeper\", \"keeper_line\": 0.3, " + from + "}").keeperLine, 0.3);
+  QCOMPARE(numbersOf(R"({"name": "keeper", "from": {"keeper_line": 0.4}})").keeperLine, 0.4);
+  QVERIFY(numbersOf("{\"name\": \"none\", " + from + "}") == BehaviourParameters{});
+  // As pitchboard-robot has it: --parameters, and what --behaviour names wins.
+  const auto chosen = behaviourFromText(R"({"name": "keeper", "keeper_line": 0.9})", "", *loaded);
+  QCOMPARE(chosen->parameters.keeperLine, 0.9);
+  QCOMPARE(chosen->parameters.kickDistance, 0.07);
+  QCOMPARE(behaviourFromText("striker", "", *loaded)->parameters.kickDistance, 0.07);
+
+  const auto refused = [&](const std::string& behaviour) {
+    const auto scenario = scenarioFromJson(scenarioWith(behaviour), "test.json");
+    return scenario ? QString("was read") : QString::fromStdString(scenario.error().text());
+  };
+  QVERIFY(refused(R"({"name": "keeper", "from": 3})")
+              .contains("test.json:3: robots[0].behaviour.from"));
+  QVERIFY(refused(R"({"name": "keeper", "from": {"keeper_lime": 1}})").contains("did you mean"));
+  QVERIFY(refused(R"({"name": "keeper", "from": "nowhere.json"})").contains("nowhere.json"));
+  write(R"({"kick_distance": 7})");
+  QVERIFY(refused("{" + from + "}").contains("best.json:2: parameters.kick_distance"));
 }
 
 void TestBehaviourParameters::errorsNameLineAndKey_data() {

@@ -291,8 +291,8 @@ class TestMatchPackets : public QObject {
     QTRY_VERIFY(hears(sim::PenaltyKind::None));
   }
 
-  // Of robots that know the extension of the map: whose set play it is.
-  void robotsAreToldOfSetPlays() {
+  // Of robots that know the extension of the map: whose set play it is, score and time.
+  void robotsAreToldOfTheGame() {
     Scenario scenario = scenarioFor(12, 688);
     scenario.robots[0].behaviour = "striker";
     auto match = SimulatedMatch::create(scenario, {}).value();
@@ -310,6 +310,18 @@ class TestMatchPackets : public QObject {
       call({.kind = sim::CallKind::State, .state = state});
     }
     QCOMPARE(words(1), std::pair(0, 0));
+    const auto game = [&](const char* name) {
+      return match.blackboard(RobotId{1})->read(*map.intVar(name));
+    };
+    const int left = game("COM_SECONDS_LEFT");
+    QVERIFY(left > 500 && left <= 600);
+    call({.kind = sim::CallKind::Goal, .team = 1, .value = 1});
+    QCOMPARE(game("COM_GOALS_OWN"), 0);
+    QCOMPARE(game("COM_GOALS_THEIRS"), 1);
+    for (const auto state : {sim::PlayState::Set, sim::PlayState::Playing}) {
+      call({.kind = sim::CallKind::State, .state = state});
+    }
+    QVERIFY(game("COM_SECONDS_LEFT") < left);
     call({.kind = sim::CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::GoalKick});
     QCOMPARE(words(1), std::pair(5, 1));
     call({.kind = sim::CallKind::SetPlay, .team = 1, .setPlay = sim::SetPlay::ThrowIn});

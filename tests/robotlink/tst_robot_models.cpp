@@ -4,6 +4,7 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QTemporaryDir>
 #include <QtTest>
 
 #include <base/angles.h>
@@ -240,6 +241,28 @@ class TestRobotModels : public QObject {
     const auto match = SimulatedMatch::create(*scenario, {}).value();
     QCOMPARE(match.robots().model({2})->name, std::string("adult-size"));
     QVERIFY(match.toScenario().robots[2].model == scenario->robots[2].model);
+  }
+
+  void scenariosNameFilesOfModels() {
+    QTemporaryDir folder;
+    const QString path = folder.filePath("b1.json");
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(R"({"name": "ours", "base": "kid-size", "mass": 5})");
+    file.close();
+    const auto scenarioWith = [](const QString& name) {
+      return scenarioFromJson(QStringLiteral(R"({"version": 1, "robot_model": "%1",
+        "robots": [{"team": "blue", "number": 1, "x": 0, "y": 0}]})")
+                                  .arg(name)
+                                  .toStdString(),
+                              "s");
+    };
+    const auto scenario = scenarioWith(path);
+    QVERIFY2(scenario, scenario ? "" : scenario.error().text().c_str());
+    QCOMPARE(scenario->robots[0].model.name, std::string("ours"));
+    QCOMPARE(scenario->robots[0].model.mass, 5.0);
+    const auto none = scenarioWith("./b2.json");
+    QVERIFY(!none && none.error().text().find("s:1: robot_model: ./b2.json") != std::string::npos);
   }
 
   void filesOfVersion02AreRead() {

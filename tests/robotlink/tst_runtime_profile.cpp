@@ -8,6 +8,7 @@
 #include <set>
 
 #include <resources/resources.h>
+#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/match/moment.h>
 #include <robotlink/match/simulated_match.h>
 
@@ -59,9 +60,9 @@ class TestRuntimeProfile : public QObject {
       QCOMPARE(profile->name, name);
     }
     const auto reference = loadRuntime({}).value();
-    QCOMPARE(reference.processes.size(), cognitiveProcesses().size());
+    QCOMPARE(reference.processes.size(), referenceProcesses().size());
     for (std::size_t i = 0; i < reference.processes.size(); ++i) {
-      QCOMPARE(reference.processes[i].reference, std::string(cognitiveProcesses()[i].name));
+      QCOMPARE(reference.processes[i].reference, std::string(referenceProcesses()[i].name));
     }
     QVERIFY(loadRuntime({"own", {}, {}}).value().processes.empty());
     const auto tree = loadRuntime(choice("published-tree:folder=/home/x,python=pypy")).value();

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include <robotlink/cognition/process_registry.h>
+#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/cognition/soccer_player.h>
 #include <robotlink/models/robot_models.h>
 #include <simcore/world/published_frame.h>

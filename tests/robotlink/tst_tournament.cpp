@@ -85,6 +85,7 @@ class TestTournament : public QObject {
   void wrongMatchesFail();
   void madeByAProgram();
   void againstVersion08();
+  void teamsThinkAhead();
   void wrongFilesAreExplained_data();
   void wrongFilesAreExplained();
 };
@@ -192,7 +193,15 @@ void TestTournament::aFolderDoesNotShowHowItWasFilled() {
   QVERIFY(bytesIn(in("resumed")) == whole);
   QVERIFY(bytesIn(in("merged")) == whole);
   QVERIFY(whole.at("table.csv").find("\nwalks,4,") != std::string::npos);
-  QVERIFY(whole.at("runs.csv").find(",stands,walks,") != std::string::npos);
+  // On both sides the values are those of the first of the pairing, here the one that walks.
+  QVERIFY(whole.at("runs.csv").find(",stands,walks,") == std::string::npos);
+  const ResultTable table = resultsOf(in("whole"), e).value();
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::vector<double> walked = valuesOf("walked_m", table, side).value();
+    QVERIFY(std::ranges::all_of(walked, [](double metres) { return metres > 0.0; }));
+  }
+  QCOMPARE(valuesOf("2 * time_s + kicks - kicks", table, 1).value(), (std::vector<double>{4, 4}));
+  QVERIFY(!valuesOf("walked", table, 0));
   QVERIFY(whole.at("report.md").find("| walks | 4 |") != std::string::npos);
   QVERIFY(whole.at("junit.xml").find("low95(goal_difference)") != std::string::npos);
   QVERIFY(whole.at("junit.xml").find("failures=\"1\"") != std::string::npos);
@@ -258,6 +267,35 @@ void TestTournament::againstVersion08() {
   const auto programs = loadRuntime({folder + "team-0.8-programs.json", {}, {}});
   QVERIFY2(programs.has_value(), programs ? "" : programs.error().text().c_str());
   QVERIFY(programs->hasOwn());
+}
+
+/// As the file or the command line says, whichever colour they play in; the folder keeps it.
+void TestTournament::teamsThinkAhead() {
+  const auto advisedIn = [](const Experiment& e, std::size_t condition) {
+    std::vector<TeamColor> out;
+    for (const auto& [colour, options] : e.conditions[condition].scenario.advisors) {
+      out.push_back(colour);
+    }
+    return out;
+  };
+  using Colours = std::vector<TeamColor>;
+  const auto usual = experimentFromJson(shortTournament, "two").value();
+  QVERIFY(advisedIn(usual, 0).empty() && advisedIn(usual, 1).empty());
+  ExperimentChanges changes;
+  changes.advised = {"stands"};
+  const auto told = experimentFromJson(shortTournament, "two", {}, changes).value();
+  QCOMPARE(advisedIn(told, 0), Colours{TeamColor::Red});
+  QCOMPARE(advisedIn(told, 1), Colours{TeamColor::Blue});
+  const auto kept = experimentFromJson(told.text, "kept").value();
+  QCOMPARE(advisedIn(kept, 0), Colours{TeamColor::Red});
+  std::string file = shortTournament;
+  file.insert(file.find("\"number\": 12"), "\"advisor\": {\"rollouts\": 30}, ");
+  const auto read = experimentFromJson(file, "two").value();
+  QCOMPARE(advisedIn(read, 0), Colours{TeamColor::Blue});
+  QCOMPARE(read.conditions[1].scenario.advisors.at(TeamColor::Red).rollouts, 30);
+  changes.advised = {"sits"};
+  const auto wrong = experimentFromJson(shortTournament, "two", {}, changes);
+  QVERIFY(!wrong && wrong.error().text().find("sits") != std::string::npos);
 }
 
 void TestTournament::wrongFilesAreExplained_data() {

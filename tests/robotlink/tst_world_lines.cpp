@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Worlds behind lines of JSON: what docs/learning.md promises, and whatever else a line may hold.
+// Worlds behind lines of JSON: what docs/worlds.md promises, and whatever else a line may hold.
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
@@ -26,10 +26,10 @@ QJsonObject ask(WorldLines& lines, const char* request) {
   return QJsonDocument::fromJson(QByteArray::fromStdString(answer)).object();
 }
 
-/// The lines of a ```json block behind a heading of docs/learning.md: requests begin with "→ ".
+/// The lines of a ```json block behind a heading of docs/worlds.md: requests begin with "→ ".
 QList<QPair<QByteArray, QByteArray>> conversation() {
-  QFile file(QStringLiteral(PITCHBOARD_SOURCE_DIR "/docs/learning.md"));
-  if (!file.open(QIODevice::ReadOnly)) qFatal("no docs/learning.md");
+  QFile file(QStringLiteral(PITCHBOARD_SOURCE_DIR "/docs/worlds.md"));
+  if (!file.open(QIODevice::ReadOnly)) qFatal("no docs/worlds.md");
   QList<QPair<QByteArray, QByteArray>> pairs;
   for (const QByteArray& line : file.readAll().split('\n')) {
     if (line.startsWith("→ ")) pairs.append({line.mid(4), {}});

@@ -150,6 +150,24 @@ class TestClockMap : public QObject {
     }
   }
 
+  /// A delay shorter than all before moves the times of what follows back. Rows with one time would
+  /// be one row.
+  void noTwoSamplesGetOneTime() {
+    ClockMap map;
+    const Sender sender;
+    double last = map.map(sender.at(100.0), 100.4);
+    for (int i = 1; i <= 40; ++i) {
+      const double time = 100.4 + 0.01 * i;
+      const double arrival = time + 0.002;
+      const double mapped = map.map(sender.at(time), arrival);
+      QVERIFY2(mapped > last && mapped <= arrival, qPrintable(QString::number(i)));
+      last = mapped;
+    }
+    QVERIFY(std::abs(last - 100.802) < 0.001);
+    // A sample in several datagrams has one time.
+    QCOMPARE(map.map(sender.at(100.8), 100.81), last);
+  }
+
   void largeTimesAreExact() {
     ClockMap map;
     const Sender sender{(std::uint64_t{1} << 63) - 500};

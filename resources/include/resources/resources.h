@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Data files that are part of the program: variable map, scenarios, noise presets.
+// The data files that are compiled into the program, such as scenarios, noise presets and the map
+// of variables. Constant data; any thread.
 
 #include <initializer_list>
 #include <span>
@@ -15,12 +16,12 @@ struct Resource {
   std::string_view text;
 };
 
-/// Every embedded file, in order of path.
+/// Returns all embedded files in order of path.
 std::span<const Resource> resources();
-/// The text of one file; empty when there is no such file.
+/// Returns the text of a file; empty if there is no such file.
 std::string_view resourceText(std::string_view path);
-/// What a folder ("noise") offers by name: its files without ".json", `first` before the others,
-/// which follow by name. A new file is offered with no other line anywhere.
+/// Returns the names of the files in a folder such as "noise", without ".json": those in `first`,
+/// then the others in order of name. New files are found without a change in the code.
 std::vector<std::string_view> resourceNames(std::string_view folder,
                                             std::initializer_list<std::string_view> first = {});
 

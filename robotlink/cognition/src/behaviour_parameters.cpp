@@ -5,6 +5,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include <base/read_file.h>
+#include <base/try.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/models/model_json.h>
 #include <simcore/world/parameter_reading.h>
@@ -17,16 +19,54 @@ constexpr std::array<std::string_view, 6> formerKeys{
     "leaves_ball",          "takes_ball",     "supporter_leaves_ball",
     "supporter_takes_ball", "support_behind", "support_beside"};
 
+constexpr std::size_t mostParameterBytes = 64 * 1024;
+
+/// Any of the numbers.
+BehaviourParameters readNumbers(const JsonNode& node, JsonReport& report, const std::string& path) {
+  std::vector<std::string_view> keys;
+  for (const BehaviourParameter& parameter : behaviourParameters) keys.emplace_back(parameter.key);
+  const JsonObject object(report, node, path, keys);
+  BehaviourParameters out;
+  for (const BehaviourParameter& parameter : behaviourParameters) {
+    if (!object.find(parameter.key)) continue;
+    out.*parameter.member =
+        parameter.stored(object.number(parameter.key, 0.0, sim::rangeOf(parameter)));
+  }
+  return out;
+}
+
+BehaviourParameters readFrom(const JsonNode& node, JsonReport& report, const std::string& path) {
+  if (node.kind == JsonNode::Kind::Object) return readNumbers(node, report, path);
+  if (node.kind != JsonNode::Kind::Text) {
+    report.fail(node.line, path, "must be the name of a file, in quotes, or an object in braces");
+    return {};
+  }
+  const auto loaded = loadBehaviourParameters(node.text);
+  if (loaded) return *loaded;
+  report.fail(node.line, path, loaded.error().text());
+  return {};
+}
+
+/// With the numbers of `usual` that this behaviour reads.
+BehaviourChoice choiceOf(std::string_view name, const BehaviourParameters& usual) {
+  BehaviourChoice choice{std::string(name), {}};
+  for (const BehaviourParameter& parameter : behaviourParameters) {
+    if (parameter.isOf(name)) choice.parameters.*parameter.member = usual.*parameter.member;
+  }
+  return choice;
+}
+
 BehaviourChoice readBehaviourObject(const JsonNode& node, JsonReport& report,
                                     const std::string& path,
-                                    std::span<const std::string_view> known) {
-  BehaviourChoice choice;
+                                    std::span<const std::string_view> known,
+                                    const BehaviourParameters& usual = {}) {
   // The name says which numbers there may be.
-  if (const auto name = JsonObject(report, node, path).choice("name", known, "behaviour")) {
-    choice.name = known[*name];
-  }
+  const auto chosen = JsonObject(report, node, path).choice("name", known, "behaviour");
+  const std::string name = chosen ? std::string(known[*chosen]) : BehaviourChoice().name;
+  const JsonNode* from = node.find("from");
+  BehaviourChoice choice = choiceOf(name, from ? readFrom(*from, report, path + ".from") : usual);
   if (report.failed()) return choice;
-  std::vector<std::string_view> keys{"name"};
+  std::vector<std::string_view> keys{"name", "from"};
   for (const BehaviourParameter& parameter : behaviourParameters) {
     if (parameter.isOf(choice.name)) keys.emplace_back(parameter.key);
   }
@@ -62,20 +102,39 @@ BehaviourChoice readBehaviour(const JsonObject& parent, JsonReport& report, std:
   return choice;
 }
 
-Result<BehaviourChoice> behaviourFromText(std::string_view nameOrJson, std::string_view source) {
+Result<BehaviourChoice> behaviourFromText(std::string_view nameOrJson, std::string_view source,
+                                          const BehaviourParameters& usual) {
   std::vector<std::string_view> known;
   for (const BehaviourInfo& info : behaviours()) known.push_back(info.name);
   if (nameOrJson.find('{') == std::string_view::npos) {
-    if (findBehaviour(nameOrJson)) return BehaviourChoice{std::string(nameOrJson), {}};
+    if (findBehaviour(nameOrJson)) return choiceOf(nameOrJson, usual);
     return failure(ErrorCode::NotFound, unknownName("behaviour", nameOrJson, known),
                    std::string(source));
   }
   JsonReport report(source);
   const auto root = parseJson(nameOrJson, report);
   BehaviourChoice choice;
-  if (root) choice = readBehaviourObject(*root, report, "behaviour", known);
+  if (root) choice = readBehaviourObject(*root, report, "behaviour", known, usual);
   if (report.failed()) return tl::unexpected(report.error());
   return choice;
+}
+
+Result<BehaviourParameters> loadBehaviourParameters(const std::string& path) {
+  const auto text = TRY(readFile(path, mostParameterBytes, "the file with parameters"));
+  JsonReport report(path);
+  const auto root = parseJson(text, report);
+  BehaviourParameters out;
+  if (root) {
+    // "learned" says how they were found (docs/learning.md).
+    const JsonObject file(report, *root, "", {"version", "name", "parameters", "learned"});
+    for (const std::string_view key : {"version", "parameters"}) file.require(key);
+    (void)file.integer("version", 1, 1, 1);
+    if (const JsonNode* numbers = file.find("parameters")) {
+      out = readNumbers(*numbers, report, "parameters");
+    }
+  }
+  if (report.failed()) return tl::unexpected(report.error());
+  return out;
 }
 
 std::string behaviourToText(std::string_view name, const BehaviourParameters& parameters) {

@@ -76,11 +76,6 @@ std::span<const ProcessInfo> cognitiveProcesses() {
   return processes;
 }
 
-const ProcessInfo* findProcess(std::string_view name) {
-  const auto found = std::ranges::find(processes, name, &ProcessInfo::name);
-  return found == processes.end() ? nullptr : &*found;
-}
-
 std::span<const BehaviourInfo> behaviours() {
   return behaviourInfos;
 }

@@ -134,11 +134,15 @@ Result<Check> Check::parse(std::string_view text, Over over, std::span<const Met
   return Check(std::move(expression), std::move(names));
 }
 
-bool Check::holds(std::span<const double> values) {
-  const double value = m_expression.evaluate(0.0, values);
+double Check::value(std::span<const double> values) {
   // A comparison with NaN is false, but not every expression is a comparison.
   const bool known = std::ranges::none_of(values, [](double one) { return std::isnan(one); });
-  return known && std::isfinite(value) && value != 0.0;
+  return known ? m_expression.evaluate(0.0, values) : std::numeric_limits<double>::quiet_NaN();
+}
+
+bool Check::holds(std::span<const double> values) {
+  const double result = value(values);
+  return std::isfinite(result) && result != 0.0;
 }
 
 bool isInterval(std::string_view statistic) {

@@ -32,7 +32,9 @@ class Check {
     std::string written;  ///< as in the text
   };
   std::span<const Name> names() const { return m_names; }
-  /// `values` in the order of names(). NaN counts as not true.
+  /// `values` in the order of names(). NaN if one of them is.
+  double value(std::span<const double> values);
+  /// NaN counts as not true.
   bool holds(std::span<const double> values);
 
  private:

@@ -73,6 +73,7 @@ bool makeConditions(Experiment& e, const ConditionParts& parts, JsonReport& repo
   for (const auto& one : named) {
     for (std::size_t combination = 0; combination < combinations; ++combination) {
       Condition condition{one.name, parts.common, {}, {}, e.placed};
+      condition.team = one.team.value_or(e.team);
       condition.placed.insert(condition.placed.end(), one.placed.begin(), one.placed.end());
       std::ranges::stable_sort(condition.placed,
                                [](const auto& a, const auto& b) { return a.time < b.time; });
@@ -207,6 +208,19 @@ void checkWhole(const Experiment& e, const JsonObject& root) {
   }
 }
 
+void adviseTeams(Tournament& tournament, const std::vector<std::string>& names,
+                 const JsonObject& root) {
+  for (const std::string& name : names) {
+    const auto team = std::ranges::find(tournament.teams, name, &TournamentTeam::name);
+    if (team == tournament.teams.end()) {
+      std::vector<std::string_view> known;
+      for (const TournamentTeam& one : tournament.teams) known.push_back(one.name);
+      return root.fail("teams", unknownName("team", name, known));
+    }
+    if (team->advisor.empty() || team->advisor == "false") team->advisor = "true";
+  }
+}
+
 std::vector<ExperimentName> namesIn(std::string_view folder) {
   std::vector<ExperimentName> out;
   for (const std::string_view name : resourceNames(folder.substr(0, folder.size() - 1))) {
@@ -264,6 +278,9 @@ Result<Experiment> experimentFromJson(std::string_view text, std::string_view so
   if (e.tournament && !report.failed()) {
     if (changes.runs) matches = *changes.runs * (e.tournament->swapSides ? 2 : 1);
     matches = changes.matches.value_or(matches);
+    adviseTeams(*e.tournament, changes.advised, object);
+  }
+  if (e.tournament && !report.failed()) {
     addMatches(e, parts, matches, object, report);
   }
   makeWhole(e, parts, object, report);
@@ -276,6 +293,8 @@ Result<Experiment> experimentFromJson(std::string_view text, std::string_view so
   for (std::size_t i = 0; e.tournament && i < e.tournament->teams.size(); ++i) {
     const std::string& runtime = e.tournament->teams[i].runtime;
     if (!runtime.empty()) whole["teams"][i]["runtime"] = runtime;
+    const std::string& advisor = e.tournament->teams[i].advisor;
+    if (!advisor.empty()) whole["teams"][i]["advisor"] = Json::parse(advisor);
   }
   e.text = whole.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
   return e;

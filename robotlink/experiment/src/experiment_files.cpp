@@ -100,9 +100,9 @@ Json tournamentJson(const TournamentTable& table) {
   return {{"teams", std::move(teams)}, {"pairs", std::move(pairs)}, {"wrong", std::move(wrong)}};
 }
 
-/// ",RoboFEI,Red,2,1,1:0 1:1": the experiment's team first.
-std::string teamsOfLine(const Experiment& experiment, const MatchResult& match) {
-  const bool second = match.teams[1].colour == experiment.team;
+/// ",RoboFEI,Red,2,1,1:0 1:1": the condition's team first.
+std::string teamsOfLine(const Condition& condition, const MatchResult& match) {
+  const bool second = match.teams[1].colour == condition.team;
   const TeamResult& ours = match.teams[second ? 1 : 0];
   const TeamResult& theirs = match.teams[second ? 0 : 1];
   std::string halves;
@@ -132,7 +132,8 @@ std::string csvLine(const Experiment& experiment, const RunResult& result) {
                     csvField(experiment.conditions[place.condition].name) + ',' +
                     std::to_string(place.index + 1) + ',' + std::to_string(result.seed) + ',' +
                     result.match.endedBy + ',' + std::to_string(result.ticks) + ',' + hash + ',' +
-                    (result.match.repeatable ? "1" : "0") + teamsOfLine(experiment, result.match);
+                    (result.match.repeatable ? "1" : "0") +
+                    teamsOfLine(experiment.conditions[place.condition], result.match);
   for (const double value : result.values) {
     out += ',';
     if (std::isfinite(value)) out += shortest(value);

@@ -241,6 +241,16 @@ Result<ResultTable> resultsOf(const std::string& folder, const Experiment& exper
   return table;
 }
 
+Result<void> addResults(ResultTable& table, const std::string& folder,
+                        const Experiment& experiment) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(inFolder(folder, runsFile), ignored)) return {};
+  TRY(sameExperiment(folder, experiment));
+  TRY(eachResult(inFolder(folder, runsFile), experiment,
+                 [&](const RunResult& result, const auto&) { table.add(experiment, result); }));
+  return {};
+}
+
 Result<RunResult> resultOf(const std::string& folder, const Experiment& experiment,
                            std::size_t number) {
   std::optional<RunResult> found;

@@ -20,6 +20,7 @@ struct ConditionParts {
     std::vector<ScenarioSetting> settings;
     std::vector<PlacedByHand> placed;
     int line = 1;
+    std::optional<TeamColor> team{};  ///< nothing: the experiment's
   };
   std::vector<Named> named;
   struct Axis {

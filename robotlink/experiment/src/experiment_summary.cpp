@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <base/try.h>
+
 #include "checks.h"
 #include "tournament_parts.h"
 
@@ -18,9 +20,8 @@ std::size_t metricIndex(const std::vector<MetricInfo>& metrics, const std::strin
   return static_cast<std::size_t>(found - metrics.begin());
 }
 
-ResultTable::OfCondition::Outcome outcomeOf(const Experiment& experiment,
-                                            const MatchResult& match) {
-  const bool second = match.teams[1].colour == experiment.team;
+ResultTable::OfCondition::Outcome outcomeOf(TeamColor team, const MatchResult& match) {
+  const bool second = match.teams[1].colour == team;
   return {match.teams[second ? 1 : 0].score, match.teams[second ? 0 : 1].score, match.repeatable};
 }
 
@@ -49,7 +50,8 @@ void ResultTable::add(const Experiment& experiment, const RunResult& result) {
   if (condition.played[place.index]) return;
   condition.played[place.index] = 1;
   ++condition.ends[result.match.endedBy];
-  condition.outcomes[place.index] = outcomeOf(experiment, result.match);
+  condition.outcomes[place.index] =
+      outcomeOf(experiment.conditions[place.condition].team, result.match);
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     condition.columns[i][place.index] = result.values[i];
   }
@@ -113,6 +115,19 @@ ExperimentSummary summarize(const Experiment& experiment, const ResultTable& tab
   if (experiment.tournament) {
     out.tournament = tableOf(experiment, table);
     out.assertions = checkedAssertions(experiment, table);
+  }
+  return out;
+}
+
+Result<std::vector<double>> valuesOf(std::string_view expression, const ResultTable& table,
+                                     std::size_t condition) {
+  auto check = TRY(Check::parse(expression, Check::Over::Run, table.metrics));
+  const ResultTable::OfCondition& rows = table.conditions[condition];
+  std::vector<double> out;
+  for (std::size_t i = 0; i < rows.played.size(); ++i) {
+    std::vector<double> values;
+    for (const Check::Name& name : check.names()) values.push_back(rows.columns[name.metric][i]);
+    out.push_back(check.value(values));
   }
   return out;
 }

@@ -125,7 +125,11 @@ std::vector<Point> PathFollower::points() const {
 
 RunMeasure::RunMeasure(const Experiment& experiment, const RunPlace& run,
                        std::shared_ptr<LatestRows> rows)
-    : m_experiment(experiment), m_run(run), m_rows(std::move(rows)), m_watch(experiment.team) {}
+    : m_experiment(experiment),
+      m_run(run),
+      m_rows(std::move(rows)),
+      m_team(experiment.conditions[run.condition].team),
+      m_watch(m_team) {}
 
 void RunMeasure::begin(const SimulatedMatch& match) {
   match.simulation().snapshot(m_now);
@@ -134,7 +138,7 @@ void RunMeasure::begin(const SimulatedMatch& match) {
     const std::string name = robot.identity.name();
     const auto column = m_rows->find(name, "BELIEF_ERROR");
     m_robots.push_back({name,
-                        robot.identity.team == m_experiment.team,
+                        robot.identity.team == m_team,
                         column.value_or(LatestRows::Place{}),
                         {},
                         robot.pose.position});
@@ -164,7 +168,7 @@ void RunMeasure::ticked(const SimulatedMatch& match, std::chrono::nanoseconds /*
 void RunMeasure::happened(std::span<const MatchEvent> events) {
   using Kind = MatchEventKind;
   const RunStop& stop = m_experiment.stop;
-  const std::string_view team = info(m_experiment.team).name;
+  const std::string_view team = info(m_team).name;
   const auto ofTeam = [&](const MatchEvent& event) {
     return std::ranges::any_of(
         m_robots, [&](const Robot& robot) { return robot.ours && robot.name == event.name; });

@@ -136,6 +136,7 @@ class RunMeasure : public TickObserver {
   double m_movedAt = 0.0;
   std::vector<char> m_touching;  // of each pair
   std::vector<PathFollower> m_paths;
+  TeamColor m_team;
   MatchWatch m_watch;
 };
 

@@ -68,6 +68,7 @@ bool addTeam(const TournamentTeam& team, TeamColor colour, const Json& scenario,
 Json teamJson(const TournamentTeam& team, TeamColor colour) {
   Json out{{"colour", info(colour).name}, {"name", team.name}};
   if (team.number != 0) out["number"] = team.number;
+  if (!team.advisor.empty()) out["advisor"] = Json::parse(team.advisor);
   return out;
 }
 
@@ -95,8 +96,7 @@ class Scores {
       for (std::size_t i = 0; i < rows.played.size(); ++i) {
         if (!rows.played[i]) continue;
         Score score{rows.outcomes[i].goals, rows.outcomes[i].goalsAgainst, pairing * m_runs + i};
-        // The experiment's team is the second of the pairing after the change of sides.
-        if ((side == 1) != ofSecond) std::swap(score.goals, score.against);
+        if (ofSecond) std::swap(score.goals, score.against);
         out.push_back(score);
       }
     }
@@ -188,7 +188,8 @@ void addMatches(Experiment& e, ConditionParts& parts, std::size_t matches, const
           inColour(ours, colours[0]) + " against " + inColour(theirs, colours[1]),
           {},
           {},
-          ours.line};
+          ours.line,
+          colours[side]};
       condition.settings.push_back(
           {"teams", Json::array({teamJson(ours, colours[0]), teamJson(theirs, colours[1])}).dump(),
            ours.line});

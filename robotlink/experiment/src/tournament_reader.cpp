@@ -11,7 +11,7 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr std::size_t mostTeams = 32, mostPairings = 500, mostTeamAssertions = 1000;
+constexpr std::size_t mostTeams = 128, mostPairings = 4000, mostTeamAssertions = 1000;
 constexpr std::size_t longestRuntimeText = 4096, longestTournamentTeam = 64;
 constexpr int mostMatches = 1'000'000;
 
@@ -43,7 +43,7 @@ void ExperimentReader::readTournament(Experiment& e) {
 
 void ExperimentReader::readTeam(const JsonNode& node, std::size_t index, Tournament& tournament) {
   const JsonObject object(m_report, node, m_root.pathOf("teams", index),
-                          {"name", "number", "runtime", "robots"});
+                          {"name", "number", "runtime", "advisor", "robots"});
   object.require("name");
   TournamentTeam team;
   team.line = node.line;
@@ -66,6 +66,7 @@ void ExperimentReader::readTeam(const JsonNode& node, std::size_t index, Tournam
     }
     team.runtime = runtimeChoiceToText(*choice);
   }
+  if (const JsonNode* advisor = object.find("advisor")) team.advisor = jsonOf(*advisor).dump();
   const JsonNode* robots = object.find("robots");
   const std::string path = object.pathOf("robots");
   if (!robots || m_report.failed()) return tournament.teams.push_back(std::move(team));

@@ -112,10 +112,15 @@ struct LiveWatch::Impl {
     for (std::size_t i = 0; i < batch.size(); ++i) pipeline.take(batch[i]);
   }
 
-  void makeFrame(Steady::time_point now) {
-    const std::lock_guard lock(mutex);
+  /// The mutex is held.
+  void makeFrame() {
     newest = std::make_shared<const MatchFrame>(pipeline.frame(clock->now(), &boards));
     pipeline.noticeClock(clock->setBy(), newest->snapshot.time);
+  }
+
+  void makeNextFrame(Steady::time_point now) {
+    const std::lock_guard lock(mutex);
+    makeFrame();
     if (receiver && now >= nextPorts) {
       nextPorts = now + portsPeriod;
       pipeline.noticePorts(receiver->status(), newest->snapshot.time);
@@ -155,7 +160,7 @@ struct LiveWatch::Impl {
       if (now < last + (fresh ? framePeriod : idlePeriod)) continue;
       last = now;
       fresh = false;
-      makeFrame(now);
+      makeNextFrame(now);
     }
   }
 
@@ -233,6 +238,8 @@ void LiveWatch::observe(std::shared_ptr<LiveObserver> observer) {
 
 void LiveWatch::stopObserving(const std::shared_ptr<LiveObserver>& observer) {
   const std::lock_guard lock(m_impl->mutex);
+  // Rows of variables wait for the next frame; those that have come belong to the observer.
+  m_impl->makeFrame();
   m_impl->pipeline.stopObserving(observer);
 }
 

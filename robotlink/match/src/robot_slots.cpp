@@ -10,6 +10,7 @@
 #include <base/lined_json.h>
 #include <base/system_reason.h>
 #include <base/try.h>
+#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/match/moment.h>
 #include <robotlink/models/robot_models.h>
 #include <robotlink/processes/robot_config.h>
@@ -377,8 +378,18 @@ bool RobotSlots::wants(const RobotSlot& slot, const ProfileProcess& process) con
       return isSeparate(slot);
     case OnlyFor::Target:
       return behaviour && behaviour->usesPose && slot.runtime.usesExtension();
+    case OnlyFor::Advised:
+      return behaviour && behaviour->usesPose && slot.runtime.usesExtension() &&
+             advisorOf(slot) != nullptr;
   }
   return true;
+}
+
+/// Null: its team does not think ahead.
+const AdvisorOptions* RobotSlots::advisorOf(const RobotSlot& slot) const {
+  const auto& advisors = m_base.scenario.advisors;
+  const auto found = advisors.find(identityOf(slot.id).team);
+  return found == advisors.end() ? nullptr : &found->second;
 }
 
 /// Index below 0 if the match waits for nobody.
@@ -427,7 +438,7 @@ Result<void> RobotSlots::start(RobotSlot& slot, SlotProcess& process) {
   process.startTick = m_base.tick();
   if (profile.isReference() && findProcess(profile.reference) == nullptr) {
     std::vector<std::string_view> known;
-    for (const ProcessInfo& info : cognitiveProcesses()) known.push_back(info.name);
+    for (const ProcessInfo& info : referenceProcesses()) known.push_back(info.name);
     return failure(ErrorCode::NotFound, unknownName("reference process", profile.reference, known),
                    "the runtime profile " + slot.runtime.name);
   }
@@ -573,6 +584,7 @@ ProcessOptions RobotSlots::inlineOptions(const RobotSlot& slot) {
   options.seed = m_base.scenario.settings.seed;
   if (m_base.options.tellSides) options.facesLeft = identityOf(slot.id).imuStartsAt180;
   options.teamChannel = teamChannel(slot.id);
+  if (const AdvisorOptions* advisor = advisorOf(slot)) options.advisor = *advisor;
   return options;
 }
 
@@ -606,6 +618,10 @@ std::vector<std::string> RobotSlots::commandOf(const RobotSlot& slot,
       robotModelToText(*model(slot.id))};
   if (m_base.options.tellSides) {
     command.insert(command.end(), {"--attack", identity.imuStartsAt180 ? "left" : "right"});
+  }
+  if (const AdvisorOptions* advisor = advisorOf(slot)) {
+    command.insert(command.end(), {"--advisor-rollouts", std::to_string(advisor->rollouts),
+                                   "--advisor-horizon", shortest(advisor->horizon)});
   }
   if (options.publishedLocalization) command.emplace_back("--published-localization");
   if (m_base.cognitionDebug) {

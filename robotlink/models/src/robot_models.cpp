@@ -117,6 +117,12 @@ std::optional<sim::RobotModel> readRobotModel(const JsonObject& parent, JsonRepo
     parent.fail(key, "must be the name of a robot model, in quotes, or an object in braces");
     return {};
   }
+  if (node->text.find_first_of("/.") != std::string::npos) {
+    auto loaded = loadRobotModel(node->text);
+    if (loaded) return std::move(*loaded);
+    parent.fail(key, loaded.error().text());
+    return {};
+  }
   const auto built = parent.choice(key, modelNames(), "robot model");
   if (!built) return {};
   const auto model = robotModelFromText(modelNames()[*built], "");

@@ -74,6 +74,7 @@ Result<ManagementConfig> managementFromIni(const IniFile& file,
                                            const std::vector<std::string>& reference) {
   ManagementConfig config;
   config.processes = reference;
+  std::erase(config.processes, "advisor");  // only where it is listed
   std::vector<std::string_view> keys{"processes", "command.NAME"};
   for (const TimeKey& key : timeKeys) keys.push_back(key.name);
 

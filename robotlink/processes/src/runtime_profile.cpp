@@ -25,8 +25,8 @@ constexpr double longestTime = 3600.0;  // s
 constexpr std::array<std::string_view, 3> policies{"never", "on_failure", "always"};
 constexpr std::array<std::string_view, 2> clocks{"match", "real"};
 constexpr std::array<std::string_view, 2> hearers{"match", "own"};
-constexpr std::array<std::string_view, 5> conditions{"everyone", "behaviour", "pose", "separate",
-                                                     "target"};
+constexpr std::array<std::string_view, 6> conditions{"everyone", "behaviour", "pose",
+                                                     "separate", "target",    "advised"};
 
 const std::vector<std::string_view>& runtimeNames() {
   static const auto all = resourceNames("runtime", {referenceRuntime, ownRuntime});

@@ -113,6 +113,8 @@ void RolloutWorld::begin(const Belief& belief, std::uint64_t seed, const PlayOpt
   m_seed = seed;
   m_tick = m_cycle = 0;
   m_goOn = options.goOn;
+  m_advice = options.advice;
+  m_advised = options.advised;
   m_game = belief.game;
   const double seconds = std::min(options.seconds, std::max(0.0, belief.game.secondsLeft));
   m_lastTick = static_cast<std::uint64_t>(std::llround(seconds / m_constants->dt));
@@ -279,6 +281,9 @@ void RolloutWorld::decide() {
     m_input.sigma = body.sigma;
     m_input.imuYaw = wrapToPi(m_input.believed.yaw - (sideOf(i) == Side::Right ? pi : 0.0));
     m_input.doing = {body.isDown() ? body.action.action : body.command.action, body.command.b};
+    const bool isAdvised = i == m_advised && m_advice.kind != link::AdviceKind::None;
+    m_input.advice = isAdvised ? m_advice : link::Advice{};
+    m_input.adviceStamp = isAdvised ? static_cast<int>(m_cycle) + 1 : 0;
     look(i, draws);
     listen(i);
     const link::PlayerDecision decision = m_minds[i].step(m_input, now());
@@ -838,6 +843,15 @@ RolloutWorld::Seen RolloutWorld::bodySeen(double ticksAgo, std::size_t i) const 
   return seen;
 }
 
+/// Where the ball comes to rest if nobody touches it, at most at the lines.
+Point RolloutWorld::ballRests() const {
+  const double speed = approached(m_ballVelocity.x, m_ballVelocity.y);
+  const double way = speed > 0.0 ? sim::rollingDistance(field().surface, speed) / speed : 0.0;
+  const double x = field().halfLength(), y = field().halfWidth();
+  return {std::clamp(m_ball.x + way * m_ballVelocity.x, -x, x),
+          std::clamp(m_ball.y + way * m_ballVelocity.y, -y, y)};
+}
+
 void RolloutWorld::write(std::span<double> row) {
   traceUntil(m_trace.size());
   const auto put = [row](Column column, double value) {
@@ -857,6 +871,14 @@ void RolloutWorld::write(std::span<double> row) {
   put(Column::LookX, look.x);
   put(Column::LookY, look.y);
   put(Column::LastTouch, m_lastTouch);
+  const Point rest = ballRests();
+  for (const Side side : {Side::Left, Side::Right}) {
+    double least = 1000.0;  // m: nobody plays
+    for (const std::size_t i : m_here) {
+      if (sideOf(i) == side) least = std::min(least, distance(m_bodies[i].pose.position, rest));
+    }
+    put(side == Side::Left ? Column::NearLeft : Column::NearRight, least);
+  }
 }
 
 }  // namespace pitchboard::rollout

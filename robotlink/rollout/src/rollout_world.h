@@ -124,6 +124,7 @@ class RolloutWorld {
   void remember();
   const Point& ballAt(std::size_t ticksAgo) const;
   const Seen& bodyAt(std::size_t ticksAgo, std::size_t i) const;
+  Point ballRests() const;
   Point ballSeen(double ticksAgo) const;
   Seen bodySeen(double ticksAgo, std::size_t i) const;
 
@@ -142,6 +143,8 @@ class RolloutWorld {
 
   std::uint64_t m_seed = 1, m_tick = 0, m_cycle = 0, m_lastTick = 0, m_lookTick = 0;
   bool m_goOn = false;
+  link::Advice m_advice;
+  std::size_t m_advised = 0;
   GameBelief m_game;
   Point m_setPlayBall;
   Ended m_ended = Ended::Time;

@@ -28,6 +28,8 @@ constexpr std::array<ColumnInfo, columnCount> columnInfos{{
     {"look_x", "m, ball at the time of the look, or at the end before it"},
     {"look_y", "m, likewise"},
     {"last_touch", "player that touched the ball last, from 0; -1 nobody"},
+    {"near_left", "m from where the ball comes to rest to the nearest robot that attacks right"},
+    {"near_right", "m from there to the nearest robot that attacks left"},
 }};
 
 template <class... Numbers>

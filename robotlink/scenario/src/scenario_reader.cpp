@@ -236,7 +236,7 @@ class Reader {
     const auto* items = m_root.array("teams", 2);
     for (std::size_t i = 0; items && i < items->size() && !m_report.failed(); ++i) {
       const JsonObject object(m_report, (*items)[i], m_root.pathOf("teams", i),
-                              {"colour", "number", "name"});
+                              {"colour", "number", "name", "advisor"});
       object.require("colour");
       const std::size_t colour = object.choice("colour", colours, "colour of a team").value_or(0);
       const sim::TeamSettings team{teamColors[colour].color, object.integer("number", 0, 0, 255),
@@ -248,7 +248,23 @@ class Reader {
         }
       }
       m_scenario.settings.teams.push_back(team);
+      readAdvisor(object, team.colour);
     }
+  }
+
+  /// true, false, or an object with numbers.
+  void readAdvisor(const JsonObject& team, TeamColor colour) {
+    const JsonNode* node = team.find("advisor");
+    if (!node) return;
+    AdvisorOptions options;
+    if (node->kind == JsonNode::Kind::Object) {
+      const JsonObject object(m_report, *node, team.pathOf("advisor"), {"rollouts", "horizon"});
+      options.rollouts = object.integer("rollouts", options.rollouts, 4, 5000);
+      options.horizon = object.number("horizon", options.horizon, {0.5, 30, "seconds"});
+    } else if (!team.boolean("advisor", false)) {
+      return;
+    }
+    m_scenario.advisors[colour] = options;
   }
 
   void readRobot(const JsonNode& node, std::size_t index) {

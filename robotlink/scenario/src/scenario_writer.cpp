@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -101,6 +102,15 @@ Json robotToJson(const ScenarioRobot& robot, std::size_t index) {
   return out;
 }
 
+void addAdvisor(const Scenario& scenario, TeamColor colour, Json& team) {
+  const auto found = scenario.advisors.find(colour);
+  if (found == scenario.advisors.end()) return;
+  const AdvisorOptions& options = found->second;
+  team["advisor"] = true;
+  if (options == AdvisorOptions{}) return;
+  team["advisor"] = {{"rollouts", options.rollouts}, {"horizon", jsonNumber(options.horizon)}};
+}
+
 }  // namespace
 
 std::string scenarioToJson(const Scenario& scenario) {
@@ -129,6 +139,16 @@ std::string scenarioToJson(const Scenario& scenario) {
     Json one{{"colour", info(team.colour).name}};
     if (team.number != 0) one["number"] = team.number;
     if (!team.name.empty()) one["name"] = team.name;
+    addAdvisor(scenario, team.colour, one);
+    out["teams"].push_back(std::move(one));
+  }
+  for (const auto& [colour, options] : scenario.advisors) {
+    if (std::ranges::find(settings.teams, colour, &sim::TeamSettings::colour) !=
+        settings.teams.end()) {
+      continue;
+    }
+    Json one{{"colour", info(colour).name}};
+    addAdvisor(scenario, colour, one);
     out["teams"].push_back(std::move(one));
   }
   Json ball{{"x", jsonNumber(scenario.ball.x)}, {"y", jsonNumber(scenario.ball.y)}};

@@ -10,6 +10,25 @@
 #include "match_columns.h"
 
 namespace pitchboard::link {
+namespace {
+
+bool isAdvised(const SimulatedMatch& match) {
+  return !match.scenario().advisors.empty();
+}
+
+/// Those of the map, and where a team thinks ahead what its advisors say.
+std::vector<Variable> sampledVariables(const SimulatedMatch& match) {
+  const auto own = match.catalog().variables();
+  std::vector<Variable> out(own.begin(), own.end());
+  if (!isAdvised(match)) return out;
+  const VariableCatalog all = match.catalog().withExtension();
+  for (const Variable& more : all.variables()) {
+    if (more.name.starts_with("ADVISOR_") && !match.catalog().find(more.name)) out.push_back(more);
+  }
+  return out;
+}
+
+}  // namespace
 
 MatchSampler::MatchSampler(std::shared_ptr<telemetry::RowSink> sink, MatchSamplerOptions options) {
   setEveryNth(options.everyNth);
@@ -71,7 +90,7 @@ void MatchSampler::sampleInto(std::span<const Outlet> outlets, const SimulatedMa
 }
 
 bool MatchSampler::sameRobots(const SimulatedMatch& match) const {
-  if (m_catalog != &match.catalog()) return false;
+  if (m_catalog != &match.catalog() || m_advised != isAdvised(match)) return false;
   return std::ranges::equal(
       m_sampled, m_snapshot.robots, [&](const SampledRobot& sampled, const auto& robot) {
         const RobotSlot* slot = match.robots().find(robot.identity.id);
@@ -81,9 +100,10 @@ bool MatchSampler::sameRobots(const SimulatedMatch& match) const {
 }
 
 void MatchSampler::takeRobots(const SimulatedMatch& match) {
-  if (m_catalog != &match.catalog()) {
+  if (m_catalog != &match.catalog() || m_advised != isAdvised(match)) {
     m_catalog = &match.catalog();
-    m_board = std::make_unique<BoardColumns>(*m_catalog);
+    m_advised = isAdvised(match);
+    m_board = std::make_unique<BoardColumns>(sampledVariables(match));
   }
   const sim::SimulationSettings& settings = match.simulation().state().settings;
   telemetry::GroupInfo group{matchGroup, matchColumns(), {}};

@@ -49,6 +49,7 @@ double ClockMap::map(std::uint64_t sent, double arrival) {
       apart = arrival;
     }
   }
+  const double elapsed = secondsBetween(m_newest, sent);
   m_newest = sent;
   const bool isFirst = m_used == 0;
   if (isFirst || arrival >= m_buckets[m_now].begin + bucketSeconds) {
@@ -60,6 +61,10 @@ double ClockMap::map(std::uint64_t sent, double arrival) {
   const double delay = apart - least();
   if (!isFirst) m_jitter += (std::abs(delay - m_delay) - m_jitter) * jitterShare;
   m_delay = delay;
+  // After a shorter delay was found, times would be those of before for a while. They go on more
+  // slowly instead: what was sent at two times stays two samples.
+  const double behind = arrival - m_returned;
+  if (elapsed > 0.0 && behind > 0.0) m_returned += std::min(elapsed, behind) / 2;
   m_returned = std::max(m_returned, secondsBetween(*m_first, sent) + least());
   return m_returned;
 }

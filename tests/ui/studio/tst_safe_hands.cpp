@@ -302,7 +302,7 @@ class TestSafeHands : public QObject {
     heavy.ballMass = 0.4;
     s.controller.edits()->setRigidBody(heavy);
     QTRY_COMPARE(s.controller.frame()->settings->rigidBody.ballMass, 0.4);
-    QTRY_COMPARE(stack->count(), 1);
+    QTRY_COMPARE(stack->index(), 1);
     stack->undo();
     QTRY_COMPARE(s.controller.frame()->settings->rigidBody.ballMass, usual);
     // What the match refuses is no step.
@@ -315,7 +315,7 @@ class TestSafeHands : public QObject {
     const bool running = s.controller.frame()->snapshot.clockRunning;
     s.controller.edits()->setClockRunning(!running);
     QTRY_COMPARE(s.controller.frame()->snapshot.clockRunning, !running);
-    QTRY_COMPARE(stack->count(), 1);
+    QTRY_COMPARE(stack->index(), 1);
     stack->undo();
     QTRY_COMPARE(s.controller.frame()->snapshot.clockRunning, running);
     const double clock = s.controller.frame()->snapshot.clock;

@@ -109,7 +109,11 @@ void PlotFeed::refresh() {
   m_rowsRead =
       (m_store ? m_store->pagesRevision() : 0) + (m_compared ? m_compared->pagesRevision() : 0);
   m_views.clear();
-  for (auto& [name, curve] : m_named) curve.updated = false;
+  m_namedWorking = false;
+  for (auto& [name, curve] : m_named) {
+    const bool asked = std::exchange(curve.updated, false);
+    m_namedWorking = m_namedWorking || (asked && curve.rows && curve.rows->isWorking());
+  }
   m_time->setData(m_store ? m_store->range() : std::nullopt);
   emit refreshed();
 }

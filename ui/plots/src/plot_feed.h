@@ -76,6 +76,8 @@ class PlotFeed : public QObject {
   /// Grows whenever rows of a session that is larger than memory have been read: the same range now
   /// looks different.
   quint64 rowsRead() const { return m_rowsRead; }
+  /// Whether curves that others are made of were being computed at the last refresh.
+  bool isWorking() const { return m_namedWorking; }
   /// Grows when another session is compared; 0: none ever was.
   quint64 comparedGeneration() const { return m_comparedGeneration; }
   double comparedOffset() const { return m_comparedOffset; }
@@ -132,7 +134,7 @@ class PlotFeed : public QObject {
     bool inWork = false;                  // a curve that is made of itself has no rows
   };
   std::map<QString, Named> m_named;
-  bool m_namedAsked = false;
+  bool m_namedAsked = false, m_namedWorking = false;
 };
 
 }  // namespace pitchboard::ui

@@ -353,7 +353,8 @@ void PlotsDock::hideEvent(QHideEvent*) {
 
 void PlotsDock::takeRows() {
   const auto known = m_context.time->data();
-  const bool pending = currentPage() != nullptr && currentPage()->isWorking();
+  const bool pending =
+      m_feed->isWorking() || (currentPage() != nullptr && currentPage()->isWorking());
   if (pending) m_feed->refreshSoon();
   const bool same = known == m_drawnData && m_drawnGeneration == m_feed->generation() &&
                     m_drawnRows == m_feed->rowsRead();

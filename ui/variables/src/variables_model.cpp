@@ -18,8 +18,9 @@ using telemetry::GroupInfo;
 
 // Categories that people look for first; the others follow as they come.
 int categoryRank(const std::string& category) {
-  static constexpr const char* order[] = {"Vision",   "Belief", "Localization", "Decision",
-                                          "Planning", "IMU",    "Control",      "Communication"};
+  static constexpr const char* order[] = {"Vision",   "Belief",        "Localization",
+                                          "Decision", "Planning",      "IMU",
+                                          "Control",  "Communication", "Advisor"};
   int rank = 0;
   for (const char* known : order) {
     if (category == known) return rank;

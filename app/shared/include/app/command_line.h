@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the command lines of all programs have in common: how they are read, and how a refusal
-// looks. Used at the start of a program, in its first thread.
+// Reads the command line of a program and prints its errors, in the same way for all programs. Used
+// at the start of a program, on its main thread.
 
 #include <CLI/CLI.hpp>
 
@@ -14,20 +14,21 @@
 
 namespace pitchboard::shared {
 
-/// The exit code after an error that was told.
+/// The exit code after an error message.
 inline constexpr int exitRefused = 2;
 
 /// Prints "error: ..." on stderr and returns exitRefused.
 int reportError(const Error& error);
 
-/// Reads the command line; an exit code when the program is to end here (help, version, bad usage).
+/// Reads the command line. Returns an exit code if the program has to end (help, version, invalid
+/// usage).
 std::optional<int> parse(CLI::App& app, int argc, char** argv);
 
-/// The whole text as a number with a decimal point.
+/// Reads all of the text as a number with a decimal point; empty if it is not one.
 std::optional<double> numberFrom(std::string_view text);
 
-/// Adds an option that takes a length of time above 0, at most 1e9 s, as secondsFromText() reads
-/// it. `seconds` stays empty without the option and must live as long as the command.
+/// Adds an option for a duration above 0 and at most 1e9 s, in the formats of secondsFromText().
+/// `seconds` is empty if the option is not given; it must live as long as the command.
 CLI::Option* addDuration(CLI::App& command, const std::string& name, std::optional<double>& seconds,
                          const std::string& description);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Who runs for the robots of a match, and what the match uses of the computer, as every command
-// that plays one is told. Used at the start of a program, in its first thread.
+// Options of all commands that play a match: the programs of its robots, and the number, blackboard
+// keys and pace of the match. Used at the start of a program, on its main thread.
 
 #include <CLI/CLI.hpp>
 
@@ -20,16 +20,16 @@ struct RobotsOptions {
   std::vector<std::string> runtimes;  ///< "own", "blue=own", "B1=program=/home/me/decide"
 };
 
-/// --match, --key-base, --pace and --runtime.
+/// Adds --match, --key-base, --pace and --runtime.
 void addRobotsOptions(CLI::App& command, RobotsOptions& options);
 
-/// Puts the runtimes into the scenario. Errors name the option.
+/// Applies the runtimes to the scenario. Errors name the option.
 Result<link::Scenario> withRuntimes(link::Scenario scenario, const RobotsOptions& options);
 
-/// The rest.
+/// Applies the other options to the match.
 void apply(const RobotsOptions& options, link::MatchOptions& match);
 
-/// "Match 1: ..., because match 0 is played by ..."; empty for match 0.
+/// Returns "Match 1: ..., because match 0 is played by ..."; empty for match 0.
 std::string numberNotice(const link::SimulatedMatch& match);
 
 }  // namespace pitchboard::shared

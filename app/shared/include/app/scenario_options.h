@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which match is played, as every command that plays one is told: a scenario, and what is to be
-// different in it. Used at the start of a program, in its first thread.
+// Options of all commands that play a match: the scenario, and values that replace those of the
+// scenario. Used at the start of a program, on its main thread.
 
 #include <CLI/CLI.hpp>
 
@@ -16,22 +16,23 @@ namespace pitchboard::shared {
 struct ScenarioOptions : link::ScenarioOverrides {
   std::string scenario = "match";
   std::vector<std::string> robotModels;  ///< "kid-size", "red=my-robot.json"; the last one wins
+  std::vector<std::string> advised;      ///< teams that think ahead: "blue"
 };
 
-/// --scenario, --seed, --noise, --physics and --robot-model.
+/// Adds --scenario, --seed, --noise, --physics, --robot-model and --advisor.
 void addScenarioOptions(CLI::App& command, ScenarioOptions& options);
 
-/// A check of options that take a whole number: what is wrong with one below 0, which would become
-/// a huge one; empty when it is none.
+/// Checks an option that takes a whole number. Returns an error message for a negative number,
+/// which would otherwise become a huge one; empty if the number is valid.
 std::string refuseNegative(const std::string& text);
 
-/// Puts seed, noise, physics and robot models into a scenario.
+/// Applies seed, noise, physics, robot models and advisors to a scenario.
 Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& options);
 
-/// What the scenario asks of its physics in vain, as warnings on stderr.
+/// Prints a warning to stderr for each value of the scenario that its physics ignores.
 void warnOfIgnoredSettings(const link::Scenario& scenario);
 
-/// The scenario that was named, changed. Errors as loadScenario() and noisePreset().
+/// Loads the scenario and applies the options. Fails as loadScenario() and noisePreset() do.
 Result<link::Scenario> scenarioFrom(const ScenarioOptions& options);
 
 }  // namespace pitchboard::shared

@@ -22,6 +22,16 @@ double beyondLines(const WorldModel& world) {
                   std::abs(at.y) - world.field().halfWidth());
 }
 
+bool isAdvised(const WorldModel& world, AdviceKind kind) {
+  return world.advice() && world.advice()->kind == kind;
+}
+
+Point inField(const WorldModel& world, const Point& place) {
+  constexpr double inside = 0.2;  // m
+  const double x = world.field().halfLength() - inside, y = world.field().halfWidth() - inside;
+  return {std::clamp(place.x, -x, x), std::clamp(place.y, -y, y)};
+}
+
 /// The ball lies before the own goal with an opponent near it.
 bool isDangerous(const WorldModel& world, const Point& ball, double within) {
   constexpr double near = 1.5;  // m
@@ -129,7 +139,9 @@ Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
       return {target ? Move(*target) : acts::gait, Intention::Ball, ball, false};
     }
     const bool clears = isDangerous(world, here, m_numbers.clearDanger);
-    return {m_attack.step(world, aimFrom(world, here), clears), Intention::Ball, here, false};
+    const auto aim = clears ? std::nullopt : advisedAim(world, here);
+    return {m_attack.step(world, aim.value_or(aimFrom(world, here)), clears), Intention::Ball, here,
+            false};
   }
   // Seen by a team-mate or remembered. If it is not there, it is looked for.
   if (!world.localized()) return lookForBall(world);
@@ -143,6 +155,11 @@ Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
 
 /// Who has it keeps it for a while: two that swap for every centimetre reach nothing.
 bool Behaviour::takesBall(const WorldModel& world, const Point& ball, bool has) const {
+  const auto isInGame = [](const auto& mate) { return mate && mate->takesPart(); };
+  if (isAdvised(world, AdviceKind::GoToBall)) return true;
+  if (isAdvised(world, AdviceKind::LeaveBall) && std::ranges::any_of(world.mates(), isInGame)) {
+    return false;
+  }
   const double own = secondsToBall(world, ball);
   const double away = distance(world.pose().position, ball);
   for (const auto& mate : world.mates()) {
@@ -201,7 +218,8 @@ Choice Striker::support(const WorldModel& world, const Point& ball) {
     m_place.reset();
   }
   m_place = placeOf(robots, places, m_place);
-  const Point& place = places[*m_place];
+  const bool isTold = isAdvised(world, AdviceKind::Stand);
+  const Point place = isTold ? inField(world, world.advice()->place.position) : places[*m_place];
   Choice choice = goTo(world, {place, direction(place, ball)}, Intention::Support, 0.25);
   if (auto* target = std::get_if<Target>(&choice.move)) target->apart = true;
   return choice;
@@ -309,6 +327,7 @@ bool Keeper::goesForBall(const WorldModel& world, const Point& ball) const {
     others = std::min(others, secondsFrom(world, opponent, ball));
   }
   const double near = m_clearing ? clearUntil : m_numbers.clearWithin;
+  if (isAdvised(world, AdviceKind::GoToBall) && fromGoal < m_numbers.keeperOut) return true;
   return (fromGoal < near && !mateIsFirst) || (fromGoal < m_numbers.keeperOut && own < others);
 }
 
@@ -333,8 +352,13 @@ Choice Keeper::play(const WorldModel& world) {
   // On the line from the ball to the goal, on an arc before it that covers the posts.
   const double arc = m_numbers.keeperArc * world.field().goalWidth;
   const double angle = std::clamp(direction(world.ownGoal(), *ball), -1.2, 1.2);
-  const Point place{world.ownGoal().x + m_numbers.keeperLine + 0.6 * arc * repeatable::cos(angle),
-                    world.ownGoal().y + arc * repeatable::sin(angle)};
+  Point place{world.ownGoal().x + m_numbers.keeperLine + 0.6 * arc * repeatable::cos(angle),
+              world.ownGoal().y + arc * repeatable::sin(angle)};
+  if (isAdvised(world, AdviceKind::Stand)) {
+    const Point told = inField(world, world.advice()->place.position);
+    constexpr double leaves = 1.5;  // m that a keeper may stand before its goal
+    if (distance(told, world.ownGoal()) < leaves) place = told;
+  }
   Choice choice = goTo(world, {place, 0.5 * angle}, Intention::Keep, 0.12);
   choice.search = !world.seesBall();
   return choice;

@@ -126,6 +126,38 @@ double worthOnField(const WorldModel& world, const BehaviourParameters& numbers,
 
 }  // namespace
 
+bool isTowardsOwnGoal(const WorldModel& world, const Point& ball, double yaw, const Point& stops) {
+  const bool backwards = std::abs(yaw) > wrongWay;
+  return backwards && (ball.x < 0.0 || stops.x < -0.25 * world.field().length);
+}
+
+std::optional<Act> adviseKick(const WorldModel& world, const Advice& advice, const Point& ball) {
+  if (advice.kind == AdviceKind::Dribble) return std::nullopt;
+  const sim::FieldSpec& field = world.field();
+  const sim::BallAtFeet feet{world.ballDistance(), world.ballBearing()};
+  const double wanted = direction(ball, advice.place.position);
+  constexpr double squarely = 0.8, inside = 0.1;
+  std::optional<Act> best;
+  double least = 0.25;  // rad off the aim
+  for (const Candidate& one : candidates) {
+    const bool isStrong = one.act == acts::kickRight || one.act == acts::kickLeft;
+    if (isStrong != (advice.kind == AdviceKind::StrongKick)) continue;
+    const double range = kickRange(world, one.act, feet);
+    if (range <= squarely * kickRange(world, one.act)) continue;
+    const double way = wrapToPi(world.pose().yaw + one.turned);
+    const double off = std::abs(wrapToPi(way - wanted));
+    const Point stops = along(ball, way, range);
+    if (off >= least || isTowardsOwnGoal(world, ball, way, stops)) continue;
+    const bool leaves = std::abs(stops.x) > field.halfLength() - inside ||
+                        std::abs(stops.y) > field.halfWidth() - inside;
+    constexpr double goodChance = 0.1;
+    if (leaves && chanceOfGoal(world, ball, way, range) < goodChance) continue;
+    best = one.act;
+    least = off;
+  }
+  return best;
+}
+
 std::optional<KickWorth> chooseKick(const WorldModel& world, const BehaviourParameters& numbers,
                                     const KickSituation& situation) {
   const sim::FieldSpec& field = world.field();
@@ -140,8 +172,7 @@ std::optional<KickWorth> chooseKick(const WorldModel& world, const BehaviourPara
     if (range <= squarely * kickRange(world, one.act)) continue;
     const double way = wrapToPi(yaw + one.turned);
     const Point stops = along(ball, way, range);
-    const bool backwards = std::abs(way) > wrongWay;
-    if (backwards && (ball.x < 0.0 || stops.x < -0.25 * field.length)) continue;
+    if (isTowardsOwnGoal(world, ball, way, stops)) continue;
     const double goal = chanceOfGoal(world, ball, way, range);
     constexpr double inside = 0.1;  // m
     const bool leaves = std::abs(stops.x) > field.halfLength() - inside ||

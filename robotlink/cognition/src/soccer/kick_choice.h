@@ -37,4 +37,11 @@ double chanceOfGoal(const WorldModel& world, const Point& ball, double yaw, doub
 std::optional<KickWorth> chooseKick(const WorldModel& world, const BehaviourParameters& numbers,
                                     const KickSituation& situation);
 
+/// A ball from `ball` in the direction `yaw`, to `stops`, comes too near to the own goal.
+bool isTowardsOwnGoal(const WorldModel& world, const Point& ball, double yaw, const Point& stops);
+
+/// The kick that does what the advisor wants (AdviceKind::StrongKick or WeakKick) from where the
+/// robot stands and looks; nothing while none does, or it wants none.
+std::optional<Act> adviseKick(const WorldModel& world, const Advice& advice, const Point& ball);
+
 }  // namespace pitchboard::link

@@ -210,8 +210,22 @@ std::optional<Act> Attack::kick(const WorldModel& world) const {
   if (!world.localized()) return std::nullopt;
   const KickSituation situation{world.toField(world.ballInFront()), m_clears,
                                 m_held > m_numbers->atBallTime};
+  // Who has stood there too long does what it can.
+  if (!situation.clears && !situation.hurries && advisedAim(world, situation.ball)) {
+    return adviseKick(world, *world.advice(), situation.ball);
+  }
   const auto best = chooseKick(world, *m_numbers, situation);
   return best ? std::optional(best->act) : std::nullopt;
+}
+
+std::optional<Point> advisedAim(const WorldModel& world, const Point& ball) {
+  const auto& advice = world.advice();
+  if (!advice || !isForBall(advice->kind)) return std::nullopt;
+  const Point aim = advice->place.position;
+  constexpr double least = 0.1;  // m
+  if (distance(ball, aim) < least || isTowardsOwnGoal(world, ball, direction(ball, aim), aim))
+    return std::nullopt;
+  return aim;
 }
 
 Point aimFrom(const WorldModel& world, const Point& ball) {

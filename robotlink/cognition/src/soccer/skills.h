@@ -71,5 +71,7 @@ class Attack {
 /// Where the ball should go: the part of the goal that seen opponents cover least; from farther
 /// away past those who stand in the way; out to the side while it lies in front of the own goal.
 Point aimFrom(const WorldModel& world, const Point& ball);
+/// Where the advisor wants it; nothing where it wants nothing, or that is dangerous.
+std::optional<Point> advisedAim(const WorldModel& world, const Point& ball);
 
 }  // namespace pitchboard::link

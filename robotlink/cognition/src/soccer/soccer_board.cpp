@@ -58,6 +58,9 @@ void SoccerBoard::read(const Blackboard& board, const WorldModel& world, SoccerI
   input.sigma = std::isfinite(sigma) && sigma > 0.0 ? cm_frame::metresFromCm(sigma) : 1e9;
   input.doing = {board.read(v.controlAction), board.read(v.decisionActionB)};
 
+  input.advice = m_advisor.read(board, field);
+  input.adviceStamp = readOr(board, m_advisor.stamp);
+
   input.ball.reset();
   if (board.read(v.visionLost) == 0) {
     input.ball = seenAt(numberOf(board, v.visionBallDist), numberOf(board, v.visionPanDeg));

@@ -29,6 +29,7 @@ class SoccerBoard {
  private:
   RobotVariables m_variables{VariableCatalog::extended()};
   TeamVariables m_team;
+  AdvisorVariables m_advisor;
   IntVar m_setPlay, m_setPlayOurs;  // of the extension; -1: the map in use has none
 };
 

@@ -43,6 +43,7 @@ void WorldModel::update(const SoccerInput& input, double now) {
     if (m_now - sighting.time < m_opponentMemory) m_opponentPlaces.push_back(sighting.position);
   }
   hearMates(input);
+  hearAdvice(input);
   m_looksForOpponents = ++m_cycle % cyclesBetweenLooks == 0;
 }
 
@@ -95,6 +96,23 @@ void WorldModel::hearMates(const SoccerInput& input) {
   }
   m_matePlaces.clear();
   for (const Point& place : input.matePlaces) m_matePlaces.push_back(toStudio(place));
+}
+
+/// The blackboard has no clock: advice is as old as the last change of its stamp.
+void WorldModel::hearAdvice(const SoccerInput& input) {
+  constexpr double fresh = 1.5;        // s
+  constexpr double beyondLines = 0.7;  // m, of an aim in the goal
+  if (m_adviceStamp != input.adviceStamp) {
+    m_adviceTime = m_adviceStamp ? m_now : -1e9;
+    m_adviceStamp = input.adviceStamp;
+  }
+  m_advice.reset();
+  const double age = m_now - m_adviceTime;
+  if (input.advice.kind == AdviceKind::None || !localized() || age < 0.0 || age > fresh) return;
+  const Pose place = toStudio(input.advice.place);
+  const bool isNear = std::abs(place.position.x) <= m_field.halfLength() + beyondLines &&
+                      std::abs(place.position.y) <= m_field.halfWidth();
+  if (isNear) m_advice = Advice{input.advice.kind, place};
 }
 
 double WorldModel::ballDistance() const {

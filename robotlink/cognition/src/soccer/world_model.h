@@ -81,6 +81,9 @@ class WorldModel {
   /// Opponents seen within the last seconds.
   const Points& opponents() const { return m_opponentPlaces; }
 
+  /// What the robot's advisor suggests, turned; nothing when it is old or makes no sense.
+  const std::optional<Advice>& advice() const { return m_advice; }
+
   /// To the studio's frame, whichever side this team attacks; and from it, which is the same.
   Point toStudio(const Point& turned) const {
     return m_attacksLeft ? Point{-turned.x, -turned.y} : turned;
@@ -98,6 +101,7 @@ class WorldModel {
   void seeBall(const SeenAt& ball);
   void seeRobots(const SoccerInput& input);
   void hearMates(const SoccerInput& input);
+  void hearAdvice(const SoccerInput& input);
   void moveWithBody(const Act& doing, double seconds);
 
   sim::FieldSpec m_field;
@@ -124,6 +128,9 @@ class WorldModel {
   Points m_opponentPlaces;  // of those seen lately
   std::array<std::optional<TeamMate>, mostTeamMates> m_mates;
   Points m_matePlaces;
+  std::optional<Advice> m_advice;
+  std::optional<int> m_adviceStamp;
+  double m_adviceTime = -1e9;  // when it was new
 };
 
 }  // namespace pitchboard::link

@@ -45,7 +45,11 @@ std::optional<RefereeOrder> RefereeOrders::take(const telemetry::RefereeState& s
   const telemetry::RefereeTeam* own = state.team(team);
   if (own == nullptr) return std::nullopt;
   const ToldSetPlay told = setPlayIn(state);
-  RefereeOrder order{refereeStop, told.kind, told.team == team};
+  RefereeOrder order{refereeStop, told.kind, told.team == team, own->score};
+  for (const telemetry::RefereeTeam& one : state.teams) {
+    if (one.number != team) order.goalsTheirs = one.score;
+  }
+  order.secondsLeft = state.secsRemaining;
   if (state.state == Playing) {
     order.word = wordInPlay(state, team);
   } else {
@@ -64,13 +68,19 @@ std::optional<RefereeOrder> RefereeOrders::take(const telemetry::RefereeState& s
 RefereeVariables::RefereeVariables(const VariableCatalog& map)
     : m_word(map.intVar("COM_REFEREE").value_or(IntVar{-1})),
       m_setPlay(map.intVar("COM_SET_PLAY").value_or(IntVar{-1})),
-      m_setPlayIsOurs(map.intVar("COM_SET_PLAY_OURS").value_or(IntVar{-1})) {}
+      m_setPlayIsOurs(map.intVar("COM_SET_PLAY_OURS").value_or(IntVar{-1})),
+      m_goalsOwn(map.intVar("COM_GOALS_OWN").value_or(IntVar{-1})),
+      m_goalsTheirs(map.intVar("COM_GOALS_THEIRS").value_or(IntVar{-1})),
+      m_secondsLeft(map.intVar("COM_SECONDS_LEFT").value_or(IntVar{-1})) {}
 
 void RefereeVariables::write(Blackboard& board, const RefereeOrder& order, bool extended) const {
   writeIfPresent(board, m_word, order.word);
   if (!extended) return;
   writeIfPresent(board, m_setPlay, static_cast<int>(order.setPlay));
   writeIfPresent(board, m_setPlayIsOurs, order.setPlayIsOurs ? 1 : 0);
+  writeIfPresent(board, m_goalsOwn, order.goalsOwn);
+  writeIfPresent(board, m_goalsTheirs, order.goalsTheirs);
+  writeIfPresent(board, m_secondsLeft, order.secondsLeft);
 }
 
 }  // namespace pitchboard::link

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Estimates a robot model from recordings: a posterior for every number that commands, IMU and
-// percepts tell something about, with a prior around a base model (docs/calibrate.md). Truth that a
-// simulated recording holds is never used. SI units, radians. Takes seconds to minutes; call it on
-// a thread of its own. Pure apart from the progress function.
+// Estimates a robot model from recordings (docs/calibrate.md). For each number of the model that
+// commands, IMU and percepts give information about, it computes a posterior, with a prior around a
+// base model. The true poses in simulated recordings are never used. SI units, radians. Takes
+// seconds to minutes, so call it on a thread of its own. Pure apart from the progress function.
 
 #include <functional>
 #include <map>
@@ -20,20 +20,21 @@ namespace pitchboard::link {
 
 /// One number with its 95 % interval (central, of the posterior).
 struct CalibratedValue {
-  std::string key;  ///< as in robot files: "turn", "noise.imu_white"; "field.rolling_deceleration"
+  std::string
+      key;  ///< as in robot files ("turn", "noise.imu_white"), or of the field ("field....")
   double value = 0.0, low = 0.0, high = 0.0;  ///< median of the posterior; m, s, rad
   std::size_t samples = 0;
-  std::string of;  ///< what was counted: "stints", "percepts"
+  std::string of;  ///< what `samples` counts: "stints", "percepts"
 };
 
-/// A moment of the recording and what was predicted from it.
+/// A window of the recording, and the motion predicted from its start.
 struct PredictedWindow {
-  double time = 0.0;  ///< s, of its start
+  double time = 0.0;  ///< s, start of the window
   struct Place {
     double time = 0.0;
-    Point recorded;    ///< as the filter of the calibrated model found it
-    Point calibrated;  ///< predicted from the commands alone
-    Point base;
+    Point recorded;    ///< estimated from the recording with the calibrated model
+    Point calibrated;  ///< predicted from the commands alone with the calibrated model
+    Point base;        ///< predicted from the commands alone with the base model
   };
   std::vector<Place> places;  ///< every 0.1 s
 };
@@ -45,48 +46,48 @@ struct CalibrationCheck {
   std::vector<PredictedWindow> examples;
 };
 
-/// Normalized innovations of one sense.
+/// Normalized innovations of a sensor.
 struct CalibrationResiduals {
   std::string sense;
   std::size_t count = 0;
-  double mean = 0.0, deviation = 0.0;  ///< 0 and 1 where the model is right
-  double autocorrelation = 0.0;        ///< of neighbours; 0 where the model is right
+  double mean = 0.0, deviation = 0.0;  ///< 0 and 1 for a correct model
+  double autocorrelation = 0.0;        ///< of successive values; 0 for a correct model
   std::vector<double> overTime;        ///< root mean square in equal parts of the time
-  std::vector<double> quantiles;       ///< at the normal's -2, -1.5, ... 2
+  std::vector<double> quantiles;       ///< at the normal distribution's -2, -1.5, ... 2
 };
 
 struct Calibration {
   std::string robot;
-  sim::RobotModel base;   ///< the prior's medians
-  sim::RobotModel model;  ///< with what was estimated
+  sim::RobotModel base;   ///< medians of the prior
+  sim::RobotModel model;  ///< the base model with the estimated numbers
   std::vector<CalibratedValue> values;
-  std::map<std::string, std::string> kept;  ///< key: why it keeps the base model's number
-  /// Not numbers of a model: seconds to reach and to leave a speed, spread between stints.
+  std::map<std::string, std::string> kept;  ///< keys that were not estimated, with the reason
+  /// Results that are not part of a model: time to reach and leave a speed, spread between stints.
   std::vector<CalibratedValue> told;
-  std::map<std::string, double> leftOut;  ///< s by cause
+  std::map<std::string, double> leftOut;  ///< seconds that were not used, by reason
   std::vector<std::string> sessions;
   std::vector<std::string> notes;
-  double seconds = 0.0;  ///< of recordings
+  double seconds = 0.0;  ///< total duration of the recordings
   CalibrationCheck check;
   std::vector<CalibrationResiduals> residuals;
   const CalibratedValue* find(std::string_view key) const;
 };
 
 struct CalibrationOptions {
-  /// Share of every recording, at its end, that is not fitted but predicted; 0 to 0.5.
+  /// Share at the end of each recording that is used to check predictions, not to fit; 0 to 0.5.
   double holdOut = 0.2;
 };
 
-/// Is told the part that is done, 0 to 1; false cancels.
+/// Called with the progress, 0 to 1; return false to cancel.
 using CalibrationProgress = std::function<bool(double)>;
 
-/// All logs are of the same robot. Errors: InvalidArgument without a log or with options out of
-/// their range, NotFound where nothing could be estimated, Cancelled.
+/// All logs must be of the same robot. Errors: InvalidArgument if there is no log or an option is
+/// out of range, NotFound if nothing could be estimated, Cancelled.
 Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::RobotModel& base,
                               const CalibrationOptions& options = {},
                               const CalibrationProgress& progress = {});
 
-/// Every key that calibrate() knows, estimated or not, in the order of robot files.
+/// Returns all keys that calibrate() can estimate, in the order of robot files.
 std::vector<std::string> calibrationKeys();
 
 }  // namespace pitchboard::link

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A calibration as a file: a robot model that scenarios and programs load, with the intervals,
-// samples and reasons under the key "calibration" (docs/calibrate.md); and as a report for a
-// browser. Any thread.
+// Writes a calibration as a file and as a report. The file is a robot model that scenarios and
+// programs can load; intervals, numbers of samples and reasons are under its key "calibration"
+// (docs/calibrate.md). Pure functions, except for writing the file; any thread.
 
 #include <string>
 #include <string_view>
@@ -13,21 +13,22 @@
 
 namespace pitchboard::link {
 
-/// JSON; angles in degrees, as in every robot file. `program`: name and version of who writes it.
+/// Returns the file as JSON, with angles in degrees as in every robot file. `program` is the name
+/// and version of the writing program.
 std::string calibrationToJson(const Calibration& calibration, std::string_view program);
 
-/// Numbers as people write them: degrees for angles.
+/// A value in the units that people read: degrees for angles.
 struct WrittenValue {
   double value = 0.0, low = 0.0, high = 0.0;
   std::string unit;  ///< "m/s"; empty for plain numbers
 };
 WrittenValue writtenValue(const CalibratedValue& value);
 
-/// One HTML page that needs nothing but itself: values, residuals, predictions over what was
-/// recorded.
+/// Returns the report as a self-contained HTML page: values, residuals, and predicted against
+/// recorded motion.
 std::string calibrationReport(const Calibration& calibration, const sim::FieldSpec& field);
 
-/// Errors as writeFile().
+/// Fails as writeFile() does.
 Result<void> writeCalibration(const std::string& path, const Calibration& calibration,
                               std::string_view program, IfExists ifExists);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a recording holds of one robot, as calibration needs it: commands, IMU, percepts and what
-// the robot believed. Made from a session file or from rows in memory, of simulated and real robots
-// alike. Columns that only a simulation can know (truth, belief errors) are not read. Metres,
-// radians (left positive), seconds of the source. Plain values; reading is for one thread.
+// The data of a robot that calibration needs: commands, IMU, percepts and believed poses. They are
+// read from a session file or from rows in memory, of simulated or real robots. Columns that only
+// exist in a simulation (truth, belief errors) are not read. Metres, radians (left positive),
+// seconds of the source. Plain values; reading is for one thread at a time.
 
 #include <array>
 #include <optional>
@@ -19,7 +19,7 @@
 
 namespace pitchboard::link {
 
-/// The blackboard at one moment. A percept is present only in the row in which it is new.
+/// The blackboard at one moment. A percept is set only in the row in which it is new.
 struct CalibrationRow {
   struct Seen {
     double distance = 0.0;  ///< m
@@ -27,10 +27,10 @@ struct CalibrationRow {
   };
   struct Belief {
     Pose pose;
-    double sigma = 0.0;  ///< m, as the robot told it
+    double sigma = 0.0;  ///< m, as the robot reported it
   };
   double time = 0.0;
-  int action = 0;                ///< CONTROL_ACTION, else DECISION_ACTION_A
+  int action = 0;                ///< CONTROL_ACTION, or DECISION_ACTION_A if that is missing
   int actionB = 0;               ///< DECISION_ACTION_B
   std::optional<bool> moving;    ///< CONTROL_MOVING
   std::optional<double> imuYaw;  ///< IMU_EULER_Z
@@ -43,7 +43,7 @@ struct CalibrationRow {
   std::optional<Belief> belief;
 };
 
-/// A robot that was seen (VISION_RBTnn), with the row in which that was new.
+/// A robot that was seen (VISION_RBTnn), with the row in which the percept was new.
 struct SeenRobotPercept {
   std::size_t row = 0;
   int robot = 0;
@@ -51,19 +51,19 @@ struct SeenRobotPercept {
 };
 
 struct CalibrationLog {
-  std::string session;  ///< name of the file, for people
+  std::string session;  ///< name of the file, for messages
   std::string robot;    ///< "B1"
   sim::FieldSpec field;
   std::vector<CalibrationRow> rows;  ///< in order of time
   std::vector<SeenRobotPercept> robots;
   double period = 0.0;                 ///< s, median time between rows
-  std::vector<std::string> variables;  ///< which of the variables above were recorded
+  std::vector<std::string> variables;  ///< those of the variables above that were recorded
   std::vector<std::string> notes;      ///< gaps, missing variables, damage, in sentences
   bool has(std::string_view variable) const;
 };
 
-/// Errors: NotFound where the session has no such robot (names those that it has) or no rows of it,
-/// InvalidArgument for a session without any variable that can be used.
+/// Errors: NotFound if the session has no such robot (the message lists its robots) or no rows of
+/// it, InvalidArgument if none of its variables can be used.
 Result<CalibrationLog> readCalibrationLog(const telemetry::SessionReader& session,
                                           const std::string& name, const std::string& robot,
                                           telemetry::TimeRange range = {-1e18, 1e18});
@@ -72,7 +72,7 @@ Result<CalibrationLog> readCalibrationLog(const telemetry::SeriesStore& rows,
                                           const std::string& robot,
                                           telemetry::TimeRange range = {-1e18, 1e18});
 
-/// Corners of the field in the order of CalibrationRow::corners.
+/// Returns the corners of the field in the order of CalibrationRow::corners.
 std::array<Point, 4> fieldCorners(const sim::FieldSpec& field);
 
 }  // namespace pitchboard::link

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Rollouts of a scenario's robots, and beliefs as rows of numbers with named columns, for programs
-// that have no C++. Metres, radians, seconds. Pure functions; any thread.
+// Prepares rollouts from a scenario, and converts beliefs to and from rows of numbers with named
+// columns, for programs in other languages. Metres, radians, seconds. Pure functions; any thread.
 
 #include <cstddef>
 #include <span>
@@ -13,27 +13,28 @@
 
 namespace pitchboard::link {
 
-/// Who plays, and the beginning of the scenario as if it were known to a decimetre.
+/// The players, and the beginning of the scenario as a belief with an uncertainty of a decimetre.
 struct RolloutStart {
   rollout::Setup setup;
   rollout::Belief belief;
 };
 
-/// Robots that play by no behaviour with a pose ("none", "naive") stand in a rollout.
+/// Robots whose behaviour does not use the pose ("none", "naive") stand still in rollouts.
 RolloutStart rolloutStartOf(const Scenario& scenario, double tickRate = 20.0);
 
-/// The columns of a robot's row of a belief, and of the one row of ball and game.
+// A belief has a row for each robot, and a row for ball and game.
 std::span<const WorldColumn> beliefRobotColumns();
 std::span<const WorldColumn> beliefGameColumns();
 
-/// Those of what Rollouts::play() gives.
+/// Returns the columns of what Rollouts::play() returns.
 std::span<const WorldColumn> outcomeColumns();
 
-/// Rows of all robots, one after the other, and the row of ball and game. Fails on other sizes.
+/// Writes the rows of all robots to `robots` and the row of ball and game to `game`. Fails if a
+/// size does not match.
 Result<void> writeBelief(const rollout::Belief& belief, std::span<double> robots,
                          std::span<double> game);
-/// NaN leaves what stands in `belief`. Fails on other sizes, and on words that do not exist (a
-/// state, a set play, a side).
+/// Returns `belief` with the values of the rows; NaN keeps a value. Fails if a size does not match,
+/// or if a number stands for no state, set play or side.
 Result<rollout::Belief> readBelief(rollout::Belief belief, std::span<const double> robots,
                                    std::span<const double> game);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Worlds behind lines of JSON (docs/learning.md): a request is an object on a line, and so is its
-// answer. Whatever a line holds, there is an answer, and the next line is served. Units and shapes
-// are those of Worlds. For one thread; owned by whoever reads the lines.
+// Controls Worlds with lines of JSON (docs/worlds.md). Each request and each answer is an object
+// on a line. Every line gets an answer, even an invalid one. Units and shapes are those of Worlds.
+// Used on one thread.
 
 #include <cstddef>
 #include <map>
@@ -16,28 +16,28 @@
 
 namespace pitchboard::link {
 
-/// What a request may ask for at most; a test of hostile lines allows less.
+/// Limits for requests.
 struct WorldLineLimits {
   int worlds = 4096;
-  int ticks = Worlds::mostTicks;              ///< of one step, all worlds together
+  int ticks = Worlds::mostTicks;              ///< in one step, all worlds together
   bool files = true;                          ///< scenarios may be files, not only built-in names
-  std::size_t snapshots = 1000;               ///< kept at a time
-  std::size_t values = std::size_t{1} << 20;  ///< of one answer or request
+  std::size_t snapshots = 1000;               ///< kept at the same time
+  std::size_t values = std::size_t{1} << 20;  ///< in one request or answer
 };
 
 class WorldLines {
  public:
   using Limits = WorldLineLimits;
-  /// A longer line is refused without being looked at.
+  /// A longer line is refused without being parsed.
   static constexpr std::size_t longestLine = std::size_t{4} << 20;
 
-  /// `usual`: what a `create` without a scenario makes worlds of.
+  /// `usual` is the scenario of a `create` request that names none.
   explicit WorldLines(Scenario usual, const Limits& limits = {});
 
-  /// The answer: an object on one line, without the line's end. It has "ok", and an "error" when
-  /// that is false; the "id" of the request is repeated.
+  /// Carries out a request and returns the answer without a line end: an object with "ok", with
+  /// "error" if that is false, and with the "id" of the request.
   std::string answer(std::string_view line);
-  /// What "do" may say; the table of docs/learning.md has a row for each.
+  /// Returns the possible values of "do"; docs/worlds.md describes each.
   static std::vector<std::string_view> requests();
 
  private:

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Many simulated matches of one scenario, stepped together and read as arrays: what learning
-// programs work with. Robots' reference processes run inside, in lock-step; a robot without a
-// behaviour is the caller's. Arrays have one row per world and robot, in the order of the scenario.
-// For one thread at a time; stepping uses more of its own, with the same result for any number.
+// Many simulated matches of a scenario, stepped together and read as arrays, for learning programs.
+// Reference processes run inside, in lock-step; robots without a behaviour are controlled by the
+// caller. Arrays have a row for each world and robot, in the order of the scenario. One thread at a
+// time; stepping uses further threads, whose number does not change the result.
 
 #include <cstdint>
 #include <memory>
@@ -21,33 +21,33 @@
 
 namespace pitchboard::link {
 
-/// A number of a row: its name, and for people what it is, with its unit.
+/// A column of an array.
 struct WorldColumn {
   std::string_view name;
-  std::string_view words;
+  std::string_view words;  ///< meaning and unit
 };
 
-/// What can be read of worlds, as rows of doubles.
+/// The arrays that can be read, as rows of doubles.
 enum class WorldArray {
-  /// Of each robot: what its last tick let it sense; NaN where nothing was written, and of a world
-  /// that has not been stepped since its beginning or a snapshot.
+  /// What a robot sensed in the last tick. NaN for values that were not written, and in worlds that
+  /// have not been stepped since their beginning or a snapshot.
   Percepts,
-  Robots,  ///< of each robot: the truth
-  Game     ///< of each world: ball, clock, score
+  Robots,  ///< the true state of a robot
+  Game     ///< ball, clock and score of a world
 };
 inline constexpr std::size_t worldArrays = 3;
 std::span<const WorldColumn> columnsOf(WorldArray array);
-/// What a robot is told: the columns of writeCommands(), int variables of these names.
+/// Returns the columns of writeCommands(), which are int variables with these names.
 std::span<const WorldColumn> commandColumns();
 
 struct WorldsOptions {
   int count = 1;
   int threads = 1;
-  std::optional<std::uint64_t> seed;  ///< nothing: the scenario's
-  std::optional<int> particles;       ///< at most, of each robot that localizes itself
+  std::optional<std::uint64_t> seed;  ///< empty: the scenario's
+  std::optional<int> particles;       ///< upper limit for each robot's localization
 };
 
-/// A world as it was; see SimulatedMatch::restore() for what belongs to a moment.
+/// A saved world; SimulatedMatch::restore() says what a moment contains.
 struct WorldSnapshot {
   Moment moment;
   std::string finishedBy;
@@ -58,60 +58,61 @@ class Worlds {
   static constexpr int mostWorlds = 65536;
   static constexpr int mostThreads = 256;
   static constexpr int mostTicks = 100'000'000;  ///< of one step()
-  static constexpr int all = -1;                 ///< in place of a world
-  /// Values of these leave what stands there.
-  static constexpr std::int32_t keep = INT32_MIN;  ///< an int; a double is left out by NaN
+  static constexpr int all = -1;                 ///< instead of the index of a world
+  /// In arrays of ints that are written: keep the current value. In arrays of doubles use NaN.
+  static constexpr std::int32_t keep = INT32_MIN;
 
-  /// World i has the seed of world 0 plus i. Fails as loading a scenario does, on numbers out of
-  /// bounds, and when a robot is to be played by a program.
+  /// World i gets the seed of world 0 plus i. Fails if the scenario is invalid, a number is out of
+  /// range, or a robot is controlled by a separate program.
   static Result<Worlds> create(const Scenario& scenario, const WorldsOptions& options);
   Worlds(Worlds&&) noexcept;
   Worlds& operator=(Worlds&&) noexcept;
   ~Worlds();
 
   std::size_t count() const;
-  std::size_t robots() const;  ///< of each world
+  std::size_t robots() const;  ///< in each world
   double tickRate() const;
   std::span<const RobotId> robotIds() const;
 
-  /// Who decides for a robot in every world from now on, after resets, too: a behaviour of ours, or
-  /// noBehaviour.
+  /// Sets the behaviour of a robot in all worlds, also after resets; with noBehaviour the caller
+  /// controls it.
   Result<void> setBehaviour(RobotId robot, const std::string& behaviour);
-  /// The beginning of the scenario with this seed; of all: world i with the seed plus i.
+  /// Restarts the scenario with this seed. With `all`, world i gets the seed plus i.
   Result<void> reset(int world, std::uint64_t seed);
-  /// The same of some, each with a seed of its own.
+  /// Restarts some worlds, each with its own seed.
   Result<void> reset(std::span<const int> worlds, std::span<const std::uint64_t> seeds);
-  /// So many ticks of every world; a world whose scenario is over stops there and stands still.
+  /// Advances all worlds by this many ticks. A world whose scenario has ended stands still.
   Result<void> step(int ticks);
-  /// "goal", "ball_out", "duration", "full_time"; empty while the world goes on.
+  /// Returns "goal", "ball_out", "duration" or "full_time"; empty while the scenario continues.
   std::string_view finishedBy(std::size_t world) const;
 
   // Shapes: percepts and robots [worlds][robots][columns], game [worlds][columns], variables
   // [worlds][robots][variables], boards [worlds][robots][512], hashes [worlds], commands
-  // [worlds][robots][columns], actions [worlds][robots]. All fail when the size is another one.
+  // [worlds][robots][columns], actions [worlds][robots]. All fail if the size does not match.
   std::size_t sizeOf(WorldArray array) const;
   Result<void> read(WorldArray array, std::span<double> out) const;
   Result<void> readBoards(std::span<std::uint32_t> out) const;
   Result<void> readVariables(std::span<const Variable> variables, std::span<double> out) const;
   Result<void> readHashes(std::span<std::uint64_t> out) const;
-  /// Ints take whole numbers of 32 bits.
+  /// Int variables accept whole numbers of 32 bits only.
   Result<void> writeVariables(std::span<const Variable> variables, std::span<const double> values);
   Result<void> writeCommands(std::span<const std::int32_t> commands);
-  /// DECISION_ACTION_A.
+  /// Writes DECISION_ACTION_A.
   Result<void> writeActions(std::span<const std::int32_t> actions);
 
-  // Moving by hand, in metres, radians and m/s; `world` may be `all`.
+  // Moving robots and ball; `world` may be `all`.
   Result<void> placeRobot(int world, RobotId robot, const Pose& pose);
   Result<void> placeBall(int world, const Point& place, const Velocity& velocity);
-  /// Many at once: one place for each of `worlds`. Nothing is moved when a world is not there.
+  // The same in several worlds, one place for each. If a world does not exist, nothing is moved.
   Result<void> placeRobots(std::span<const int> worlds, RobotId robot, std::span<const Pose> poses);
   Result<void> placeBalls(std::span<const int> worlds, std::span<const Point> places,
                           std::span<const Velocity> velocities);
 
   Result<WorldSnapshot> snapshot(int world) const;
-  /// Also into another world, and into other worlds of the same scenario.
+  /// Restores a snapshot, also of another world or of other Worlds with the same scenario.
   Result<void> restore(int world, const WorldSnapshot& snapshot);
-  /// The same state in each of `worlds`, from which each goes on with the noise of its own seed.
+  /// Restores the snapshot in each of `worlds`, which then continues with the noise of its own
+  /// seed.
   Result<void> restore(std::span<const int> worlds, std::span<const std::uint64_t> seeds,
                        const WorldSnapshot& snapshot);
 
@@ -122,7 +123,7 @@ class Worlds {
   std::unique_ptr<Parts> m_parts;
 };
 
-/// A variable of the published map; NotFound with names that are near.
+/// Finds a variable of the published map. Error NotFound suggests similar names.
 Result<Variable> worldVariable(std::string_view name);
 
 }  // namespace pitchboard::link

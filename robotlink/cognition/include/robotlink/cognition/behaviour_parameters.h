@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one table of the numbers of behaviours that a team tunes: from where they kick, how well they
+// The parameters of behaviours that a team can tune: from where robots kick, how precisely they
 // aim, how they search, where a keeper stands. Scenario files, experiments, the command line and
-// docs/behaviours.md are made from it. In memory metres, radians, seconds; people write degrees.
-// Any thread.
+// the table of docs/behaviours.md all use the table below, which describes each parameter. Metres,
+// radians and seconds in memory; degrees in files. Plain values; any thread.
 
 #include <array>
 #include <span>
@@ -55,7 +55,7 @@ struct BehaviourParameters {
 };
 
 struct BehaviourParameter : sim::Parameter<BehaviourParameters> {
-  std::array<std::string_view, 3> of;  ///< behaviours that read it
+  std::array<std::string_view, 3> of;  ///< the behaviours that use it
   bool isOf(std::string_view behaviour) const;
 };
 
@@ -127,25 +127,31 @@ inline constexpr auto behaviourParameters = std::to_array<BehaviourParameter>({
 });
 // clang-format on
 
-/// A behaviour and its numbers, as files and the command line have it.
+/// A behaviour with its parameters.
 struct BehaviourChoice {
   std::string name = "striker";
   BehaviourParameters parameters;
   bool operator==(const BehaviourChoice&) const = default;
 };
 
-/// The value of `key`: a name of `known`, or an object {"name": ..., "kick_distance": ...} with
-/// numbers that this behaviour has. What is left out is a striker with the usual numbers.
+/// Reads the value of `key`: a name out of `known`, or an object {"name": ..., "kick_distance":
+/// ...} with parameters of that behaviour. A missing name means "striker", a missing parameter its
+/// default, or with "from": ..., a file or an object of parameters, the value there.
 BehaviourChoice readBehaviour(const JsonObject& parent, JsonReport& report, std::string_view key,
                               std::span<const std::string_view> known);
-/// The same of a command line: a name of behaviours(), or such an object.
-Result<BehaviourChoice> behaviourFromText(std::string_view nameOrJson, std::string_view source);
-/// The name alone where nothing differs. Reading it gives exactly these numbers, as far as the
-/// behaviour reads them.
+/// Reads the same from text: a name out of behaviours(), or such an object. `usual` has the values of
+/// missing parameters.
+Result<BehaviourChoice> behaviourFromText(std::string_view nameOrJson, std::string_view source,
+                                          const BehaviourParameters& usual = {});
+/// Reads the parameters of a team from a file, as `pitchboard-cli learn` writes it: {"version": 1,
+/// "parameters": {"kick_distance": 0.03}}. A missing parameter has its default.
+Result<BehaviourParameters> loadBehaviourParameters(const std::string& path);
+/// Writes such a text: only the name if all parameters have their defaults. Reading it back gives
+/// the same values for all parameters that the behaviour uses.
 std::string behaviourToText(std::string_view name, const BehaviourParameters& parameters);
 
-/// Refuses a number that is not finite or out of its range: InvalidArgument, with the key as the
-/// context ("behaviour.kick_distance").
+/// Error InvalidArgument if a number is not finite or out of its range; the context is its key,
+/// such as "behaviour.kick_distance".
 Result<void> validate(const BehaviourParameters& parameters);
 
 }  // namespace pitchboard::link

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the reference processes have in mind, for drawing: the particles of localization, the path
-// of decision. It is no part of the Cross Architecture: nothing but a display uses it, and
-// unchanged robots have none. Metres and radians in the studio's frame, weights as shares.
+// Debug data of the reference processes for drawing: the particles of localization and the planned
+// path of decision. Only displays use it, and real robots do not send it. Metres and radians in the
+// studio's frame; weights are shares of 1.
 //
-// Two ways to the reader. Processes that run inside this program are asked
-// (CognitiveProcess::sendDebugData). Processes of their own send datagrams to a UDP port of this
-// computer's loopback device, five times a second, and only when `--debug-port` names one;
-// nothing stays behind when either side dies. A datagram is text; lengths are whole millimetres,
-// angles milliradians, weights millionths:
+// Processes inside this program are asked with CognitiveProcess::sendDebugData(). Separate
+// processes send datagrams five times a second to the UDP port of the loopback device that
+// `--debug-port` names. A datagram is text; lengths are whole millimetres, angles milliradians,
+// weights millionths:
 //   PBT1 cloud ROBOT COUNT X Y YAW SIGMA  x y yaw weight  x y yaw weight ...   (at most 500)
 //   PBT1 path ROBOT COMPLETE  x y  x y ...                                     (at most 64 points)
 
@@ -31,16 +30,16 @@ namespace pitchboard::link {
 struct Particle {
   Point position;       ///< m
   double yaw = 0.0;     ///< rad
-  double weight = 0.0;  ///< shares of the sample add up to 1
+  double weight = 0.0;  ///< the weights of a cloud add up to 1
   bool operator==(const Particle&) const = default;
 };
 
 /// What localization believes.
 struct ParticleCloud {
   static constexpr std::size_t most = 500;
-  std::vector<Particle> particles;  ///< an evenly drawn sample of at most `most`
-  int count = 0;                    ///< particles that the filter has
-  Pose pose;                        ///< the belief
+  std::vector<Particle> particles;  ///< a uniform sample of at most `most` particles
+  int count = 0;                    ///< number of particles in the filter
+  Pose pose;                        ///< the believed pose
   double sigma = 0.0;               ///< m
   bool operator==(const ParticleCloud&) const = default;
 };
@@ -48,30 +47,30 @@ struct ParticleCloud {
 /// Where decision wants to walk.
 struct PlannedPath {
   static constexpr std::size_t most = 64;
-  std::vector<Point> points;  ///< m, from the robot to the target; empty = it walks nowhere
-  bool complete = true;       ///< false: no way to the target, the path ends nearest to it
+  std::vector<Point> points;  ///< m, from the robot to the target; empty: it does not walk
+  bool complete = true;       ///< false: the target is out of reach; the path ends close to it
   bool operator==(const PlannedPath&) const = default;
 };
 
-/// The newest of one robot. Cheap to copy: what is pointed to never changes.
+/// The newest debug data of a robot. Cheap to copy, because the data are immutable.
 struct CognitionDebug {
   RobotId robot;
-  std::shared_ptr<const ParticleCloud> cloud;  ///< nothing: none heard of
-  std::shared_ptr<const PlannedPath> path;     ///< nothing: none heard of
-  double cloudAge = 0.0, pathAge = 0.0;        ///< s since it was told
+  std::shared_ptr<const ParticleCloud> cloud;  ///< null: none received
+  std::shared_ptr<const PlannedPath> path;     ///< null: none received
+  double cloudAge = 0.0, pathAge = 0.0;        ///< s since they were received
 };
 
-/// The datagrams of what is there, without the line end; at most two.
+/// Returns a datagram for the cloud and one for the path, as far as there are any.
 std::vector<std::string> debugDatagrams(const CognitionDebug& cognitionDebug);
-/// Takes over what a datagram says; false, and nothing is changed, when it is not one of these.
+/// Reads a datagram into `cognitionDebug`. Returns false, without a change, if it is invalid.
 bool readDebugDatagram(std::string_view datagram, CognitionDebug& cognitionDebug);
 
-/// Tells a display on this computer. One thread at a time.
+/// Sends debug data to a display on this computer. One thread at a time.
 class CognitionDebugSender {
  public:
-  /// Port 1..65535 of 127.0.0.1.
+  /// `port` is 1 to 65535, on 127.0.0.1.
   static Result<CognitionDebugSender> to(int port);
-  /// Never waits; nobody need listen.
+  /// Never blocks, and does not fail if nobody listens.
   void send(const CognitionDebug& cognitionDebug);
 
  private:
@@ -82,21 +81,22 @@ class CognitionDebugSender {
   std::uint16_t m_port;
 };
 
-/// Hears what processes on this computer tell. Use from one thread; poll it at the rate of the
-/// display, or the kernel's buffer drops what is older.
+/// Receives the debug data of processes on this computer. Use it on one thread, and poll it at the
+/// rate of the display, so that the kernel's buffer does not overflow.
 class CognitionDebugReceiver {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// On 127.0.0.1; 0 takes a free port.
+  /// Listens on a port of 127.0.0.1; 0 chooses a free one.
   static Result<CognitionDebugReceiver> listen(int port = 0);
 
   int port() const { return m_port; }
-  /// Takes what waits. Never blocks.
+  /// Reads all waiting datagrams. Never blocks.
   void poll(Time now);
-  /// Of every robot heard of within the last 3 s, by number, with ages as of `now`.
+  /// Returns the data of robots that sent any within the last 3 s, in order of their ids, with ages
+  /// at `now`.
   std::vector<CognitionDebug> cognitionDebug(Time now) const;
-  /// Datagrams that were none of these.
+  /// Returns the number of invalid datagrams.
   std::uint64_t strange() const { return m_strange; }
 
  private:

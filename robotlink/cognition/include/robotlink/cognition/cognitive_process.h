@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A process of the Cross Architecture as a class: the same object runs as its own OS process on a
-// System V blackboard (pitchboard-robot) and in lock-step on a heap blackboard.
+// A reference process as a class. The same object runs as a separate process on a System V
+// blackboard (pitchboard-robot) or inside a match, in lock-step, on a blackboard on the heap. One
+// thread at a time.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,71 +22,84 @@
 
 namespace pitchboard::link {
 
-/// Tells a process the time: seconds since its start, simulated or real.
+/// The time of a process: seconds since its start, simulated or real.
 struct Clock {
   double seconds = 0.0;
 };
 
 class ProcessTurns;
 
+/// How an advisor thinks (docs/advisor.md).
+struct AdvisorOptions {
+  int rollouts = 72;     ///< for each decision
+  double horizon = 5.0;  ///< s that each of them plays
+  /// Of one core, when no match waits for it: it plays as many rollouts as fit. 0: `rollouts`.
+  double share = 0.0;
+  bool operator==(const AdvisorOptions&) const = default;
+};
+
 class CognitiveProcess {
  public:
   virtual ~CognitiveProcess() = default;
-  /// One cycle. Never blocks. Errors of the outside (a socket) are counted, not thrown.
+  /// Runs one cycle. Never blocks. Errors of sockets and the like are counted, not reported.
   virtual void step(Blackboard& board, const Clock& clock) = 0;
-  /// Seconds between two steps.
+  /// Returns the seconds between two steps.
   virtual double period() const = 0;
-  /// What it has in mind, for a display: fills its own part (particles or path), leaves the rest.
-  /// Called between steps, as seldom as the display likes; changes nothing.
+  /// Writes its debug data (particles or path) to `cognitionDebug` and leaves the rest as it is.
+  /// Called between steps, at the rate of the display; must not influence later steps.
   virtual void sendDebugData(CognitionDebug& cognitionDebug) const { (void)cognitionDebug; }
 
-  // A match that is put back to an earlier moment starts its robots' processes anew, and then:
-  /// Before the first step, of a robot that has been playing: begins with what stands on its
-  /// blackboard instead of with nothing.
+  // For matches that are restored to an earlier moment. They create the robots' processes again and
+  // then call restore(), or resume() if the memory of the process was not saved.
+  /// Initializes a new process of a robot that has already been playing from its blackboard. Called
+  /// before the first step.
   virtual void resume(const Blackboard& board) { (void)board; }
-  /// All that it remembers now, for recall(); null when it remembers nothing. Not to be stepped.
+  /// Returns a copy of everything that the process remembers, for restore(); null if it remembers
+  /// nothing. The copy is never stepped.
   virtual std::unique_ptr<const CognitiveProcess> remembered() const { return nullptr; }
-  /// Goes on as the one would have that remembered this. False, and nothing has changed, when that
-  /// was of another kind.
+  /// Continues from a copy that remembered() returned. Returns false, without a change, if the copy
+  /// is of another kind of process.
   virtual bool restore(const CognitiveProcess& memory) {
     (void)memory;
     return false;
   }
-  /// Roughly what remembered() takes.
+  /// Returns the approximate size of such a copy.
   virtual std::size_t memoryBytes() const { return 2048; }
 };
 
-/// What a process is told when it is made.
+/// Options of reference processes. The process that uses an option is named first.
 struct ProcessOptions {
   RobotId robot{1};
-  std::string behaviour = "striker";     ///< decision only
-  BehaviourParameters parameters;        ///< decision: the numbers of that behaviour
-  std::string udpAddress = "127.0.0.1";  ///< where telemetry and team messages go
-  int telemetryPortBase = 1240;          ///< telemetry goes to this + robot number
+  std::string behaviour = "striker";     ///< decision
+  BehaviourParameters parameters;        ///< decision: of that behaviour
+  std::string udpAddress = "127.0.0.1";  ///< where telemetry and team messages are sent to
+  int telemetryPortBase = 1240;          ///< telemetry is sent to this + robot number
   double telemetryPeriod = 1.0;          ///< s between two telemetry datagrams
-  int teamPortBase = 1230;               ///< team messages go to this + 1..4
-  /// communication: our team's number in the GameController; absent = do not listen to one.
+  int teamPortBase = 1230;               ///< team messages are sent to this + 1..4
+  /// communication: our team's number at the referee; empty: do not listen to a referee.
   std::optional<int> refereeTeam;
-  /// communication: also writes the set play that the referee gives, for a decision of ours.
+  /// communication: also write the current set play, which our decision process uses.
   bool tellSetPlay = false;
-  std::optional<int> shirt;  ///< number in the GameController; absent = the robot's
+  std::optional<int> shirt;  ///< number in the GameController; empty: the robot's id
   int refereePort = 3838;
-  int channelPortBase = 10000;  ///< robots of a team hear each other on this + `team`
+  int channelPortBase = 10000;  ///< team: robots of a team use the port this + `team`
 
   sim::FieldSpec field;                ///< localization, decision: where lines and posts are
   sim::RobotModel model;               ///< localization, decision: how this robot walks and kicks
-  std::uint64_t seed = 1;              ///< localization: of its particles
+  std::uint64_t seed = 1;              ///< localization: for its random numbers
   int particles = 5000;                ///< localization: at most this many
-  bool publishedLocalization = false;  ///< localization: the published filter's parameters
-  /// Starts facing the left goal, so the IMU's zero is 180 degrees; absent = found out by itself.
+  bool publishedLocalization = false;  ///< localization: use the parameters of the published filter
+  /// The robot starts facing the left goal, so its IMU reads 180 degrees there; empty: the process
+  /// finds out by itself.
   std::optional<bool> facesLeft;
-  int team = 0;  ///< team: robots of one number hear each other, 0..99
-  /// team: the in-process channel of lock-step runs; empty = UDP.
+  int team = 0;  ///< team: 0..99; robots with the same number exchange messages
+  /// team: the channel of robots inside this program; null: UDP.
   std::shared_ptr<TeamChannel> teamChannel;
-  /// Of a process whose time is that of a match; empty: the clock on the wall.
+  AdvisorOptions advisor;
+  /// For a process that follows the time of a match; null: it follows real time.
   std::shared_ptr<ProcessTurns> turns;
 
-  /// Takes over the ports of a match.
+  /// Sets the ports of a match.
   void setMatch(MatchNumber match);
 };
 

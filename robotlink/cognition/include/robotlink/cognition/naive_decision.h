@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The published naive behaviour (system.md section 6): turn to the ball, walk to it, kick it.
+// The published naive behaviour: turn to the ball, walk to it, kick it. Pure functions, except for
+// the process itself, which is for one thread at a time.
 
 #include <memory>
 #include <optional>
@@ -11,25 +12,25 @@
 
 namespace pitchboard::link {
 
-/// What one cycle of the naive behaviour writes while the referee says "play".
+/// What a cycle of the naive behaviour writes to the blackboard while the referee says "play".
 struct NaiveOutput {
   int actionA = 0;             ///< DECISION_ACTION_A
   std::optional<int> actionB;  ///< DECISION_ACTION_B
-  bool searchOn = false;       ///< DECISION_SEARCH_ON = 1 is to be written
+  bool searchOn = false;       ///< true: DECISION_SEARCH_ON = 1; false: leave it as it is
   bool operator==(const NaiveOutput&) const = default;
 
-  /// B before A, because control reads B in the moment it sees a new A.
+  /// Writes B before A, because control reads B when it sees a new A.
   void writeTo(Blackboard& board, const RobotVariables& variables) const;
 };
 
-/// The rule itself, from VISION_LOST, VISION_PAN_DEG (degrees, left positive) and VISION_BALL_DIST
-/// (cm); `distanceToKick` in cm. As published, to its known faults: a ball at exactly 50 cm, or
-/// between distanceToKick and 20 cm, makes it gait in place, and the bearing is truncated to whole
-/// degrees. Only values that would have ended the published process (nan, infinite) are new: they
-/// count as a lost ball. Pure; any thread.
+/// Applies the rule to VISION_LOST, VISION_PAN_DEG (degrees, left positive) and VISION_BALL_DIST
+/// (cm); `distanceToKick` is in cm. It copies the published behaviour with its known faults: a ball
+/// at exactly 50 cm, or between distanceToKick and 20 cm, makes the robot step in place, and the
+/// bearing is truncated to whole degrees. The only difference: values that crash the published
+/// process (NaN, infinity) count as a lost ball.
 NaiveOutput naiveRule(int lost, float panDeg, float distance, double distanceToKick);
 
-/// The decision process with that behaviour. Its `options.parameters` must be valid.
+/// Makes the decision process with this behaviour. `options.parameters` must be valid.
 Result<std::unique_ptr<CognitiveProcess>> makeNaiveDecision(const ProcessOptions& options);
 
 }  // namespace pitchboard::link

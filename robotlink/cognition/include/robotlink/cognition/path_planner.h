@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A shortest path for a robot among round things: robots, goal posts, the ball. Method: visibility
-// graph (Lozano-Perez and Wesley, 1979) searched by A* (Hart, Nilsson and Raphael, 1968). Each
-// circle stands for a regular polygon round it, whose corners are the places where a path may bend.
-// Only circles that are in the way of some path so far get corners, so that a free line costs one
-// test. Metres, the studio's frame. Scratch memory is the thread's. Any thread.
+// Plans a shortest path for a robot among circular obstacles: robots, goal posts, the ball. The
+// method is a visibility graph (Lozano-Perez and Wesley, 1979) searched by A* (Hart, Nilsson and
+// Raphael, 1968). Each circle is replaced by a regular polygon around it, whose corners are the
+// points where a path may bend. Corners are added only for circles that block a path found so far,
+// so a free line costs a single test. Metres, the studio's frame. Any thread; working memory is
+// thread-local.
 
 #include <span>
 
@@ -14,34 +15,34 @@
 
 namespace pitchboard::link {
 
-/// Something to keep away from. The radius includes the robot's own.
+/// An obstacle. Its radius includes that of the robot that walks.
 struct Obstacle {
   Point centre;
-  double radius = 0.0;  ///< m; obstacles without a positive finite radius are ignored
+  double radius = 0.0;  ///< m; ignored unless positive and finite
 };
 
 struct Path {
-  /// From the start to the target, both included; at least two points. Empty only when start or
-  /// target are not finite. What of a longer way does not fit is planned when the robot is nearer.
+  /// From the start to the target, both included, so at least two points. Empty only if start or
+  /// target are not finite. A path with more bends is cut off; plan again when the robot is closer.
   InlineVector<Point, 32> points;
   double length = 0.0;     ///< m
-  bool targetFree = true;  ///< false: the target lay in an obstacle, its rim is the end
-  bool complete = true;    ///< false: no way; the path ends where it comes nearest
+  bool targetFree = true;  ///< false: the target is inside an obstacle; the path ends at its rim
+  bool complete = true;    ///< false: the target is out of reach; the path ends close to it
 
-  /// Where to walk to now: the first bend, or the target. Requires a path that is not empty.
+  /// Returns where to walk to first: the first bend, or the target. The path must not be empty.
   const Point& next() const { return points[1]; }
 };
 
 class PathPlanner {
  public:
-  /// Paths stay within the rectangle |x| <= halfLength, |y| <= halfWidth (the walls), as far as
-  /// start and target allow.
+  /// Paths stay inside the walls, the rectangle |x| <= halfLength, |y| <= halfWidth, unless start
+  /// or target are outside.
   PathPlanner(double halfLength, double halfWidth)
       : m_halfLength(halfLength), m_halfWidth(halfWidth) {}
 
-  /// A start inside an obstacle (robots do touch) is no error: that obstacle shrinks until the
-  /// start lies on its rim, so the path leads away. A target inside one moves to its rim. Without
-  /// any way, the path leads to the reachable bend that is nearest to the target.
+  /// If the start is inside an obstacle (robots do touch), the obstacle shrinks until the start is
+  /// on its rim, so that the path leads away from it. If the target is inside an obstacle, it moves
+  /// to the rim. If the target is out of reach, the path ends at the reachable bend closest to it.
   Path plan(const Point& start, const Point& target, std::span<const Obstacle> obstacles) const;
 
  private:

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Every reference process and every behaviour of decision: the lists that programs, scenarios and
-// tests read. A new one is a class and its line in process_registry.cpp. Any thread.
+// Lists the reference processes of this module and all behaviours of the decision process. To add
+// one, write its class and add a line to process_registry.cpp. Programs and matches read the list of
+// all processes, which contains the advisor, too: <robotlink/advisor/reference_processes.h>. Any
+// thread.
 
 #include <memory>
 #include <span>
@@ -20,18 +22,17 @@ struct ProcessInfo {
   std::string_view example;  ///< a command line for --help
 };
 
-/// Every reference process, in starting order: the one list that programs and tests read.
+/// Returns the reference processes in the order in which they are started.
 std::span<const ProcessInfo> cognitiveProcesses();
-const ProcessInfo* findProcess(std::string_view name);
 
 struct BehaviourInfo {
   std::string_view name;
   std::string_view description;
-  bool usesPose;  ///< needs localization and the team's messages
+  bool usesPose;  ///< needs localization and team messages
 };
-/// Behaviours of the decision process, the default first.
+/// Returns the behaviours of the decision process, the default first.
 std::span<const BehaviourInfo> behaviours();
-/// Nothing for an unknown name.
+/// Returns null for an unknown name.
 const BehaviourInfo* findBehaviour(std::string_view name);
 
 }  // namespace pitchboard::link

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a referee's packets say to one robot, and where that stands on its blackboard. Any thread,
-// one at a time.
+// Derives from the referee's packets what a robot has to do, and writes it to the robot's
+// blackboard. One thread at a time.
 
 #include <optional>
 
@@ -12,39 +12,41 @@
 
 namespace pitchboard::link {
 
-/// The words that COM_REFEREE knows (system.md section 6).
+/// The values of COM_REFEREE.
 inline constexpr int refereeStop = 1, refereePlay = 2, refereeReady = 11, refereeSet = 12;
 
-/// What one packet means to one robot.
+/// What a packet tells a robot to do.
 struct RefereeOrder {
-  int word = refereeStop;                     ///< 1 stop, 2 play, 11 ready, 12 set
-  sim::SetPlay setPlay = sim::SetPlay::None;  ///< that the referee has given
-  bool setPlayIsOurs = false;                 ///< the robot's team takes it
+  int word = refereeStop;                     ///< value of COM_REFEREE
+  sim::SetPlay setPlay = sim::SetPlay::None;  ///< the current set play
+  bool setPlayIsOurs = false;                 ///< the robot's team takes the set play
+  int goalsOwn = 0, goalsTheirs = 0;
+  int secondsLeft = 0;  ///< of this half
   bool operator==(const RefereeOrder&) const = default;
 };
 
-/// Where an order stands: COM_REFEREE, and COM_SET_PLAY and COM_SET_PLAY_OURS of the extension
-/// where the map has them.
+/// Writes orders to COM_REFEREE, and to COM_SET_PLAY, COM_SET_PLAY_OURS, COM_GOALS_OWN,
+/// COM_GOALS_THEIRS and COM_SECONDS_LEFT of the extension if the map contains them.
 class RefereeVariables {
  public:
   explicit RefereeVariables(const VariableCatalog& map);
-  /// `extended`: the set play, too. Other robots may keep something else on those words.
+  /// Writes set play, score and time only if `extended`, because other teams may use those words
+  /// differently.
   void write(Blackboard& board, const RefereeOrder& order, bool extended) const;
 
  private:
-  IntVar m_word, m_setPlay, m_setPlayIsOurs;
+  IntVar m_word, m_setPlay, m_setPlayIsOurs, m_goalsOwn, m_goalsTheirs, m_secondsLeft;
 };
 
-/// Hears the packets of one robot's referee, of any version. Remembers whose ball a restart is:
-/// once a set play is executed the packets of the Humanoid League name the side of the last
-/// kick-off only. A robot that starts in the middle believes them.
+/// Follows the packets of a referee, of any version, for one robot. It remembers which team has the
+/// ball in a restart, because after a set play has been executed, packets of the Humanoid League
+/// name only the team of the last kick-off. A robot that starts later relies on the packet.
 class RefereeOrders {
  public:
-  /// What this packet means to the robot. `team` is the number in the GameController, `player` the
-  /// slot of the robot there, from 1. A penalised robot, and a substitute, stands (1), as does
-  /// everybody in INITIAL, FINISHED, a timeout and while the game is stopped. Nothing when the
-  /// packet is not for this robot's match: its team does not play, or it is true data (RGTD), which
-  /// only monitors may use.
+  /// Returns the order to the robot. `team` is its team's number at the referee, `player` its slot
+  /// there, from 1. Penalised robots and substitutes are told to stop, as is everybody in INITIAL,
+  /// FINISHED, a timeout, and while the game is stopped. Empty if the robot's team does not play in
+  /// this match, and for true data (RGTD), which only monitors may use.
   std::optional<RefereeOrder> take(const telemetry::RefereeState& state, int team, int player);
 
   bool operator==(const RefereeOrders&) const = default;
@@ -52,7 +54,7 @@ class RefereeOrders {
  private:
   int wordInPlay(const telemetry::RefereeState& state, int team);
 
-  std::optional<int> m_ballTeam;  ///< of the restart that goes on; nothing: kickOffTeam's
+  std::optional<int> m_ballTeam;  // in the current restart; empty: the packet's kickOffTeam
 };
 
 }  // namespace pitchboard::link

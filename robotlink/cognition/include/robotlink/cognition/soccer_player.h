@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A soccer player without a blackboard: world model, behaviour and the walk to where it wants to
-// go, which are the very ones of the processes decision and planning. Ten times a second it is told
-// what it sees and believes, and answers with an action. Metres, radians, seconds; the studio's
-// frame. One thread at a time.
+// A soccer player without a blackboard, for rollouts. It consists of the world model, behaviour and
+// path planning that the processes decision and planning use. Ten times a second it gets what the
+// robot sees and believes, and returns an action. Metres, radians, seconds; the studio's frame. One
+// thread at a time.
 
 #include <memory>
 #include <optional>
@@ -26,29 +26,31 @@ struct SoccerPlayerOptions {
 
 struct PlayerDecision {
   Act act;
-  bool search = false;             ///< the head shall turn to find the ball
-  bool looksForOpponents = false;  ///< else for the ball
+  bool search = false;             ///< turn the head to find the ball
+  bool looksForOpponents = false;  ///< vision looks for opponents; false: for the ball
   Intention intention = Intention::None;
-  std::optional<Point> ball;  ///< where it sees the ball itself, for its team
+  std::optional<Point> ball;  ///< where the player itself sees the ball; sent to its team
 };
 
 class SoccerPlayer {
  public:
   static constexpr double period = 0.1;  ///< s between two steps
 
-  /// Fails on numbers out of their ranges, and with NotFound on a behaviour that plays without a
-  /// pose.
+  /// Error InvalidArgument if a parameter is out of its range, NotFound if the behaviour does not
+  /// use the pose.
   static Result<SoccerPlayer> create(const SoccerPlayerOptions& options);
   SoccerPlayer(SoccerPlayer&&) noexcept;
   SoccerPlayer& operator=(SoccerPlayer&&) noexcept;
   ~SoccerPlayer();
 
-  /// Has in mind what `other` has; both were made with the same options. Allocates nothing.
+  /// Copies everything that `other`, which must have the same options, remembers. Allocates
+  /// nothing.
   void copyMind(const SoccerPlayer& other);
-  /// Takes note of what is seen without deciding anything: how it gets to know what it knew before
-  /// the first cycle.
+  /// Updates the world model without a decision. Called before the first step to pass what the
+  /// player already knows.
   void observe(const SoccerInput& input, double now);
-  /// One cycle. Allocates nothing once the thread has planned a path round as many robots.
+  /// Runs one cycle at `now` (s). Allocates nothing once its thread has planned a path around as
+  /// many robots.
   PlayerDecision step(const SoccerInput& input, double now);
 
  private:

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How robots of one team talk: a robot posts a text, every other robot of the team takes it. Two
-// kinds: UDP between operating-system processes, and memory between robots that run in lock-step in
-// one program, where a message must arrive at the same tick in every run.
+// A channel on which the robots of a team exchange messages: one robot posts a text, each of the
+// others takes it. There are three kinds: UDP between processes, memory between robots inside one
+// program, and turns between separate processes in lock-step. With the latter two a message arrives
+// at the same tick in every run.
 
 #include <deque>
 #include <memory>
@@ -16,22 +17,22 @@
 
 namespace pitchboard::link {
 
-/// One thread at a time. post() and take() never block; a lost message is no error.
+/// One thread at a time. post() and take() never block; losing a message is not an error.
 class TeamChannel {
  public:
   virtual ~TeamChannel() = default;
   virtual void post(RobotId from, std::string_view message) = 0;
-  /// What others posted since this robot's last call, oldest first, at most 64 messages.
+  /// Returns what others posted since this robot's last call, oldest first, at most 64 messages.
   virtual std::vector<std::string> take(RobotId to) = 0;
 };
 
-/// For robots that run in lock-step: what a robot posts is there for the others at their next
-/// take(), in the order of posting. Shared by the robots of one team; use from one thread.
+/// For robots inside one program, in lock-step: each posted message is available to the others at
+/// their next take(), in the order of posting. Shared by the robots of a team; used on one thread.
 class InProcessTeamChannel final : public TeamChannel {
  public:
   void post(RobotId from, std::string_view message) override;
   std::vector<std::string> take(RobotId to) override;
-  /// Everything that nobody has taken yet is lost.
+  /// Drops all messages that have not been taken.
   void clear();
 
  private:
@@ -44,16 +45,16 @@ class InProcessTeamChannel final : public TeamChannel {
 
 class ProcessTurns;
 
-/// Of a process that takes its turns from a match: in lock-step messages travel with the turns, so
-/// that they arrive at the same tick in every run, else by `udp`. What is posted can be heard by
-/// UDP in any case.
+/// Makes the channel of a separate process that takes turns with a match. In lock-step, messages
+/// are passed with the turns, so that they arrive at the same tick in every run; otherwise they
+/// come by `udp`. Posted messages are always sent by UDP, too, so that others can receive them.
 std::unique_ptr<TeamChannel> makeTurnsChannel(std::shared_ptr<ProcessTurns> turns,
                                               std::unique_ptr<TeamChannel> udp);
 
-/// Broadcast on port `portBase` + team; 10000 is the convention of the Humanoid Soccer League 2026;
-/// a datagram has at most 512 bytes. `address` 127.0.0.1 keeps everything on this computer
-/// (127.255.255.255 is its broadcast address); a network's broadcast address reaches real robots.
-/// Fails with the reason when the address, the team (0..99) or the port cannot be used.
+/// Makes a channel of UDP broadcasts on port `portBase` + team; base 10000 is the convention of the
+/// Humanoid Soccer League 2026. A datagram has at most 512 bytes. With `address` 127.0.0.1 messages
+/// stay on this computer (its broadcast address is 127.255.255.255); the broadcast address of a
+/// network reaches real robots. Fails if address, team (0 to 99) or port cannot be used.
 Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& address, int team,
                                                         int portBase = 10000);
 

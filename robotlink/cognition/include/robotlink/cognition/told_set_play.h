@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What set plays are called in the packets of each league: one table for sending, for obeying and
-// for robots that hear them. Any thread; pure functions.
+// Converts set plays to and from the codes in each league's packets, for whoever sends or receives
+// them. Pure functions; any thread.
 
 #include <optional>
 
@@ -11,11 +11,11 @@
 
 namespace pitchboard::link {
 
-/// Codes of secState (Humanoid League; 0 where a version has none) or of setPlay.
+/// The code is that of secState (Humanoid League; 0 if a version has no such code) or setPlay.
 int setPlayCode(telemetry::League league, int version, int size, sim::SetPlay play);
 sim::SetPlay setPlayOf(telemetry::League league, int version, int size, int code);
 
-/// The set play that a packet tells of, and the number of the team that takes it.
+/// The set play in a packet, and the number of the team that takes it.
 struct ToldSetPlay {
   sim::SetPlay kind = sim::SetPlay::None;
   std::optional<int> team;

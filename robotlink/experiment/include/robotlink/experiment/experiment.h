@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// An experiment: a scenario, what is varied in it, how often it is played, what is measured and
-// what must hold. A JSON file (docs/experiments.md); a situation test is a small one with
-// assertions, a tournament is one whose conditions are matches between teams. Here it is expanded:
-// conditions and grids are a list of scenarios, runs have numbers. Plain values; any thread.
-// Metres, seconds, degrees in settings as in the file.
+// An experiment plays a scenario many times. Its JSON file (docs/experiments.md) says what is
+// varied between conditions, how often each is played, what is measured, and which assertions must
+// hold. A situation test is a small experiment with assertions; a tournament is one whose
+// conditions are matches between teams. The types below hold an expanded experiment: conditions and
+// grids have become a list of scenarios, and each run has a number. Plain values; any thread.
+// Metres and seconds; angles are in degrees, as in the file.
 
 #include <algorithm>
 #include <cstdint>
@@ -19,7 +20,8 @@
 
 namespace pitchboard::link {
 
-/// A value for a key of the scenario: "noise.forward", "robots[B1].behaviour", "robots[*].model".
+/// Sets a key of the scenario, such as "noise.forward", "robots[B1].behaviour" or
+/// "robots[*].model".
 struct ScenarioSetting {
   std::string key;
   std::string value;  ///< JSON
@@ -27,7 +29,7 @@ struct ScenarioSetting {
   bool operator==(const ScenarioSetting&) const = default;
 };
 
-/// A number drawn anew for every run, uniform in [from, to].
+/// A number that is drawn for each run, uniform in [from, to].
 struct RandomSetting {
   std::string key;
   double from = 0.0, to = 0.0;
@@ -35,15 +37,15 @@ struct RandomSetting {
   bool operator==(const RandomSetting&) const = default;
 };
 
-/// How far a run's start is from the scenario's: uniform within ± these.
+/// By how much the start of a run differs from the scenario's: uniform within ± these values.
 struct StartSpread {
-  std::string who;  ///< "ball", "robots" (all of them), or a name: "B1"
+  std::string who;  ///< "ball", "robots" (all of them), or a robot's name, such as "B1"
   double x = 0.0, y = 0.0;
   double heading = 0.0;  ///< degrees
   bool operator==(const StartSpread&) const = default;
 };
 
-/// Somebody puts the ball or a robot somewhere else during the run.
+/// Moves the ball or a robot during the run.
 struct PlacedByHand {
   double time = 0.0;
   std::string who;  ///< "ball" or a robot's name
@@ -55,32 +57,33 @@ struct PlacedByHand {
 struct Condition {
   std::string name;
   std::vector<ScenarioSetting> settings;
-  Scenario scenario;                 ///< with the settings; without stop conditions
-  std::string json;                  ///< the same as text, for what is drawn for each run
-  std::vector<PlacedByHand> placed;  ///< the experiment's and its own, in order of time
-  bool teamPrograms = false;         ///< a team's own programs play, too
+  Scenario scenario;                 ///< with the settings applied; without stop conditions
+  std::string json;                  ///< the same as text, in which numbers are drawn for each run
+  std::vector<PlacedByHand> placed;  ///< those of the experiment and its own, in order of time
+  TeamColor team = TeamColor::Blue;  ///< the team whose metrics are measured
+  bool teamPrograms = false;         ///< team programs take part
 };
 
-/// The first that is met ends a run.
+/// Conditions that end a run; the first that is met ends it.
 struct RunStop {
   double duration = 600.0;
-  bool goal = false;         ///< of the team
-  bool goalAgainst = false;  ///< of its opponents
+  bool goal = false;         ///< the team scored
+  bool goalAgainst = false;  ///< its opponents scored
   bool ballOut = false;
-  bool fell = false;            ///< a robot of the team
-  std::optional<double> stuck;  ///< for so long neither the ball nor a robot of the team moved
+  bool fell = false;            ///< a robot of the team fell
+  std::optional<double> stuck;  ///< neither the ball nor a robot of the team moved for this time
   bool operator==(const RunStop&) const = default;
 };
 
-/// How the values of an expression over a run become one.
+/// How the values of an expression during a run are reduced to one number.
 enum class Reduction : std::uint8_t {
   Mean,
   Least,
   Most,
   First,
   Last,
-  Sum,      ///< over time: the integral, unit x s
-  Changes,  ///< how often it became true
+  Sum,      ///< integral over time, in unit x s
+  Changes,  ///< how often the expression became true
   P95
 };
 
@@ -90,13 +93,13 @@ struct ExpressionMetric {
   bool operator==(const ExpressionMetric&) const = default;
 };
 
-/// A given figure, of a robot or a paper, to compare with.
+/// A figure from elsewhere, such as a real robot or a paper, to compare results with.
 struct GivenFigure {
   std::string name, metric;
   double mean = 0.0;
-  std::optional<double> deviation;  ///< left out: a rate
+  std::optional<double> deviation;  ///< empty: the figure is a rate
   std::size_t count = 0;
-  std::vector<std::string> conditions;  ///< compared with these; empty: all
+  std::vector<std::string> conditions;  ///< conditions to compare with; empty: all
 };
 
 struct Assertion {
@@ -106,44 +109,45 @@ struct Assertion {
   bool operator==(const Assertion&) const = default;
 };
 
-/// A team of a tournament: what is different in the scenario when it plays.
+/// A team of a tournament: the changes to the scenario when it plays.
 struct TournamentTeam {
-  /// For a key of a robot: "behaviour", "behaviour.takes_ball", "model".
+  /// Sets a key of a robot, such as "behaviour", "behaviour.takes_ball" or "model".
   struct Setting {
     int shirt = 0;  ///< 0: all of its robots
     ScenarioSetting setting;
     bool operator==(const Setting&) const = default;
   };
   std::string name;
-  int number = 0;               ///< the referee's; 0: that of its colour
+  int number = 0;               ///< its number at the referee; 0: that of its colour
   std::string runtime;          ///< as runtimeChoiceToText() writes it; empty: the scenario's
-  std::vector<Setting> robots;  ///< a later one wins
+  std::string advisor;          ///< JSON, as for a team of a scenario; empty: none
+  std::vector<Setting> robots;  ///< later settings override earlier ones
   int line = 1;
   bool operator==(const TournamentTeam&) const = default;
 };
 
-/// Two teams that play each other: indices. The first one plays blue first.
+/// Two teams that play each other, by index. `first` starts as blue.
 struct Pairing {
   std::size_t first = 0, second = 1;
   bool operator==(const Pairing&) const = default;
 };
 
-/// What must hold of a team's matches: "low95(goal_difference) > 0".
+/// What must hold for a team's matches: "low95(goal_difference) > 0".
 struct TeamAssertion {
   std::string text;
   std::size_t team = 0;
-  std::optional<std::size_t> opponent{};  ///< nothing: against everybody
+  std::optional<std::size_t> opponent{};  ///< empty: all opponents
   int line = 1;
   bool operator==(const TeamAssertion&) const = default;
 };
 
-/// Matches between teams. Each pairing is a condition of the experiment, or two of them, one behind
-/// the other, with the sides swapped.
+/// Matches between teams. Each pairing is one condition of the experiment, or with swapSides two
+/// successive ones. The metrics of a match are those of the first team of its pairing.
 struct Tournament {
   std::vector<TournamentTeam> teams;
   std::vector<Pairing> pairings;
   bool swapSides = true;
-  bool wholeMatches = false;  ///< a match without a final whistle is wrong
+  bool wholeMatches = false;  ///< a match must end with the final whistle
   std::vector<TeamAssertion> assertions;
   bool operator==(const Tournament&) const = default;
 };
@@ -153,9 +157,9 @@ enum class Record : std::uint8_t { Nothing, Failed, All, Chosen };
 struct Experiment {
   std::string name = "untitled", title, description;
   std::uint64_t seed = 1;
-  std::size_t runs = 1;              ///< of each condition
+  std::size_t runs = 1;              ///< for each condition
   bool commonSeeds = true;           ///< run i has the same seed in every condition
-  TeamColor team = TeamColor::Blue;  ///< whose experiment it is
+  TeamColor team = TeamColor::Blue;  ///< the team whose metrics are measured; conditions may differ
   std::vector<Condition> conditions;
   std::vector<RandomSetting> random;
   std::vector<StartSpread> starts;
@@ -163,55 +167,56 @@ struct Experiment {
   RunStop stop;
   std::vector<ExpressionMetric> metrics;
   double sampleEvery = 0.1;      ///< s, for expressions, beliefs and possession
-  std::string success = "goal";  ///< over a run's metrics: what is a good run
+  std::string success = "goal";  ///< expression over a run's metrics: true for a successful run
   std::vector<GivenFigure> given;
   std::vector<Assertion> assertions;
   Record record = Record::Nothing;
-  std::vector<std::size_t> recorded;       ///< numbers of runs, with Record::Chosen
-  bool separateProcesses = false;          ///< reference processes as programs, in lock-step
-  double speed = 10.0;                     ///< times real time of runs with own programs, at most
-  std::size_t pathsShown = 30;             ///< runs of a condition that the report draws
-  std::optional<Tournament> tournament{};  ///< whose matches the conditions are
-  std::string text;  ///< the file with its scenario inside: what a results folder keeps
+  std::vector<std::size_t> recorded;       ///< numbers of runs, for Record::Chosen
+  bool separateProcesses = false;          ///< reference processes are separate, in lock-step
+  double speed = 10.0;                     ///< highest speed of runs with team programs
+  std::size_t pathsShown = 30;             ///< runs per condition that the report draws
+  std::optional<Tournament> tournament{};  ///< set if the conditions are its matches
+  std::string text;  ///< the file with its scenario included, as a results folder keeps it
 
   std::size_t allRuns() const { return runs * conditions.size(); }
   bool hasTeamPrograms() const { return std::ranges::any_of(conditions, &Condition::teamPrograms); }
 };
 
-/// Which run a number is; numbers go from 1 to allRuns().
+/// A run: its number, from 1 to allRuns(), and the condition and index in it that follow from it.
 struct RunPlace {
   std::size_t number = 1, condition = 0, index = 0;
 };
-/// It wants this run in a session file.
+/// Returns whether the experiment records this run in a session file.
 bool isRecorded(const Experiment& experiment, std::size_t number, bool success);
 RunPlace placeOf(const Experiment& experiment, std::size_t number);
 std::uint64_t seedOf(const Experiment& experiment, const RunPlace& run);
 
-/// What is different from the file, as a command line says it.
+/// Values of the command line that replace those of the file.
 struct ExperimentChanges {
   std::optional<std::uint64_t> seed;
-  std::optional<std::size_t> runs;       ///< of each condition
-  std::optional<std::size_t> matches{};  ///< of each pairing of a tournament
+  std::optional<std::size_t> runs;       ///< for each condition
+  std::optional<std::size_t> matches{};  ///< for each pairing of a tournament
+  std::vector<std::string> advised{};    ///< names of the tournament's teams that think ahead
 };
 
 struct ExperimentName {
   std::string name, title;
 };
-/// resources/experiments and resources/situations.
+// Those in resources/experiments and resources/situations.
 std::vector<ExperimentName> builtInExperiments();
 std::vector<ExperimentName> builtInSituations();
 
-/// A built-in name, or else a path. Errors give file, line and key: "my.json:14:
+/// Loads a built-in experiment or a file. Errors name file, line and key: "my.json:14:
 /// conditions[1].set.noise: there is no noise preset ...".
 Result<Experiment> loadExperiment(const std::string& nameOrPath,
                                   const ExperimentChanges& changes = {});
-/// `folder`: where the file's scenario is looked for.
+/// Paths of scenarios in the text are relative to `folder`.
 Result<Experiment> experimentFromJson(std::string_view text, std::string_view source,
                                       const std::string& folder = {},
                                       const ExperimentChanges& changes = {});
 
-/// The scenario of one run: its seed, what is drawn for it, its start. Fails where a drawn value
-/// cannot be used.
+/// Returns the scenario of a run, with its seed, drawn numbers and start. Fails if a drawn number
+/// is not valid.
 Result<Scenario> scenarioOf(const Experiment& experiment, const RunPlace& run);
 
 }  // namespace pitchboard::link

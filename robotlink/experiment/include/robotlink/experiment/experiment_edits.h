@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a form edits of an experiment's file: seed, runs and conditions. Everything else in the file
-// stays as it is. Pure functions of the file's text; any thread.
+// Reads and changes those parts of an experiment's file that a form can edit: seed, runs and
+// conditions. Everything else in the file is kept. Pure functions of the file's text; any thread.
 
 #include <base/result.h>
 
@@ -16,7 +16,7 @@
 namespace pitchboard::link {
 
 struct ConditionEdit {
-  std::optional<std::size_t> from;  ///< its place in the file's list; nothing: a new one
+  std::optional<std::size_t> from;  ///< index in the file's list; empty: a new condition
   std::string name;
   std::string settings;  ///< "noise = paper, robots[B1].behaviour = keeper"; empty: the scenario's
   bool operator==(const ConditionEdit&) const = default;
@@ -26,14 +26,14 @@ struct ExperimentEdits {
   std::uint64_t seed = 1;
   std::size_t runs = 1;
   std::vector<ConditionEdit> conditions;
-  bool isGrid = false;  ///< conditions follow from "grid" and are edited in the file
+  bool isGrid = false;  ///< conditions come from "grid" and can be edited only in the file
   bool operator==(const ExperimentEdits&) const = default;
 };
 
-/// What the file says. Fails if it is not JSON, with the line.
+/// Reads the file. Fails, with the line, if it is not JSON.
 Result<ExperimentEdits> editsOf(std::string_view text);
-/// The file with these in place; conditions that are no longer listed leave. A value without quotes
-/// that is not JSON is a text. Fails if the file is not JSON or a setting has no key or no value.
+/// Returns the file with these edits. Conditions that are not in the list are removed. A value that
+/// is not JSON is taken as text. Fails if the file is not JSON, or if a setting lacks key or value.
 Result<std::string> withEdits(std::string_view text, const ExperimentEdits& edits);
 
 }  // namespace pitchboard::link

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The folder of an experiment's results. While it is played it holds experiment.json (the file with
-// its scenario inside) and runs.jsonl, a line for each run that has ended; when all are there, also
-// runs.csv, summary.json, report.md, report.html and junit.xml; of a tournament table.csv, too.
-// Those files depend on the experiment only: not on the order of runs, threads, interruptions,
-// shards, clock or folder. How fast runs with separate processes were played differs every time,
-// and stands in times.csv. One thread at a time; a second program that opens the folder is refused.
+// The folder with the results of an experiment. During the experiment it contains experiment.json
+// (the file with its scenario included) and runs.jsonl with a line for each run that has ended.
+// After the last run it also contains runs.csv, summary.json, report.md, report.html and junit.xml,
+// and table.csv for a tournament. These files depend only on the experiment: not on the order of
+// runs, threads, interruptions, shards, clock or folder. The speed of runs with separate processes
+// differs every time and is kept in times.csv. One thread at a time; a second program that opens
+// the folder gets an error.
 
 #include <optional>
 #include <string>
@@ -26,20 +27,20 @@ inline constexpr const char* sessionsFolder = "sessions";
 
 class ExperimentFolder {
  public:
-  /// Makes the folder, or with `resume` goes on in it. Error Conflict when it holds results and is
-  /// not resumed, or those of another experiment.
+  /// Creates the folder, or with `resume` continues in it. Error Conflict if it contains results of
+  /// another experiment, or any results without `resume`.
   static Result<ExperimentFolder> begin(const std::string& path, const Experiment& experiment,
                                         bool resume);
 
   const std::string& path() const { return m_path; }
-  /// By number of run - 1.
+  /// Returns 1 for each run that has a result, indexed by number - 1.
   const std::vector<char>& finished() const { return m_finished; }
   std::size_t finishedCount() const { return m_count; }
   bool complete() const { return m_count == m_finished.size(); }
-  /// Written and given to the system at once, so that a killed program loses nothing that is here.
-  /// `timesRealTime`: how fast it was played, where that is to be kept.
+  /// Writes a result immediately, so that it is kept even if the program is killed afterwards.
+  /// `timesRealTime` is the speed of the run, for times.csv.
   Result<void> add(const RunResult& result, std::optional<double> timesRealTime = {});
-  /// Puts the lines in order; when all runs are there, writes the tables and reports.
+  /// Sorts the lines, and writes tables and reports if all runs have ended.
   Result<void> finish();
 
  private:
@@ -63,19 +64,24 @@ class ExperimentFolder {
   UniqueFd m_lines, m_times;
 };
 
-/// The experiment whose results these are.
+/// Reads the experiment of a results folder.
 Result<Experiment> experimentOf(const std::string& folder);
-/// All runs that are there. Paths only of those that are drawn.
+/// Reads all results; paths only of those runs that the report draws.
 Result<ResultTable> resultsOf(const std::string& folder, const Experiment& experiment);
-/// One run; NotFound when it has not been played.
+/// Adds the results of a folder to those of the same experiment, also while another program plays
+/// into it. Adds nothing if the folder has no results yet. Error Conflict for the folder of another
+/// experiment.
+Result<void> addResults(ResultTable& table, const std::string& folder,
+                        const Experiment& experiment);
+/// Reads the result of a run. Error NotFound if it has not been played.
 Result<RunResult> resultOf(const std::string& folder, const Experiment& experiment,
                            std::size_t number);
-/// Marks a run of a folder as one that does not repeat, because it ended differently when it was
-/// played again, and writes the tables and reports anew. Conflict while a program plays into it.
+/// Marks a run as not repeatable, because it ended differently when it was played again, and
+/// rewrites tables and reports. Error Conflict while another program uses the folder.
 Result<void> markUnrepeatable(const std::string& folder, const Experiment& experiment,
                               std::size_t number);
-/// Joins the folders of shards into a new one. Error Conflict for folders of different experiments,
-/// and where one run has two results.
+/// Joins the folders of shards into a new one. Error Conflict if they belong to different
+/// experiments, or if a run has two results.
 Result<ExperimentFolder> mergeFolders(const std::vector<std::string>& parts,
                                       const std::string& into, const Experiment& experiment);
 

@@ -1,34 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What all runs of an experiment say together: a summary of each metric in each condition,
-// differences between conditions, comparisons with given figures, and whether the assertions hold.
-// Computed from results in any order. Plain values; any thread.
+// Summarizes the runs of an experiment: each metric in each condition, differences between
+// conditions, comparisons with given figures, and whether the assertions hold. The order in which
+// results are added does not matter. Plain values; any thread.
 
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include <base/result.h>
 #include <robotlink/experiment/run_result.h>
 #include <robotlink/experiment/statistics.h>
 #include <robotlink/experiment/tournament.h>
 
 namespace pitchboard::link {
 
-/// All results, column by column: 8 bytes for each metric of a run.
+/// All results as columns, with 8 bytes for each metric of a run.
 struct ResultTable {
   explicit ResultTable(const Experiment& experiment);
   void add(const Experiment& experiment, const RunResult& result);
 
   std::vector<MetricInfo> metrics;
   struct OfCondition {
-    /// By metric, then by index of the run; NaN where there is none.
+    /// By metric, then by index of the run; NaN if a run has no value.
     std::vector<std::vector<double>> columns;
-    std::vector<char> played;
-    std::map<std::string, std::size_t> ends;  ///< MatchResult::endedBy -> how often
+    std::vector<char> played;                 ///< by index of the run
+    std::map<std::string, std::size_t> ends;  ///< number of runs for each MatchResult::endedBy
     struct Outcome {
-      int goals = 0, goalsAgainst = 0;  ///< of the experiment's team
+      int goals = 0, goalsAgainst = 0;  ///< from the view of the experiment's team
       bool repeatable = true;
     };
     std::vector<Outcome> outcomes;  ///< by index of the run
@@ -48,20 +50,20 @@ struct ConditionSummary {
   std::string name;
   std::size_t runs = 0;
   std::map<std::string, std::size_t> ends;
-  std::size_t unrepeatable = 0;  ///< runs that would end differently when played again
+  std::size_t unrepeatable = 0;  ///< runs that may end differently when played again
   std::vector<Summary> metrics;
 };
 
-/// Of two conditions and one metric.
+/// The difference of a metric between two conditions, second - first. Members are indices.
 struct ConditionDifference {
-  std::size_t first = 0, second = 0, metric = 0;  ///< second - first
+  std::size_t first = 0, second = 0, metric = 0;
   Comparison comparison;
-  PairedDifference paired;  ///< with common random numbers
+  PairedDifference paired;  ///< only if both conditions use the same seeds
 };
 
 struct GivenComparison {
   std::size_t condition = 0, metric = 0, figure = 0;
-  SampleMoments ours, theirs;  ///< a deviation that was not given is NaN
+  SampleMoments ours, theirs;  ///< a missing deviation is NaN
   Comparison comparison;       ///< ours - theirs
 };
 
@@ -78,13 +80,19 @@ struct ExperimentSummary {
   std::vector<GivenComparison> comparisons;
   std::vector<CheckedAssertion> assertions;
   std::optional<TournamentTable> tournament{};
-  /// Every assertion does, and nothing went wrong in a match of a tournament.
+  /// Returns whether all assertions hold and no match of a tournament went wrong.
   bool holds() const;
 };
 
 ExperimentSummary summarize(const Experiment& experiment, const ResultTable& table);
 
-/// Metrics that say something: some run has a value, and not all values of all conditions are 0.
+/// Returns the value of an expression over metrics, such as "goals - goals_against", for every run
+/// of a condition, in the order of its runs. NaN where a metric has no value. Error NotFound for an
+/// unknown metric.
+Result<std::vector<double>> valuesOf(std::string_view expression, const ResultTable& table,
+                                     std::size_t condition);
+
+/// Returns the metrics worth showing: some run has a value, and not all values are 0.
 std::vector<std::size_t> tellingMetrics(const ExperimentSummary& summary);
 
 }  // namespace pitchboard::link

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Assertions as JUnit XML, which continuous integration reads: a test suite for each condition of
-// an experiment (one for a tournament), a test for each of its assertions; a suite with an error
-// for a file that could not be read or played. Pure; any thread.
+// Writes assertions as JUnit XML for continuous integration. Each condition of an experiment is a
+// test suite (a tournament is a single one), and each assertion is a test. A file that could not be
+// read or played becomes a suite with an error. Pure functions; any thread.
 
 #include <span>
 #include <string>
@@ -15,7 +15,7 @@ namespace pitchboard::link {
 struct TestedExperiment {
   Experiment experiment;
   ExperimentSummary summary;
-  std::string error;  ///< why there is no summary; then only the experiment's name is used
+  std::string error;  ///< why there is no summary; if set, only the experiment's name is used
 };
 
 std::string junitReport(std::span<const TestedExperiment> tested);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Plays runs of an experiment: RunPlayer one after another in its thread, playRuns() many in
-// threads of its own. A run depends on its number only, so that order, threads and computers make
-// no difference to its result.
+// Plays the runs of an experiment: RunPlayer one after another on the calling thread, playRuns()
+// many at once on its own threads. The result of a run depends only on the experiment and its
+// number, not on order, threads or computer.
 
 #include <atomic>
 #include <cstddef>
@@ -25,33 +25,34 @@ class RunMeasure;
 
 struct PlaySettings {
   std::string robotProgram;  ///< pitchboard-robot, for separate processes
-  /// Where playRuns() puts sessions of runs that cannot be played again because a team's own
-  /// programs play in them: the results folder, and the name and version for the files, also of
-  /// recordAgain().
-  std::string folder{}, program{};
-  /// Set by anybody: runs that are being played end without a result.
+  /// Results folder, in which playRuns() records runs with team programs, because they cannot be
+  /// repeated.
+  std::string folder{};
+  std::string program{};  ///< name and version to write to session files
+  /// Once true, runs that are being played end without a result. Any thread may set it.
   const std::atomic<bool>* cancelled = nullptr;
 };
 
-/// The session of a run: "results/sessions/run-000417.mcap".
+/// Returns the path of a run's session, such as "results/sessions/run-000417.mcap".
 std::string sessionPath(const std::string& folder, std::size_t number);
 
-/// One thread. `experiment` must outlive it.
+/// Used on one thread. `experiment` must outlive it.
 class RunPlayer {
  public:
   static Result<RunPlayer> create(const Experiment& experiment, PlaySettings settings);
   RunPlayer(RunPlayer&&) noexcept;
   ~RunPlayer();
 
-  /// Error Conflict with the message "cancelled" when it was.
+  /// Plays a run. If cancelled, returns error Conflict with the message "cancelled".
   Result<RunResult> play(std::size_t number);
-  /// The same, recorded into a new session file. `program`: name and version, for the file.
+  /// Plays a run and records it in a new session file. `program` is a name and version for the
+  /// file.
   Result<RunResult> record(std::size_t number, const std::string& path, const std::string& program);
-  /// s that the last run took, and s that were simulated in it.
+  // Duration of the last run, in real and in simulated seconds.
   double wallSeconds() const { return m_wall; }
   double simulatedSeconds() const { return m_simulated; }
-  /// How many times as fast as real time the last run was played, once its programs were there;
-  /// nothing unless they are separate processes or a team's own.
+  /// Returns the speed of the last run, times real time, without the time for starting programs.
+  /// Empty unless the run used separate processes or team programs.
   std::optional<double> timesRealTime() const { return m_timesRealTime; }
 
  private:
@@ -68,8 +69,8 @@ class RunPlayer {
   std::optional<double> m_timesRealTime;
 };
 
-/// A run of a results folder, played again into a session file. Error Conflict if a run that the
-/// results call repeatable ends in another state: they say so from then on.
+/// Plays a run of a results folder again and records it. If a run that is marked as repeatable ends
+/// in another state, marks it as not repeatable and returns error Conflict.
 Result<RunResult> recordAgain(const std::string& folder, const Experiment& experiment,
                               std::size_t number, const std::string& path,
                               const PlaySettings& settings);
@@ -77,11 +78,12 @@ Result<RunResult> recordAgain(const std::string& folder, const Experiment& exper
 struct PlayedRun {
   RunResult result;
   double wallSeconds = 0.0, simulatedSeconds = 0.0;
-  std::optional<double> timesRealTime;  ///< as of RunPlayer
+  std::optional<double> timesRealTime;  ///< see RunPlayer
 };
 
-/// Plays the runs of these numbers in `jobs` threads. `take` is called in one of them at a time, in
-/// the order in which they end. The first error ends everything; `cancelled` ends it without one.
+/// Plays the runs with these numbers on `jobs` threads. `take` gets each result in the order in
+/// which runs end, on any of the threads but never on two at a time. The first error ends
+/// everything and is returned; cancelling ends everything without an error.
 Result<void> playRuns(const Experiment& experiment, std::span<const std::size_t> numbers,
                       std::size_t jobs, const PlaySettings& settings,
                       const std::function<Result<void>(PlayedRun)>& take);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What one run of an experiment gave: a value for each metric, how it ended for its teams, its
-// state hash, and for the first runs of a condition the ways on the field. Plain values. Metres,
-// seconds.
+// The result of a run of an experiment: a value for each metric, how the match ended, the hash of
+// the last state, and for the first runs of a condition the paths on the field. Plain values; any
+// thread. Metres, seconds.
 
 #include <cstdint>
 #include <string>
@@ -16,17 +16,17 @@
 namespace pitchboard::link {
 
 struct MetricInfo {
-  std::string name;  ///< in files, assertions and columns: "walked_m"
+  std::string name;  ///< name in files, assertions and columns, such as "walked_m"
   std::string unit;
-  std::string title;  ///< for people
-  bool rate = false;  ///< 0 or 1 in each run: its mean is a rate
+  std::string title;  ///< name on the screen
+  bool rate = false;  ///< each value is 0 or 1, so that the mean is a rate
   bool operator==(const MetricInfo&) const = default;
 };
 
-/// Of every run of the experiment, in the order of RunResult::values: those of the team, those of
-/// each robot, the file's own, and how fast a team's own programs were played.
+/// Returns the metrics in the order of RunResult::values: those of the team, of each robot, of the
+/// file, and the speed reached with team programs.
 std::vector<MetricInfo> metricsOf(const Experiment& experiment);
-/// Those of the team: what every experiment has, for documents.
+/// Returns the metrics of the team, which every experiment has.
 std::vector<MetricInfo> teamMetrics();
 
 struct RunPath {
@@ -41,12 +41,12 @@ struct RunResult {
   /// endedBy: "goal", "goal_against", "ball_out", "fell", "stuck", "time" or "full_time".
   MatchResult match;
   std::uint64_t ticks = 0;
-  std::uint64_t hash = 0;      ///< of the last state
-  std::vector<double> values;  ///< NaN: there is none, such as the time to a goal without one
-  std::vector<RunPath> paths;  ///< of the first runs of a condition
+  std::uint64_t hash = 0;      ///< hash of the last state
+  std::vector<double> values;  ///< NaN if there is no value, such as a time to goal without a goal
+  std::vector<RunPath> paths;  ///< empty except for the first runs of a condition
 };
 
-/// For people: "goal", "ball out", "stuck".
+/// Returns the text for RunResult::match.endedBy: "goal", "ball out", "stuck".
 std::string endWords(const std::string& endedBy);
 
 }  // namespace pitchboard::link

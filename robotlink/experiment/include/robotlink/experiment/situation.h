@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A moment as a test: the scenario that starts from it, and what must hold in some runs of it. The
-// file is an experiment like any other (docs/experiments.md). Plain values; any thread. Metres,
-// seconds, degrees as in the file.
+// Turns a moment of a match into a situation test: a scenario that starts from it, with assertions
+// that must hold when it is played some times. The file is an experiment like any other
+// (docs/experiments.md). Plain values; any thread. Metres, seconds; degrees as in the file.
 
 #include <span>
 #include <string>
@@ -14,8 +14,8 @@
 
 namespace pitchboard::link {
 
-/// The moment as a scenario without the stop conditions of its match. A referee's game goes on from
-/// this moment.
+/// Returns the moment as a scenario, without the stop conditions of its match. A refereed game
+/// continues from this moment.
 MomentScenario situationScenario(const MatchFrame& frame, const MomentOptions& options);
 
 struct Situation {
@@ -28,10 +28,10 @@ struct Situation {
   std::vector<std::string> assertions;
 };
 
-/// The file. Fails as experimentFromJson() does, and when nothing must hold.
+/// Returns the test as a file. Fails as experimentFromJson() does, and if there is no assertion.
 Result<std::string> situationToJson(const Situation& situation);
 
-/// Something that often must hold, and what has to end a run for it.
+/// A common assertion, and the stop conditions that it needs.
 struct SituationTemplate {
   const char* words;      ///< "A goal is scored in at least 8 of 10 runs"
   const char* assertion;  ///< "goal_rate >= 0.8"
@@ -39,10 +39,10 @@ struct SituationTemplate {
 };
 std::span<const SituationTemplate> situationTemplates();
 
-/// s without any motion that are stuck, in a test that asks for it.
+/// Seconds without motion after which a run counts as stuck.
 inline constexpr double situationStuck = 20.0;
 
-/// A text as the name of an experiment: letters, digits, '-', '_' and '.'; never empty.
+/// Makes a name for an experiment from any text: letters, digits, '-', '_' and '.'; never empty.
 std::string experimentNameFrom(std::string_view text);
 
 }  // namespace pitchboard::link

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What happened in a match, simulated, live or recorded: one plain value, made once where it
-// happens (SimulatedMatch, LiveWatch, the user) and carried as it is to timeline, log, session
-// file, report and command line. Words are made from it here, and only to be shown: nobody reads
-// them back. Times are seconds of the source.
+// Something that happened in a simulated, live or recorded match. The event is made where it
+// happens (SimulatedMatch, LiveWatch, the user) and passed unchanged to timeline, log, session
+// file, report and command line. The functions below make text of it, which is only shown and never
+// parsed. Times are seconds of the source. Plain values; any thread.
 
 #include <cstdint>
 #include <optional>
@@ -20,73 +20,74 @@
 
 namespace pitchboard::link {
 
+/// The comments say which members of MatchEvent a kind uses.
 enum class MatchEventKind : std::uint8_t {
   Goal,                ///< side, team, score
   ScoreCorrected,      ///< side, team, score
-  BallOut,             ///<
+  BallOut,             ///< none
   Kick,                ///< robot; value: the action
   Fall,                ///< robot
   GotUp,               ///< robot
   UnknownAction,       ///< robot; value: the code
-  BallSeen,            ///< robot; after it was lost
-  BallLost,            ///< robot; not seen for BallSight::lostAfter
-  GameState,           ///< detail: "PLAYING"; value: seconds left, where there is a clock
-  MatchOver,           ///< detail: the scenario's stop condition that is met
+  BallSeen,            ///< robot: it sees the ball again
+  BallLost,            ///< robot: it has not seen the ball for BallSight::lostAfter
+  GameState,           ///< detail: "PLAYING"; value: seconds left, if there is a clock
+  MatchOver,           ///< detail: the stop condition of the scenario that was met
   Half,                ///< value: 1 or 2
   SetPlay,             ///< detail: "corner"; empty: normal play again
   GamePhase,           ///< detail: "penalty shoot-out"; empty: normal time
-  PlayStopped,         ///< by the referee
-  PlayGoesOn,          ///<
-  RefereeReceived,     ///< for the first time, or another one; detail: who; value: its version
-  RefereeOffline,      ///<
-  RefereeBack,         ///<
-  SecondReferee,       ///< detail: the one that is shown
-  RobotReceived,       ///< robot; for the first time; detail: its sender
+  PlayStopped,         ///< none; the referee stopped play
+  PlayGoesOn,          ///< none; the referee resumed play
+  RefereeReceived,     ///< a first or different referee; detail: which; value: packet version
+  RefereeOffline,      ///< none
+  RefereeBack,         ///< none
+  SecondReferee,       ///< detail: the referee that is shown
+  RobotReceived,       ///< robot: first message; detail: its sender
   RobotOffline,        ///< robot
   RobotBack,           ///< robot
   SecondSender,        ///< robot; detail: the sender that is shown
   BatteryLow,          ///< robot; value: tenths of a volt
   AddressChanged,      ///< robot; detail: "10.0.0.3 to 10.0.0.7"
-  ClockSet,            ///< the computer's; value: by so many seconds
-  Penalised,           ///< robot; detail: for what; value: seconds left
+  ClockSet,            ///< the computer's clock was changed; value: by this many seconds
+  Penalised,           ///< robot; detail: the reason; value: seconds left
   PenaltyOver,         ///< robot
-  ProcessStarted,      ///< robot, process; value: its process number
-  ProcessRestarted,    ///< the same, when one of this name ran before
-  ProcessEnded,        ///< robot, process; as it should: it was asked to, or exit code 0
-  ProcessDied,         ///< robot, process; detail: how, and its last words
-  ProcessSilent,       ///< robot, process; detail: for how long there was no sign of life
-  ProcessGivenUp,      ///< robot, process; it ends again and again and is not started any more
+  ProcessStarted,      ///< robot, process; value: its process id
+  ProcessRestarted,    ///< the same for a process of this name that ran before
+  ProcessEnded,        ///< robot, process; on request, or with exit code 0
+  ProcessDied,         ///< robot, process; detail: how, and its last line of output
+  ProcessSilent,       ///< robot, process; detail: how long ago the last sign of life was
+  ProcessGivenUp,      ///< robot, process; it kept ending and is no longer restarted
   ProcessRealTime,     ///< robot, process; it does not follow the match's speed; detail: why
-  ProcessNotAttached,  ///< robot, process; the match does not wait for it; detail: how long it has
-  CycleLate,           ///< robot; its program did not finish a cycle in time; detail: for how long
-  PortLost,            ///< value: the port; detail: why it cannot be received
+  ProcessNotAttached,  ///< robot, process; the match no longer waits for it; detail: waiting time
+  CycleLate,           ///< robot; its program did not finish a cycle in time; detail: waiting time
+  PortLost,            ///< value: the port; detail: why nothing can be received on it
   PortBack,            ///< value: the port
-  Undone,              ///< what `cause` had led to before, all of it, was taken back
+  Undone,              ///< everything that followed from `cause` was undone
   Bookmark,            ///< detail: the user's note
-  Other                ///< detail: what a later version, or a file of another one, calls it
+  Other                ///< a kind that this version does not know; detail: its name in the file
 };
 inline constexpr std::size_t matchEventKindCount = 43;
 
-/// Half of the field that a team defends.
+/// The half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };
 
 struct MatchEvent {
   MatchEventKind kind = MatchEventKind::Other;
   double time = 0.0;
-  RobotKey robot{};            ///< number 0: none, or not known any more
-  std::string name{};          ///< of the robot at that time, "B1"; empty: no robot
-  std::optional<Side> side{};  ///< of the team that scored
+  RobotKey robot{};            ///< number 0: no robot, or one that is no longer known
+  std::string name{};          ///< the robot's name at that time, such as "B1"; empty: no robot
+  std::optional<Side> side{};  ///< side of the team that scored
   int team = 0;                ///< the referee's number of that team; 0: none
-  std::string colour{};        ///< of that team: "blue"; empty or "unknown": not known
+  std::string colour{};        ///< colour of that team, such as "blue"; empty or "unknown"
   std::optional<int> value{};  ///< see MatchEventKind
   std::optional<sim::Score> score{};
   std::string process{};    ///< "decision"
   std::string detail{};     ///< see MatchEventKind
-  std::uint32_t cause = 0;  ///< the decision by hand that it follows from; 0: none
+  std::uint32_t cause = 0;  ///< number of the manual call that caused it; 0: none
   bool operator==(const MatchEvent&) const = default;
 };
 
-/// How a timeline marks it; None: it is in the list, and marks would hide more than they say.
+/// The mark on the timeline; events with None appear only in the list.
 enum class EventShape : std::uint8_t {
   None,
   Goal,
@@ -106,17 +107,17 @@ inline constexpr std::size_t eventShapeCount = 13;
 
 struct MatchEventInfo {
   MatchEventKind kind;
-  std::string_view name;   ///< in files and JSON: never change it
-  std::string_view words;  ///< what is said of its robot, process or the game
+  std::string_view name;   ///< identifier in files and JSON; must never change
+  std::string_view words;  ///< predicate of the sentence: what the robot, process or game did
   EventShape shape;
-  int importance;           ///< the mark that stays where several would overlap: the highest
-  bool labelled;            ///< its label stands beside the mark when there is room
-  bool warning;             ///< in the log
-  std::string_view origin;  ///< who says it in the log when it is no robot
+  int importance;           ///< where marks overlap, only the most important one is drawn
+  bool labelled;            ///< the mark has a label if there is room
+  bool warning;             ///< the log shows it as a warning
+  std::string_view origin;  ///< origin in the log if no robot is concerned
 };
 
 const MatchEventInfo& info(MatchEventKind kind);
-/// By MatchEventInfo::name; nothing for a name that nobody knows.
+/// Finds a kind by MatchEventInfo::name; empty if there is none.
 std::optional<MatchEventKind> matchEventKind(std::string_view name);
 inline bool isMarked(const MatchEvent& event) {
   return info(event.kind).shape != EventShape::None;
@@ -125,22 +126,22 @@ inline bool isMarked(const MatchEvent& event) {
 std::string_view sideName(Side side);
 std::optional<Side> sideNamed(std::string_view name);
 
-/// An event of this robot.
+/// Makes an event about this robot.
 MatchEvent eventOf(MatchEventKind kind, double time, const RobotKey& robot, std::string name);
-/// The team that defends this side: that of the first robot that faces away from it; without one
-/// blue on the left and red on the right.
+/// Returns the team that defends this side: that of the first robot that attacks the other side. If
+/// there is none, blue defends the left and red the right.
 TeamColor teamOn(Side side, std::span<const sim::RobotIdentity> robots);
-/// An event of the simulation. `state`: right after the step in which it happened.
+/// Converts an event of the simulation. `state` is the world after the step in which it happened.
 MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state);
 
-/// Removes what an Undone event behind it takes back, and these events themselves.
+/// Removes all Undone events and the events that they undo.
 void dropUndone(std::vector<MatchEvent>& events);
 
-/// "B1 kicks the ball: kick left", "goal for BLUE, 1 : 0": a line of a list.
+/// Returns a line for a list: "B1 kicks the ball: kick left", "goal for BLUE, 1 : 0".
 std::string sentenceOf(const MatchEvent& event);
-/// "goal BLUE", "PLAYING": what stands beside a mark. Empty for kinds without a label.
+/// Returns the text beside a mark, such as "goal BLUE"; empty for kinds without a label.
 std::string labelOf(const MatchEvent& event);
-/// As a line of the log: who and what apart.
+/// Returns a line of the log, in which origin and text are separate.
 LogLine logLineOf(const MatchEvent& event);
 
 }  // namespace pitchboard::link

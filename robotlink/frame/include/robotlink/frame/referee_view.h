@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A referee's packet as it is shown, wherever it comes from: the network, a simulated match, a
-// recording. Pure functions; any thread.
+// Makes what the screen shows of a referee's packet, whether it comes from the network, a simulated
+// match or a recording. Pure functions; any thread.
 
 #include <optional>
 
@@ -12,15 +12,15 @@
 
 namespace pitchboard::link {
 
-/// All that the packet says, with the names of these teams; from whom and when, which team is ours,
-/// true data and replies are left to the caller.
+/// Returns everything that the packet contains, with the names of these teams. The caller sets what
+/// a packet does not contain: sender, time, our team, true data and replies.
 RefereeView viewOf(const telemetry::RefereeState& packet, const Teams& teams = {});
 
-/// True data (RGTD) beside it; the caller knows their age.
+/// Returns what a packet of true data (RGTD) contains. The caller sets its age.
 RefereeTruth truthOf(const telemetry::RefereeState& trueData);
 
-/// Of the player in this slot of the team with this number, substitutes included; nothing while it
-/// may play, or when the packet does not know it.
+/// Returns the penalty of the player in slot `player` of the team with number `team`; substitutes
+/// have one, too. Empty if the player may play or is not in the packet.
 std::optional<Penalty> penaltyOf(const telemetry::RefereeState& packet, int team, int player);
 
 }  // namespace pitchboard::link

@@ -2,8 +2,8 @@
 #pragma once
 
 // Makes the events of a live match by comparing each frame with the one before: game states, goals,
-// penalties, robots that fall silent or come back, ports. Part of a LivePipeline. Times are those
-// of the frames, s.
+// penalties, robots that go offline or come back, ports. Part of a LivePipeline, used on its
+// thread. Times are those of the frames, in seconds.
 
 #include <map>
 #include <string>
@@ -16,11 +16,13 @@ namespace pitchboard::link {
 
 class LiveEvents {
  public:
-  /// What has happened since the frame given before; the first frame gives what is there to tell.
+  /// Returns what has happened since the last call. The first call returns events for everything
+  /// that its frame contains.
   std::vector<MatchEvent> compare(const MatchFrame& now);
-  /// Ports that cannot be bound, and those that now can.
+  /// Returns events for ports that can no longer be bound, or can be bound again.
   std::vector<MatchEvent> comparePorts(const telemetry::ReceiverStatus& network, double time);
-  /// The computer's clock is off by this much since the beginning; a second or more is told.
+  /// `setBy` is by how much the computer's clock has been changed since the beginning. A change of
+  /// a second or more becomes an event.
   std::vector<MatchEvent> compareClock(telemetry::Duration setBy, double time);
   void rename(const std::vector<Renaming>& renamings) { pitchboard::rename(m_robots, renamings); }
 

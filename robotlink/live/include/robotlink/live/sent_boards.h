@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Blackboards that robots send (pitchboard-agent, docs/agent.md): variables come one by one, late,
-// twice or not at all; here they become samples again, with our times. Part of a LivePipeline, on
-// its thread.
+// Rebuilds the blackboards that robots send with pitchboard-agent (docs/agent.md). Variables arrive
+// one by one, late, twice or never; this makes rows of them with the times of our clock. Part of a
+// LivePipeline, used on its thread.
 
 #include <cstdint>
 #include <memory>
@@ -20,7 +20,7 @@
 
 namespace pitchboard::link {
 
-/// A map of variables by its name, for robots that send more than the published one has.
+/// A catalog with a name, for robots that send variables beyond the published ones.
 struct NamedCatalog {
   std::string name;  ///< "published", or the file's name
   VariableCatalog catalog;
@@ -28,51 +28,52 @@ struct NamedCatalog {
 
 /// How the variables of one robot arrive.
 struct SentStatus {
-  RobotKey robot;                    ///< as in the frames
+  RobotKey robot;                    ///< the key in the frames
   std::string name;                  ///< robotName() of the key
-  telemetry::LinkHealth link;        ///< its jitter is that of the delay
-  std::size_t variables = 0;         ///< received so far
-  std::vector<std::string> unknown;  ///< those that `catalog` does not have, by name
-  std::string catalog;               ///< NamedCatalog::name of the one that has the most of them
+  telemetry::LinkHealth link;        ///< its jitter is that of the latency
+  std::size_t variables = 0;         ///< different variables received so far
+  std::vector<std::string> unknown;  ///< names of variables that `catalog` does not contain
+  std::string catalog;               ///< name of the catalog that contains most of the variables
   double clockOffset = 0.0;          ///< s, our clock minus the robot's
-  std::uint64_t restarts = 0;        ///< of the sending program
-  std::optional<std::int64_t> refresh_ms, waiting;  ///< as it says itself; nothing: it does not
-  bool blackboard = true;                           ///< false: it waits for one
+  std::uint64_t restarts = 0;        ///< of the agent
+  std::optional<std::int64_t> refresh_ms, waiting;  ///< as the agent reports; empty: not reported
+  bool blackboard = true;                           ///< false: the agent waits for a blackboard
   std::uint64_t refused = 0;                        ///< values beyond SentBoards::maxVariables
 };
 
 class SentBoards {
  public:
-  static constexpr std::size_t maxVariables = 1000;  ///< of a robot
+  static constexpr std::size_t maxVariables = 1000;  ///< per robot
   static constexpr std::size_t maxRobots = 64;
 
   SentBoards();
   ~SentBoards();
 
-  /// To recognize variables by: the first one that has the most names of a robot. Not empty.
+  /// Sets the catalogs, of which there must be at least one. A robot's catalog is the one that
+  /// contains most of its variables; the first of equals wins.
   void setCatalogs(std::vector<NamedCatalog> catalogs);
-  /// Robots that send nothing for this time are offline.
+  /// Sets after which time without a message a robot is offline.
   void setTimeout(telemetry::Duration timeout) { m_timeout = timeout; }
 
   enum class Verdict : std::uint8_t {
     Used,
-    Late,  ///< a newer one came before: only variables of which nothing newer is known change
+    Late,  ///< a newer message came first; only variables without a newer value were updated
     Duplicate,
     TooManyRobots
   };
-  /// A message that came to a port of variables at `arrival` (s). `place`: RobotKey::team of robots
-  /// whose datagrams come like this one.
+  /// Takes a message that came to a port of variables at `arrival` (s). `place` is the
+  /// RobotKey::team of robots whose datagrams arrive on that port.
   Verdict take(const telemetry::Pb2Message& message, const telemetry::DatagramView& datagram,
                int place, double arrival);
 
-  /// Calls `take` with the rows since the last call. The name of their group is not for people; it
-  /// stays the same whatever address the robot has, which is "sent". Rows begin once every variable
-  /// that is sent was received.
+  /// Calls `take` with the rows since the last call. The name of a group identifies the robot and
+  /// is not shown; it does not change with the robot's address, which is the group's attribute
+  /// "sent". Rows begin once each variable that the robot sends has been received.
   void takeRows(const BoardRowsTaker& take);
-  /// The robots, for joinBoards(): with the place as team, the name of their group, and without a
-  /// colour. `now`: of arrival.
+  /// Returns the robots for joinBoards(): their team is the `place` of take(), their name that of
+  /// their group, and they have no colour.
   std::vector<RobotFrame> robots(telemetry::WallTime now, const sim::FieldSpec& field) const;
-  /// In the same order as robots(), without keys and names.
+  /// Returns the states in the order of robots(), with empty keys and names.
   std::vector<SentStatus> status(telemetry::WallTime now) const;
 
   void forget(int number, telemetry::Address address);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How a simulated match and the separate processes of its robots keep time with each other: how it
-// is played, and what a team's own programs manage of that. On the match's thread.
+// Keeps a simulated match and the separate processes of its robots in time with each other. It
+// watches the processes, tells the clocks of team programs the match's time, and slows the match
+// down when a team program cannot keep up. Used on the match's thread. Speeds are multiples of real
+// time; 0 means "as fast as possible".
 
 #include <chrono>
 #include <cstdint>
@@ -17,54 +19,54 @@ class MatchEvents;
 
 class ProcessPace {
  public:
-  /// Between two changes for team programs, so that a new pace shows what it does.
+  /// Shortest time between two changes of pace for team programs, so that each shows its effect.
   static constexpr std::chrono::seconds ownPaceInterval{3};
   using Time = std::chrono::steady_clock::time_point;
 
-  /// All outlive it.
+  /// All arguments must outlive this object.
   ProcessPace(MatchBase& base, RobotSlots& robots, MatchEvents& events);
 
-  // As in MatchOptions; may change while it is played.
+  // As in MatchOptions; may be changed during the match.
   RobotsPace robotsPace;
   bool waitForTeamPrograms;
 
-  /// Starts again what died, notices what is silent, tells the clocks of team programs the match's
-  /// time and the speed that it reached. As often as MatchPlayer::lookAfterProcesses().
+  /// Restarts processes that died, reports silent ones, and tells the clocks of team programs the
+  /// match's time and the speed that the match reached. MatchPlayer::lookAfterProcesses() says how
+  /// often to call it.
   void lookAfterProcesses(Time now);
-  /// How it is played from now on: times real time, 0 = as fast as possible; standing still.
+  /// Sets how the match is played from now on: at this speed, or not at all while `still`.
   void setPlaying(double speed, bool still, Time now);
-  /// Slower than that for now, because a team's programs cannot keep up: their clocks follow. 0 =
-  /// as fast as possible.
+  /// Plays more slowly for now, because team programs cannot keep up. Their clocks follow.
   void slowTo(double speed, Time now);
-  /// After each tick that was played: team programs live in the time that was played, which no
-  /// saved moment that is put back changes.
+  /// Called after each tick. Team programs see the time that has been played in all; restoring a
+  /// saved moment does not set it back.
   void countTick() { ++m_ticks; }
-  /// Separate reference processes are waited for in every tick.
+  /// Returns whether the match waits for separate reference processes in every tick.
   bool inLockStep() const;
 
-  // A team's own programs.
-  /// At which pace to go on from `now` to `wanted` (0 = as fast as possible) with them: not above
-  /// what the slowest of them manages, and faster again in steps. Faster than real time only when
-  /// the clocks of all of them can follow. As fast as possible begins at ×1, where it is learned
-  /// how often they work when they can, and doubles as long as they keep up. `wanted` if nobody is
-  /// waited for.
+  // Team programs.
+  /// Returns the pace to use next, between the current pace `now` and the wanted one. It is not
+  /// above what the slowest team program manages, and rises again in steps. It exceeds real time
+  /// only if the clocks of all programs can follow. "As fast as possible" begins at ×1, where the
+  /// normal rate of each program is measured, and doubles as long as all keep up. Returns `wanted`
+  /// if the match waits for no program.
   double ownPace(double wanted, double now);
-  /// Times real time: the slowest of them that cannot keep up; nothing: all do.
+  /// Returns the speed of the slowest team program that cannot keep up; empty if all keep up.
   std::optional<double> slowestTeamProgram() const;
   enum class Await {
-    Everybody,  ///< who has just been started and has not attached to its blackboard, too
-    Cooperating
+    Everybody,   ///< also programs that were just started and have not attached to a blackboard
+    Cooperating  ///< only programs that report the end of each cycle
   };
-  /// The match is to wait for a program: for one that cooperates, until it has told that it is
-  /// there. Meanwhile the clocks of programs run at ×1. Ask again, and look after the processes,
-  /// until it is false: the last one is there, or ended, or was given up after its `silent_after`,
-  /// at least 10 s (an event names it).
+  /// Returns true while the match has to wait for a program to get ready. A cooperating program is
+  /// ready once it has said so; the clocks of programs run at ×1 meanwhile. Call it and
+  /// lookAfterProcesses() until it returns false: then all programs are ready, have ended, or were
+  /// given up after their `silent_after` (at least 10 s), which an event reports.
   bool awaitsPrograms(Await whom, Time now);
-  /// This program, or one that it started, has attached to the blackboard of its robot.
+  /// Returns whether the program, or one that it started, has attached to its robot's blackboard.
   bool hasAttached(const ProcessStatus& program) const;
-  /// Lets them go on for this time while the match stands still.
+  /// Lets team programs run for this time while the match stands still.
   void letTeamProgramsRun(std::chrono::duration<double> time);
-  /// A robot's program did not finish its cycle in time.
+  /// Reports, as an event, that the robot's program did not finish its cycle in time.
   void tellLateCycle(const RobotSlot& slot);
   bool standsStill() const { return m_still; }
 
@@ -81,13 +83,13 @@ class ProcessPace {
   MatchEvents& m_events;
   double m_speed = 0.0;
   bool m_still = false;
-  double m_pace = 0.0;        // what was asked for: m_speed, or slower
-  double m_reached = 1.0;     // of that, times real time
-  bool m_hasSlowed = false;   // for team programs, since m_speed was asked for
+  double m_pace = 0.0;        // requested pace: m_speed, or slower
+  double m_reached = 1.0;     // measured pace, times real time
+  bool m_hasSlowed = false;   // for team programs, since m_speed was set
   std::uint64_t m_ticks = 0;  // played
-  double m_awaited = 0.0;     // s in which the match waited for its programs at ×1
+  double m_awaited = 0.0;     // s for which the match has waited for programs at ×1
   std::optional<Time> m_awaitedAt;
-  Time m_measured{};  // m_reached
+  Time m_measured{};  // when m_reached was measured
   double m_measuredSeconds = 0.0;
 };
 

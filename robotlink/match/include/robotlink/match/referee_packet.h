@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The game of a simulated match as the GameController of its rules would send it, and as a screen
-// shows it; and the other way round: a game that obeys such packets. Pure functions.
+// Converts between the game of a simulated match and GameController packets: makes the packet that
+// the GameController of its rules would send, shows it on the scoreboard, and lets a game follow
+// received packets. Pure functions; any thread.
 
 #include <span>
 
@@ -14,26 +15,28 @@
 
 namespace pitchboard::link {
 
-/// What robots are told now, as who hears a packet of the rules' version decodes it. `truth`:
-/// without the delay with which some leagues tell PLAYING. world.game is there.
+/// Returns the packet that robots would receive now, already decoded, in the version of the rules.
+/// With `truth`, PLAYING is announced without the delay that some leagues have. world.game must
+/// exist.
 telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNumber,
                                       bool truth = false);
 
-/// The scoreboard, the numbers of the frame's teams and the penalties of its robots, from the
-/// packet with the truth; none without a game.
+/// Sets the frame's scoreboard, team numbers and penalties from the packet with the truth. Does
+/// nothing without a game.
 void showReferee(const sim::WorldState& world, MatchFrame& frame);
 
-/// Takes over what a referee's program says: state, half, times, score, set play, penalties. The
-/// ball's and the robots' places stay ours. From now on the game is the program's
+/// Applies state, half, times, score, set play and penalties of a referee program's packet to the
+/// game. Ball and robots stay where they are. From now on, only such packets change the game
 /// (GameState::obeyed).
 void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world);
 
-/// The rules of the league and years of such packets.
+/// Returns the rule set of the league and year that sends such packets.
 sim::RefereeRules rulesOfPacket(const telemetry::RefereeState& packet);
 
-/// The game that a packet tells of, into a scenario whose field and robots are there: rules (its
-/// own, else those of the packet), teams and game. Times are whole seconds. Error InvalidArgument
-/// when the scenario has robots of more than two teams; it is as before then.
+/// Sets teams and game of a scenario from a packet; field and robots must already be in it. The
+/// scenario's rules are kept; if it has none, those of the packet are used. Times are whole
+/// seconds. Error InvalidArgument, with the scenario unchanged, if it has robots of more than two
+/// teams.
 Result<void> takeGame(const telemetry::RefereeState& packet, Scenario& scenario);
 
 }  // namespace pitchboard::link

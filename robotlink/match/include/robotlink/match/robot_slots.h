@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The robots of a simulated match: of each its segment, the claim on it, who runs for it and its
-// processes. They come, go and are changed here and not at the simulation. Every change is made
-// whole or not at all. Not thread-safe: on the match's thread.
+// The robots of a simulated match. A slot is one robot's shared memory segment, the claim on it,
+// its runtime profile and its processes. Robots are added, removed and changed here, never directly
+// in the simulation. Every change succeeds completely or leaves everything as it was. Not
+// thread-safe: used on the match's thread.
 
 #include <array>
 #include <chrono>
@@ -34,102 +35,102 @@ struct Moment;
 /// A process of a robot: inside this program, or separate.
 struct SlotProcess {
   ProfileProcess profile;
-  std::unique_ptr<CognitiveProcess> inside;  ///< nothing: it is separate
-  int id = 0;                                ///< of a separate one, in the manager
-  bool known = false;                        ///< how often it wants a turn is known
-  double period = 0.0;                       ///< s, once known
-  std::uint64_t startTick = 0;               ///< after which it was started
-  std::uint64_t nextTick = 0;                ///< runs after the tick that ends here
+  std::unique_ptr<CognitiveProcess> inside;  ///< null: the process is separate
+  int id = 0;                                ///< of a separate process, in the ProcessManager
+  bool known = false;                        ///< `period` is known
+  double period = 0.0;                       ///< s between two turns
+  std::uint64_t startTick = 0;               ///< tick after which the process was started
+  std::uint64_t nextTick = 0;                ///< tick after which it runs next
 
-  // Of a team's program: see ProcessPace::awaitsPrograms().
-  bool settled = false;  ///< it is not waited for any more
+  // Team programs only; see ProcessPace::awaitsPrograms().
+  bool settled = false;  ///< the match no longer waits for it
   std::optional<std::chrono::steady_clock::time_point> awaitedSince{};
 
-  // Of a separate one that takes turns (a reference process).
-  int place = -1;      ///< its place in the turns; below 0: it has not been started
-  bool given = false;  ///< it has been given the turn of this tick
+  // Separate reference processes only: they take turns with the match.
+  int place = -1;      ///< index in MatchTurns; below 0: not started yet
+  bool given = false;  ///< the process has been given its turn in this tick
   std::chrono::steady_clock::time_point givenAt{};
 
   bool takesTurns() const { return !inside && profile.isReference(); }
 };
 
-/// What RobotSlots::change() puts back after an error.
+/// The part of a slot that RobotSlots::change() restores after an error.
 struct RobotSetup {
   std::string behaviour;
-  BehaviourParameters parameters;  ///< of its behaviour
-  RuntimeChoice choice;            ///< as told for this robot; may be nothing
-  RuntimeProfile runtime;          ///< what that means
-  bool extended = false;           ///< its decision knows the extension of the map
-  IntVar cycle{-1};                ///< in which its program says that it has finished its cycle
-  bool facesLeft = false;          ///< what its processes were told
+  BehaviourParameters parameters;
+  RuntimeChoice choice;    ///< what was chosen for this robot; may be empty
+  RuntimeProfile runtime;  ///< the profile that follows from the choice
+  bool extended = false;   ///< its decision process uses the extension of the variable map
+  IntVar cycle{-1};        ///< variable in which its program reports the end of each cycle
+  bool facesLeft = false;  ///< direction of attack that its processes were started with
   std::vector<std::shared_ptr<SlotProcess>> processes;
 };
 
 struct RobotSlot : RobotSetup {
   RobotId id;
-  std::optional<BridgeClaim> claim;  ///< given back after the segment is gone
+  std::optional<BridgeClaim> claim;  ///< released after the segment has been removed
   Blackboard board = Blackboard::onHeap();
   RefereeOrders orders;
-  std::size_t turn = 0;  ///< of `processes`, within a tick
-  // Of a robot with `cycle`: see CycleWait.
-  bool cooperates = false;      ///< its program has told that it is there
-  bool hasMissedCycle = false;  ///< since it was started
-  std::optional<std::chrono::steady_clock::time_point> awaitedSince{};  ///< at the beginning
+  std::size_t turn = 0;  ///< index of the process whose turn it is in this tick
+  // Robots with `cycle` only; see CycleWait.
+  bool cooperates = false;      ///< its program has reported that it is ready
+  bool hasMissedCycle = false;  ///< since the program was started
+  std::optional<std::chrono::steady_clock::time_point> awaitedSince{};  ///< for the first report
 };
 
 class RobotSlots {
  public:
-  /// `base` outlives it.
+  /// `base` must outlive this object.
   explicit RobotSlots(MatchBase& base);
   RobotSlots(const RobotSlots&) = delete;
   RobotSlots& operator=(const RobotSlots&) = delete;
-  ~RobotSlots();  ///< ends the processes, removes the segments that it created
+  ~RobotSlots();  ///< ends all processes and removes the segments that it created
 
   /// In the order of the simulation's robots.
   const std::vector<std::shared_ptr<RobotSlot>>& all() const { return m_slots; }
-  /// Null when there is no such robot.
+  /// Returns null if there is no such robot.
   RobotSlot* find(RobotId id) const;
   const sim::RobotIdentity& identityOf(RobotId id) const;
-  /// Which kind of robot it is; null when there is no such robot.
+  /// Returns null if there is no such robot.
   const sim::RobotModel* model(RobotId id) const;
-  /// How long its programs may be silent, s.
+  /// Returns for how long the robot's programs may be silent, in seconds.
   static double silentAfter(const RobotSlot& slot);
-  /// Other programs see a robot's blackboard and may decide for it.
+  /// Returns whether programs outside this one can write to the blackboard of any robot.
   bool haveTeamPrograms() const;
-  /// Robots whose processes nobody here has started, so that they do not stop with the match.
+  /// Returns the robots whose processes were started by somebody else and continue after the match.
   std::vector<sim::RobotIdentity> ofOthers() const;
 
-  /// A robot with its blackboard and processes; scripted writes for every robot that are past are
-  /// made up for.
+  /// Adds a robot with its blackboard and processes. Blackboard values that the scenario scheduled
+  /// for all robots at an earlier time are written now.
   Result<void> add(const ScenarioRobot& robot);
-  /// Ends its processes and removes its segment if this match created it.
+  /// Ends the robot's processes, and removes its segment if this match created it.
   Result<void> remove(RobotId id);
-  /// Its decision starts anew with this behaviour (a name of behaviours(), or noBehaviour); the
-  /// other processes go on, and those that only this behaviour needs come or go.
+  /// Restarts the robot's decision process with this behaviour (a name from behaviours(), or
+  /// noBehaviour). Other processes continue, except for those that only one of the two behaviours
+  /// needs: they are started or ended.
   Result<void> setBehaviour(RobotId id, const std::string& behaviour);
-  /// Who runs from now on; all processes of the robot start anew.
+  /// Changes the robot's runtime and restarts all of its processes.
   Result<void> setRuntime(RobotId id, const RuntimeChoice& choice);
-  /// Another team and shirt for the robot of this id; its processes start again. Conflict when the
-  /// shirt is worn already.
+  /// Changes team and shirt of the robot with this id and restarts its processes. Error Conflict if
+  /// another robot has this shirt.
   Result<void> setIdentity(const sim::RobotIdentity& identity);
-  /// Another kind of robot from now on; its processes start again when they have to know.
+  /// Changes the robot's model, and restarts those processes that depend on it.
   Result<void> setModel(RobotId id, const sim::RobotModel& model);
-  /// Programs whose profile says "clock": "real" start again with the match's time; until another
-  /// runtime is chosen for the robot.
+  /// Restarts programs whose profile says "clock": "real" with the match's time. This holds until
+  /// another runtime is chosen for the robot.
   Result<void> restartWithMatchTime();
-  /// Starts a process of the robot anew, separate or not; NotFound when it has none of that name.
+  /// Restarts a process, separate or not. Error NotFound if the robot has none of that name.
   Result<void> restartProcess(RobotId id, const std::string& process);
 
-  /// `f` changes the robot's setup, and what the simulation knows of it. Afterwards the processes
-  /// that it took out of the setup end, and those that the setup wants and does not have start. An
-  /// error, of `f` or of a start, leaves robot and world as they were; what had ended for it runs
-  /// again.
+  /// Calls `f` to change the robot's setup and its state in the simulation. Then it ends processes
+  /// that `f` removed from the setup and starts those that the setup now requires. If `f` or a
+  /// start fails, robot and world are restored, and ended processes are started again.
   Result<void> change(RobotId id, const std::function<Result<void>(RobotSlot&)>& f);
-  /// The world of this moment, with its robots and their behaviours; those that stay keep their
-  /// processes.
+  /// Restores the world of this moment with its robots and behaviours. Robots that exist before and
+  /// after keep their processes.
   Result<void> become(const Moment& moment);
 
-  /// Makes a process inside this program anew.
+  /// Creates a process inside this program, replacing any earlier one.
   Result<void> startInside(const RobotSlot& slot, SlotProcess& process);
   std::shared_ptr<InProcessTeamChannel> teamChannel(RobotId id);
   std::array<std::shared_ptr<InProcessTeamChannel>, teamColors.size()>& teamChannels() {
@@ -137,7 +138,7 @@ class RobotSlots {
   }
   ProcessManager& processes() { return *m_processes; }
   const ProcessManager& processes() const { return *m_processes; }
-  /// Null while nobody takes turns.
+  /// Returns null while no process takes turns.
   MatchTurns* turns() const { return m_turns.get(); }
   const std::optional<MatchClaim>& claim() const { return m_claim; }
 
@@ -148,11 +149,12 @@ class RobotSlots {
   Result<RuntimeProfile> runtimeFor(const std::string& behaviour, RuntimeChoice choice) const;
   Result<void> setBehaviour(RobotSlot& slot, const std::string& behaviour) const;
   bool sharesBoard(const RobotSlot& slot) const;
-  /// Its reference processes are programs of their own.
+  /// Returns whether the robot's reference processes are separate.
   bool isSeparate(const RobotSlot& slot) const;
   Result<void> identify();
   Result<void> checkShirt(const sim::RobotIdentity& identity) const;
   Result<IntVar> cycleOf(const RobotSlot& slot) const;
+  const AdvisorOptions* advisorOf(const RobotSlot& slot) const;
   bool wants(const RobotSlot& slot, const ProfileProcess& process) const;
   Result<void> startMissing(RobotSlot& slot, std::vector<SlotProcess*>& started);
   Result<void> start(RobotSlot& slot, SlotProcess& process);

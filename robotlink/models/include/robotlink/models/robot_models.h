@@ -30,7 +30,7 @@ Result<sim::RobotModel> loadRobotModel(const std::string& nameOrPath);
 /// Returns the name of a built-in model, or an object on one line; it reads back to an equal one.
 std::string robotModelToText(const sim::RobotModel& model);
 
-/// Reads a model as a built-in name or an object; nothing if the key is missing.
+/// Reads a model as a built-in name, a file or an object; nothing if the key is missing.
 std::optional<sim::RobotModel> readRobotModel(const JsonObject& parent, JsonReport& report,
                                               std::string_view key);
 

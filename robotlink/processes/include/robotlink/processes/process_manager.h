@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one supervisor of robots' processes, for a match (studio, command line) and for
-// `pitchboard-robot management`: starts them in order, tells what happens to them, starts one again
-// that died or that shows no sign of life, ends, stops and continues each of them.
+// Supervises the processes of robots, for a match (studio, command line) and for
+// `pitchboard-robot management`. It starts them in order, reports what happens to them, restarts
+// those that die or become silent, and ends, stops and continues them on request.
 //
-// Signs of life, one of four (Watch): a variable of the blackboard that the process keeps setting
-// (communication clears it once a second; without communication nobody would, so the manager does);
-// the kernel's count of its sleeps, for a process without such a variable; the caller, who knows
-// better (a match that gives it turns); or nobody. A process that somebody else stopped (SIGSTOP)
-// is silent, too. A team's program that runs on the match's time is given match time to show it,
-// and one with a variable is judged only after it has set it once: it may block before its first
-// cycle.
+// ManagedProcess::Watch selects how a silent process is recognized:
+//   Variable  The process keeps setting a variable of the blackboard, its heartbeat. Communication
+//             clears it once a second; if there is no communication, the manager does (`clears`).
+//             A process is judged only once it has set the variable for the first time, because it
+//             may block before its first cycle.
+//   Sleeps    The kernel's count of the process's sleeps has to grow.
+//   Caller    The caller knows better, because it gives the process its turns: setSilent().
+//   Nobody    The process is never considered silent.
+// A process that somebody else stopped (SIGSTOP) is silent, too. For team programs whose clocks
+// follow the match, the time limit is in match time.
 //
-// A process that has to be started again waits first: `firstWait`, twice as long every time, at
-// most `longestWait`; after `steadyAfter` of work it counts as sound again.
+// Before a restart the manager waits for `firstWait`, then twice as long each time, at most
+// `longestWait`. After `steadyAfter` of steady work it starts with `firstWait` again.
 
 #include <chrono>
 #include <cstdint>
@@ -39,26 +42,26 @@ struct ManagedProcess {
 
   ChildSpec spec;
   RestartRule restart;
-  double delay = 0.0;  ///< s after the start of the robot's process before it
+  double delay = 0.0;  ///< s to wait after the start of the robot's previous process
   Watch watch = Watch::Nobody;
-  IntVar heartbeat{-1};    ///< with Watch::Variable
-  bool clears = false;     ///< the manager clears it
-  Seconds silentAfter{5};  ///< or stopped by somebody for so long
-  bool watchFile = false;  ///< starts again when its program is replaced
-  bool ownTime = false;    ///< a foreign program, whose clocks follow setTime()
-  /// Called before every start; may change what is started.
+  IntVar heartbeat{-1};    ///< for Watch::Variable
+  bool clears = false;     ///< the manager clears the heartbeat
+  Seconds silentAfter{5};  ///< without a sign of life, or stopped by somebody
+  bool watchFile = false;  ///< restart when the file of its program is replaced
+  bool ownTime = false;    ///< a team program whose clocks follow setTime()
+  /// Called before every start; may change `spec`.
   std::function<Result<void>(ChildSpec&)> prepare{};
 };
 
-/// Whose time the clocks of a foreign program tell.
+/// The time that the clocks of a team program show.
 enum class ProcessClock : std::uint8_t {
-  Match,          ///< they follow setTime()
-  Real,           ///< real time, as its profile asks
+  Match,          ///< match time, see setTime()
+  Real,           ///< real time, because its profile says so
   RealNoLibrary,  ///< real time, because our library is not installed
-  RealNotLoaded   ///< real time, because our library cannot be loaded into it
+  RealNotLoaded   ///< real time, because our library cannot be loaded into the program
 };
 
-/// Why the clocks of a program do not follow the match, as a clause; empty if they do.
+/// Returns why the clocks of a program do not follow the match, as a clause; empty if they do.
 const char* whyRealTime(ProcessClock clock);
 
 struct ProcessStatus {
@@ -68,27 +71,28 @@ struct ProcessStatus {
   std::string name;  ///< "decision"
   ProcessState state = ProcessState::Waiting;
   pid_t pid = 0;                                      ///< 0 while it does not run
-  int restarts = 0;                                   ///<
-  std::string detail;                                 ///< how it ended, why it does not run
-  std::vector<std::string> lastLines;                 ///< the newest last
-  std::chrono::steady_clock::time_point started{};    ///< the last time
-  std::chrono::steady_clock::time_point nextStart{};  ///< while it is Restarting
-  double cpu = 0.0;                                   ///< share of a core, of the last second
+  int restarts = 0;                                   ///< restarts so far
+  std::string detail;                                 ///< how it ended, or why it does not run
+  std::vector<std::string> lastLines;                 ///< last lines of output, the newest last
+  std::chrono::steady_clock::time_point started{};    ///< last start
+  std::chrono::steady_clock::time_point nextStart{};  ///< valid in the state Restarting
+  double cpu = 0.0;                                   ///< share of a core during the last second
   std::uint64_t memoryBytes = 0;
-  std::optional<double> heartbeatAge{};     ///< s since a sign of life; nothing: nobody watches
-  bool foreign = false;                     ///< a program of the team
-  ProcessClock clock = ProcessClock::Real;  ///< of a foreign program
-  double speed = 0.0;  ///< times real time, that a foreign program is to keep; 0: ours
-  /// What it manages of that, times real time: less than `speed` when it cannot keep up, at most 1
-  /// when its clocks keep real time. 0: nobody has seen yet how often it works when it can.
+  std::optional<double> heartbeatAge{};     ///< s since the last sign of life; empty: not watched
+  bool foreign = false;                     ///< it is a team program
+  ProcessClock clock = ProcessClock::Real;  ///< team programs only
+  double speed = 0.0;  ///< times real time: the speed a team program has to keep; 0: not one
+  /// The speed that a team program reaches, times real time. It is below `speed` if the program
+  /// cannot keep up, and at most 1 if its clocks show real time. 0 while its normal rate is
+  /// unknown.
   double achieved = 0.0;
-  /// Of a foreign program, since it was started: cycles that it did, and those that it would have
-  /// done in the same time of its own if it had kept up.
+  /// Cycles of a team program since its start: those it did, and those it did not do because it
+  /// could not keep up.
   std::uint64_t cycles = 0, missedCycles = 0;
   bool operator==(const ProcessStatus&) const = default;
 };
 
-/// A team's program that does less than 95 % of what it would at the speed that it is to keep.
+/// Returns true for a team program that reaches less than 95 % of the speed that it has to keep.
 bool fallsBehind(const ProcessStatus& program);
 
 enum class ProcessNewsKind : std::uint8_t {
@@ -98,87 +102,90 @@ enum class ProcessNewsKind : std::uint8_t {
   Died,
   Silent,
   GivenUp,
-  RealTime  ///< its clocks keep real time at a speed other than ×1; told once
+  RealTime  ///< its clocks show real time although the speed is not ×1; reported once
 };
 
-/// What happened to a process; words are made from it by those who show it.
+/// Something that happened to a process.
 struct ProcessNews {
   ProcessNewsKind kind = ProcessNewsKind::Started;
   RobotId robot;
   std::string process;
   pid_t pid = 0;
-  std::string detail;       ///< "exit code 2"; of Started: empty
-  double restartIn = -1.0;  ///< s; below 0: it is not started again
-  std::string lastWords{};  ///< of one that died
+  std::string detail;       ///< such as "exit code 2"; empty for Started
+  double restartIn = -1.0;  ///< s; below 0: it is not restarted
+  std::string lastWords{};  ///< for Died: what it wrote last
 };
 
+/// A line that a process wrote to stdout or stderr.
 struct ProcessLine {
   RobotId robot;
   std::string process, text;
 };
 
-/// Use from one thread, which must live as long as the processes (see ChildProcess).
+/// Used on one thread, which must live as long as the processes (see ChildProcess).
 class ProcessManager {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::size_t maxLines = 10'000;
 
-  /// `robotProgram` (pitchboard-robot) runs the guard, and the keepers of foreign programs.
+  /// `robotProgram` (pitchboard-robot) runs the guard and the keepers of team programs.
   explicit ProcessManager(std::string robotProgram = {});
   ProcessManager(const ProcessManager&) = delete;
   ProcessManager& operator=(const ProcessManager&) = delete;
-  ~ProcessManager();  ///< ends all
+  ~ProcessManager();  ///< ends all processes
 
-  /// From now on a guard removes the segments of guardSegment() when this process is killed.
+  /// Starts the guard, which removes the segments of guardSegment() should this program be killed.
   Result<void> keepGuard();
-  /// One that we made.
+  /// Adds a segment that this program created.
   void guardSegment(const Blackboard& board);
 
-  /// Behind those that the robot has. Starts it at once when it need not wait for its turn; fails
-  /// when it cannot be started, and is then forgotten. `board` must outlive it.
+  /// Adds a process after the robot's others and returns its id. Starts it now unless it has to
+  /// wait for `delay`; an error means that it could not be started and was not added. `board` must
+  /// outlive the process.
   Result<int> add(const ManagedProcess& process, Blackboard& board, Time now);
-  /// Ends all of the robot and forgets them.
+  /// Ends and removes all processes of the robot.
   void remove(RobotId robot);
-  /// Ends one and forgets it.
+  /// Ends and removes a process.
   void removeOne(int id);
-  /// Ends all; returns when they are gone.
+  /// Ends all processes and waits until they are gone.
   void stopAll();
 
-  /// Starts what is due, collects what ended, looks for signs of life. Call it about 20 times a
-  /// second; it waits only while a silent process is being ended (at most half a second). An error
-  /// is a program that could not be executed at its first start; it is tried again, too.
+  /// Starts processes that are due, collects those that ended, and looks for signs of life. Call it
+  /// about 20 times a second. It blocks only while it ends a silent process, for at most 0.5 s. An
+  /// error means that a program could not be executed at its first start; it will be tried again.
   Result<void> step(Time now);
-  /// Readable when a process has ended or has written something, until the next step(); -1 where
-  /// the system cannot tell.
+  /// Returns a descriptor that is readable when a process has ended or written something, until the
+  /// next step(); -1 if the system does not support it.
   int descriptor() const { return m_epoll.get(); }
 
-  // By hand; an unknown id is nobody.
+  // Requests of the user; an unknown id is ignored.
   void start(int id, Time now);
   void stop(int id);
   void restart(int id, Time now);
   void kill(int id);
-  /// With Watch::Caller: it owes a sign of life, or gave one.
+  /// For Watch::Caller: tells whether the process owes a sign of life.
   void setSilent(int id, bool silent, Time now);
 
-  /// Foreign programs: stopped and continued with the match. Clocks that keep real time go on
-  /// meanwhile, as those of a computer that was suspended.
+  /// Stops or continues team programs together with the match. Clocks that show real time advance
+  /// meanwhile, as after suspending a computer.
   void setPaused(bool paused, Time now);
-  /// How long the match has been played (s), and how fast it is played, times real time: clocks and
-  /// time limits of foreign programs follow. Call it about 20 times a second.
+  /// Sets how long the match has been played (s) and at which speed (times real time). Clocks and
+  /// time limits of team programs follow. Call it about 20 times a second.
   void setTime(double matchSeconds, double speed, Time now);
 
-  /// All, in the order in which they were added. A new `version()` tells that something changed.
+  /// Returns all processes in the order in which they were added. version() changes with them.
   std::vector<ProcessStatus> statuses() const;
   bool isEmpty() const { return m_entries.empty(); }
   std::uint64_t version() const { return m_version; }
   const ProcessStatus* status(int id) const;
-  /// It, or a program that it started, has attached to this System V segment. True where the system
-  /// does not let us see it. Costs some milliseconds while it has not.
+  /// Returns whether the process, or one that it started, has attached to this System V segment;
+  /// also true if the system does not let us find out. Takes some milliseconds until it is
+  /// attached.
   bool hasSegment(int id, int shmid) const;
   std::vector<ProcessNews> takeNews();
-  /// What they wrote since the last call, the newest 10 000 lines.
+  /// Returns what processes wrote since the last call, at most the newest `maxLines`.
   std::vector<ProcessLine> takeLines();
-  /// How many lines were dropped because nobody took them.
+  /// Returns how many lines were dropped because they were not taken in time.
   std::uint64_t droppedLines() const { return m_droppedLines; }
 
  private:
@@ -251,7 +258,7 @@ class ProcessManager {
   double m_speed = 1.0;
 };
 
-/// Words for a time of waiting: "0.2 s".
+/// Returns a duration as text: "0.2 s".
 std::string inSeconds(RestartRule::Seconds seconds);
 
 }  // namespace pitchboard::link

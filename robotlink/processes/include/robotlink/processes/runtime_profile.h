@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Who runs for a robot: a list of processes, how each is started, watched and ended. JSON
-// (docs/robot-programs.md), built in or a file of a team; separate processes and those that run
-// inside understand the same profile. Plain values; times are seconds of the wall. Any thread.
+// A runtime profile lists the processes of a robot and says how each is started, watched and ended.
+// Profiles are JSON (docs/robot-programs.md), built in or files of a team, and apply to separate
+// processes and to those inside this program alike. Plain values; times are seconds of real time.
+// Any thread.
 
 #include <chrono>
 #include <map>
@@ -18,43 +19,44 @@ namespace pitchboard::link {
 
 enum class RestartPolicy { Never, OnFailure, Always };
 
-/// When a process that ended, or that shows no sign of life, is started again.
+/// When a process that ended or became silent is restarted.
 struct RestartRule {
   using Seconds = std::chrono::duration<double>;
   RestartPolicy policy = RestartPolicy::Always;
-  Seconds firstWait{0.2};     ///< before the first restart; then twice as long every time
-  Seconds longestWait{10.0};  ///< and never longer
-  Seconds steadyAfter{30.0};  ///< of work: it counts as sound again
-  int giveUpAfter = 0;        ///< restarts without such work in between; 0 = never
+  Seconds firstWait{0.2};     ///< before the first restart; doubles with every restart
+  Seconds longestWait{10.0};  ///< upper limit of the wait
+  Seconds steadyAfter{30.0};  ///< after this time of work the wait starts with firstWait again
+  int giveUpAfter = 0;        ///< restarts without steady work in between; 0: never give up
   bool operator==(const RestartRule&) const = default;
 };
 
 struct ProfileProcess {
-  /// What must hold for it to be started at all.
+  /// The condition under which the process is started.
   enum class OnlyFor {
     Everyone,
-    Behaviour,  ///< not for a robot without a behaviour of ours
-    Pose,       ///< only for behaviours that use the pose
-    Separate,   ///< not where processes run inside the program
-    Target      ///< only for behaviours of ours, whose decision says where to walk
+      Behaviour,  ///< the robot has one of our behaviours
+      Pose,       ///< its behaviour uses the pose
+      Separate,   ///< processes do not run inside this program
+      Target,     ///< it has one of our behaviours, whose decision process sets targets
+      Advised     ///< its team thinks ahead
   };
-  /// Whose time a team program's clocks tell.
+  /// The time that a team program's clocks show.
   enum class Clock {
-    Match,  ///< the match's, at every speed
-    Real    ///< the computer's: nothing is loaded into the program
+    Match,  ///< match time, at every speed
+    Real    ///< real time; no library is loaded into the program
   };
 
   std::string name;
-  std::string reference;             ///< a process of pitchboard-robot; else `command` is run
-  std::vector<std::string> command;  ///< program and arguments, with ${robot} and the like
-  std::string directory;             ///< to run in; empty: that of the program that starts it
-  std::vector<std::pair<std::string, std::string>> environment;  ///< added
-  double delay = 0.0;      ///< s after the start of the one before it
-  std::string heartbeat;   ///< variable that it keeps setting; empty: nobody listens for it
+  std::string reference;             ///< a process of pitchboard-robot; empty: `command` is run
+  std::vector<std::string> command;  ///< program and arguments; ${robot} and the like are expanded
+  std::string directory;             ///< working directory; empty: that of the starting program
+  std::vector<std::pair<std::string, std::string>> environment;  ///< added to the inherited one
+  double delay = 0.0;      ///< s to wait after the start of the previous process
+  std::string heartbeat;   ///< variable that the process keeps setting; empty: not watched
   double silentAfter = 5;  ///< s
   RestartRule restart;
   int stopSignal = 15;     ///< SIGTERM
-  bool watchFile = false;  ///< starts again when its program is replaced
+  bool watchFile = false;  ///< restart when the file of its program is replaced
   OnlyFor onlyFor = OnlyFor::Everyone;
   Clock clock = Clock::Match;
   bool isReference() const { return !reference.empty(); }
@@ -63,17 +65,18 @@ struct ProfileProcess {
 
 struct RuntimeProfile {
   std::string name, title, description;
-  std::map<std::string, std::string> values;  ///< of ${...} in commands; a choice may set them
+  std::map<std::string, std::string> values;  ///< defaults for ${...}; a choice may replace them
   std::vector<ProfileProcess> processes;      ///< in the order of starting
-  bool hearsReferee = false;  ///< one of them writes COM_REFEREE; else a refereed match does
-  /// Variable in which one of them says that it has finished its cycle, so that the match waits for
-  /// it (docs/robot-programs.md); may hold ${...}; empty: nobody is waited for.
+  bool hearsReferee = false;  ///< a process writes COM_REFEREE; false: a refereed match writes it
+  /// Variable in which a process reports the end of each cycle, so that the match waits for it
+  /// (docs/robot-programs.md). May contain ${...}; empty: the match waits for no process.
   std::string cycle;
-  /// The pitchboard-robot of its reference processes, which are separate then; empty: the match's.
+  /// The pitchboard-robot that runs the reference processes, which are then separate; empty: that
+  /// of the match.
   std::string program;
-  /// It has programs that are not ours, or leaves the robot to somebody else's.
+  /// Returns whether team programs run for the robot, started by us or by somebody else.
   bool hasOwn() const;
-  /// Its decision is ours, which knows the extension of the map.
+  /// Returns whether its decision process is ours and uses the extension of the variable map.
   bool usesExtension() const;
   bool operator==(const RuntimeProfile&) const = default;
 };
@@ -81,28 +84,28 @@ struct RuntimeProfile {
 inline constexpr std::string_view referenceRuntime = "reference";
 inline constexpr std::string_view ownRuntime = "own";
 
-/// Which profile, as scenarios, cards and command lines say it.
+/// Selects a profile, as in scenarios, robot cards and command lines.
 struct RuntimeChoice {
-  std::string profile;                        ///< built-in name or a file; empty: not chosen
-  std::map<std::string, std::string> values;  ///< instead of those of the profile
-  std::string decision;                       ///< program that runs in place of decision
+  std::string profile;                        ///< built-in name or file; empty: not chosen
+  std::map<std::string, std::string> values;  ///< replace values of the profile
+  std::string decision;                       ///< program that replaces the decision process
   bool isChosen() const { return !profile.empty() || !decision.empty(); }
   bool operator==(const RuntimeChoice&) const = default;
 };
 
-/// "own", "team.json", "published-tree:folder=/home/robot,python=python2",
+/// Reads texts such as "own", "team.json", "published-tree:folder=/home/robot,python=python2" and
 /// "program=/home/me/decide".
 Result<RuntimeChoice> runtimeChoiceFromText(std::string_view text);
 std::string runtimeChoiceToText(const RuntimeChoice& choice);
 
-/// Names of the built-in profiles, the default first.
+/// Returns the names of the built-in profiles, the default first.
 std::vector<std::string> builtInRuntimes();
-/// Errors give file, line and key.
+/// Reads a profile. Errors name file, line and key.
 Result<RuntimeProfile> runtimeProfileFromJson(std::string_view text, std::string_view source);
-/// A built-in name or a file, with the values of the choice, and its program as decision.
+/// Loads the chosen profile and applies the values and the decision program of the choice.
 Result<RuntimeProfile> loadRuntime(const RuntimeChoice& choice);
 
-/// `text` with every ${name} replaced; NotFound for a name without a value.
+/// Returns `text` with every ${name} replaced. Error NotFound if a name has no value.
 Result<std::string> expanded(std::string_view text,
                              const std::map<std::string, std::string>& values);
 

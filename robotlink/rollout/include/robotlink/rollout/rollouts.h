@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Many short games from one belief, thousands of times faster than real time: what may become of a
-// situation. Both teams play with the very behaviours of the decision and planning processes,
-// bodies walk, kick and roll by the formulas of the rigid-body model, and what a robot believes
-// errs as its localization would. There are no blackboards, no particles and no referee: a rollout
-// ends with a goal, with the ball out, or with its time (docs/rollouts.md).
+// Plays many short games from a belief, thousands of times faster than real time, to find out how a
+// situation may develop. Both teams use the behaviours of the decision and planning processes.
+// Bodies walk, kick and roll by the formulas of the rigid-body model. Believed poses have errors
+// like those of localization. There are no blackboards, particles or referee: a rollout ends with a
+// goal, when the ball is out, or after its time (docs/rollouts.md). Metres, radians, seconds.
 //
-// A rollout depends on belief and seed only: on no other rollout, and neither on the number of
-// threads nor on how many worlds a thread steps together. It has not the hash of a match.
+// The outcome of a rollout depends only on setup, belief, options and seed, not on other rollouts,
+// the number of threads or the tile size. It is not bit-identical to a simulated match.
 
 #include <atomic>
 #include <cstddef>
@@ -18,11 +18,12 @@
 #include <string_view>
 
 #include <base/result.h>
+#include <robotlink/cognition/advice.h>
 #include <robotlink/rollout/belief.h>
 
 namespace pitchboard::rollout {
 
-/// A number of a row of outcomes.
+/// The columns of a row of outcomes; columns() describes them.
 enum class Column : std::uint8_t {
   Seed,
   EndedBy,
@@ -37,23 +38,29 @@ enum class Column : std::uint8_t {
   LookX,
   LookY,
   LastTouch,
+  NearLeft,
+  NearRight,
   Count
 };
 inline constexpr std::size_t columnCount = static_cast<std::size_t>(Column::Count);
 struct ColumnInfo {
-  std::string_view name;   ///< "time_to_goal"
-  std::string_view words;  ///< what it is, with its unit
+  std::string_view name;   ///< such as "time_to_goal"
+  std::string_view words;  ///< meaning and unit
 };
 std::span<const ColumnInfo, columnCount> columns();
 
-/// Of Column::EndedBy.
+/// The values of Column::EndedBy.
 enum class Ended : std::uint8_t { Time, Goal, BallOut };
 
 struct PlayOptions {
   double seconds = 10.0;
-  double look = 5.0;  ///< s: LookX and LookY are the ball's then, or where the rollout ended before
-  /// After a goal the ball lies on the centre mark, outside 1 m inside, and the game goes on.
+  double look = 5.0;  ///< s; LookX and LookY are the ball's position then, or at an earlier end
+  /// If true, a goal or a ball that is out does not end a rollout: the ball is put on the centre
+  /// mark or 1 m inside the line.
   bool goOn = false;
+  /// The advisor's suggestion to one player, all the time.
+  link::Advice advice{};
+  std::size_t advised = 0;  ///< that player
   double traceEvery = 1.0;  ///< s between two points of a trace
 };
 
@@ -67,7 +74,7 @@ std::size_t tracePoints(const PlayOptions& options);
 
 struct RolloutsOptions {
   int threads = 1;
-  int tile = 1;  ///< worlds that a thread steps together
+  int tile = 1;  ///< number of worlds that a thread steps together
 };
 
 class Rollouts {
@@ -76,8 +83,8 @@ class Rollouts {
   static constexpr std::size_t mostPlayers = 22;
   static constexpr double longest = 600.0;  ///< s
 
-  /// Fails on numbers out of their ranges, more players than 22, and behaviours that play without
-  /// a pose.
+  /// Fails if a number is out of range, there are too many players, or a behaviour does not use the
+  /// pose.
   static Result<Rollouts> create(const Setup& setup, const RolloutsOptions& options = {});
   Rollouts(Rollouts&&) noexcept;
   Rollouts& operator=(Rollouts&&) noexcept;
@@ -85,11 +92,11 @@ class Rollouts {
 
   std::size_t players() const;
 
-  /// Plays one rollout for each seed into `out`, a row of columnCount for each. The same seed is
-  /// the same noise, whatever the belief. Fails before it plays, on a belief of other players or
-  /// with numbers that are not finite, and when `out` has another size. `cancelled` is looked at
-  /// between tiles; rows that were not played are NaN. `trace` is empty or has tracePoints() for
-  /// each seed; a rollout that ends early repeats its last point. With one thread it allocates
+  /// Plays a rollout for each seed and writes a row of columnCount numbers for each to `out`. Equal
+  /// seeds have equal noise, whatever the belief. Fails before playing if the belief does not match
+  /// the players, contains a number that is not finite, or `out` has the wrong size. `cancelled` is
+  /// checked between tiles; rows that were not played are NaN. `trace` is empty or has tracePoints()
+  /// for each seed; a rollout that ends early repeats its last point. With one thread, it allocates
   /// nothing after the first call.
   Result<void> play(const Belief& belief, std::span<const std::uint64_t> seeds,
                     const PlayOptions& options, std::span<double> out,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What rows of outcomes say together. Pure functions; any thread.
+// Summarizes rows of outcomes. Pure functions; any thread.
 
 #include <cstddef>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace pitchboard::rollout {
 
-/// A share with its 95 % confidence interval (Wilson).
+/// A share of 1 with its 95 % confidence interval (Wilson).
 struct Share {
   double value = 0.0, low = 0.0, high = 1.0;
 };
@@ -21,18 +21,19 @@ Share shareOf(double hits, double count);
 
 struct Summary {
   std::size_t rollouts = 0;
-  Share goalLeft, goalRight;    ///< of rollouts in which this side scored
+  Share goalLeft, goalRight;    ///< rollouts in which the team on this side scored
   double goalDifference = 0.0;  ///< mean, left minus right
-  double timeToGoal = 0.0;      ///< s, mean of those with a goal; NaN without
-  Point ball;                   ///< mean place at the end
+  double timeToGoal = 0.0;      ///< s, mean over rollouts with a goal; NaN if there is none
+  Point ball;                   ///< mean position at the end
   double ballSigmaX = 0.0, ballSigmaY = 0.0;
 };
 
-/// Rows that were not played (NaN) are left out.
+/// Rows of rollouts that were not played (NaN) are ignored.
 Summary summaryOf(std::span<const double> outcomes);
 
-/// How often the ball lay in each cell at PlayOptions::look: rows from below, `columnsX` cells from
-/// left to right in each; shares of 1. A ball outside the lines counts in the nearest cell.
+/// Returns in which share of rollouts the ball was in each cell at PlayOptions::look. Cells are
+/// listed row by row from the bottom, each row from left to right. A ball outside the lines counts
+/// in the nearest cell.
 std::vector<double> heatMap(std::span<const double> outcomes, const sim::FieldSpec& field,
                             int columnsX, int rowsY);
 

@@ -14,7 +14,7 @@
 
 #include <base/result.h>
 #include <robotlink/blackboard/variable_catalog.h>
-#include <robotlink/cognition/behaviour_parameters.h>
+#include <robotlink/cognition/cognitive_process.h>
 #include <robotlink/models/noise_presets.h>
 #include <robotlink/processes/runtime_profile.h>
 #include <simcore/simulation/simulation.h>
@@ -75,6 +75,8 @@ struct Scenario {
   std::vector<BlackboardWrite> writes;  ///< in order of time
   StopConditions stop;
   std::map<TeamColor, RuntimeChoice> runtimes;  ///< of teams; missing: as the match is played
+  /// Of teams that think ahead (docs/advisor.md).
+  std::map<TeamColor, AdvisorOptions> advisors{};
   /// Returns the runtime of this robot or of its team; may be not chosen.
   RuntimeChoice runtimeOf(const ScenarioRobot& robot) const;
   /// The same for a robot of `team` whose own choice is `own`.

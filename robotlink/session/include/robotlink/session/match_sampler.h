@@ -64,6 +64,7 @@ class MatchSampler : public TickObserver {
   std::vector<Outlet> m_outlets;
   MatchSamplerOptions m_options;
   std::unique_ptr<BoardColumns> m_board;
+  bool m_advised = false;                      // m_board has what advisors say
   const VariableCatalog* m_catalog = nullptr;  // of which m_board is
   std::vector<telemetry::GroupInfo> m_groups;  // of the match, then of each sampled robot
   std::vector<SampledRobot> m_sampled;         // in the order of the snapshot's robots

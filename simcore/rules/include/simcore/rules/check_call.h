@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Whether the state of the game allows a call of the referee, and why not. Pure; any thread.
+// Says whether the state of the game allows a referee's call, and if not, why. Pure functions; any
+// thread.
 
 #include <span>
 
@@ -13,12 +14,13 @@
 
 namespace pitchboard::sim {
 
-/// What callReferee() would say of this call: nothing changes. Errors: InvalidArgument when the
-/// call lacks something, NotFound for a robot of neither team, else Conflict with the reason.
+/// Returns what callReferee() would return for this call, but changes nothing. Errors:
+/// InvalidArgument if the call is incomplete, NotFound if the robot plays in neither team, else
+/// Conflict with the reason.
 Result<void> checkCall(const GameState& game, const RefereeRules& rules,
                        std::span<const RobotIdentity> robots, const RefereeCall& call);
 
-/// No shot can change who wins any more.
+/// Returns true once no remaining shot can change the winner of the shoot-out.
 bool shootOutDecided(const GameState& game, const RefereeRules& rules);
 
 }  // namespace pitchboard::sim

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The referee of a simulated match: a machine of states that follows calls (a person's, a
-// program's, its own), and an automatic referee that makes them. Pure functions over the state of
-// the world, which holds the game, and what the tick did; where bodies are to be put is an answer,
-// which the simulation carries out. Metres, radians, ticks. Any thread.
+// The referee of a simulated match has two parts: a state machine that follows calls, whoever makes
+// them (a person, a program, or the referee itself), and an automatic referee that makes calls from
+// what happens on the field. Both are pure functions of the world's state, which contains the game.
+// They do not move bodies themselves: they return Placements, which the simulation carries out.
+// Metres, radians, ticks. Any thread.
 
 #include <optional>
 #include <span>
@@ -19,23 +20,24 @@
 namespace pitchboard::sim {
 
 enum class CallKind : std::uint8_t {
-  State,     ///< state
-  KickOff,   ///< team; nobody: drop ball. Who kicks off next
-  Goal,      ///< team; value: +1 or −1
-  SetPlay,   ///< team, setPlay, place
-  NextStep,  ///< of a set play, up to the ball being in play
-  DropBall,  ///< nobody's ball: READY, ball on the centre mark
-  Penalise,  ///< robot, penalty
-  Pardon,    ///< robot
-  Card,      ///< robot; value: 0 warning, 1 yellow, 2 red
-  NextHalf,  ///< after FINISHED
-  ShootOut,  ///< after FINISHED
-  Timeout,   ///< team; nobody: the referee's own
-  Stop,      ///< play is stopped
-  GoOn,      ///<
-  Automatic  ///< value: 1 the referee calls by itself, 0 it does not
+  State,     ///< uses state: the game goes to it
+  KickOff,   ///< uses team: it kicks off next; nobody means a drop ball
+  Goal,      ///< uses team and value: +1 adds a goal, −1 takes one back
+  SetPlay,   ///< uses team, setPlay and place
+  NextStep,  ///< advances the set play by a step, at last to the ball being in play
+  DropBall,  ///< goes to READY with the ball on the centre mark; neither team kicks off
+  Penalise,  ///< uses robot and penalty
+  Pardon,    ///< uses robot: its penalty ends
+  Card,      ///< uses robot and value: 0 warning, 1 yellow, 2 red
+  NextHalf,  ///< starts the next half; only after FINISHED
+  ShootOut,  ///< starts a penalty shoot-out; only after FINISHED
+  Timeout,   ///< uses team: it takes a timeout; nobody means a referee timeout
+  Stop,      ///< stops play
+  GoOn,      ///< resumes play after Stop
+  Automatic  ///< uses value: 1 turns the automatic referee on, 0 turns it off
 };
 
+/// A call by a person, a program or the automatic referee. CallKind says which members it uses.
 struct RefereeCall {
   CallKind kind = CallKind::State;
   PlayState state = PlayState::Initial;
@@ -45,48 +47,50 @@ struct RefereeCall {
   PenaltyKind penalty = PenaltyKind::None;
   int value = 0;
   std::optional<Point> place{};
-  std::uint32_t cause = 0;  ///< is told with the events that follow from it at once
+  std::uint32_t cause = 0;  ///< copied into the events that the call causes immediately
   bool operator==(const RefereeCall&) const = default;
 };
 
-/// Where bodies are to be put, with what they are. Scratch of a tick.
+/// Where the simulation has to put the ball and robots at the end of this tick.
 struct Placements {
   std::optional<Point> ball;
-  std::vector<std::pair<std::size_t, Pose>> robots;  ///< by index
+  std::vector<std::pair<std::size_t, Pose>> robots;  ///< index of the robot, and its new pose
   void clear() {
     ball.reset();
     robots.clear();
   }
 };
 
-/// The game before its first whistle: of the teams of the settings, or of the colours on the field.
-/// `now`: where everybody stands; the robot nearest to its goal keeps it. Robots are told where
-/// their team attacks. Error InvalidArgument when more than two teams are on the field.
+/// Returns the game before its first whistle. It is played by the teams in the world's settings, or
+/// by the colours on the field if the settings name none. In each team, the robot that stands
+/// nearest to its own goal in `now` is the goalkeeper. Sets the direction of attack of each robot
+/// in `world`. Error InvalidArgument if robots of more than two teams are on the field.
 Result<GameState> newGame(WorldState& world, const Snapshot& now);
 
-/// Each robot of the two teams that has none gets a slot, while there are any.
+/// Gives a slot of GameTeam::players to each robot that has none, as long as slots are free.
 void giveSlots(std::span<const RobotIdentity> robots, GameState& game);
 
-/// Refuses rules that cannot be played by: InvalidArgument, with the key as the context.
+/// Error InvalidArgument, with the key as context, if no game can be played by these rules.
 Result<void> validate(const RefereeRules& rules);
-/// Whether a saved game is one (damaged files).
+/// Returns false if the game has values that no game can have, such as one read from a damaged
+/// file.
 bool isPlausible(const GameState& game, std::size_t robots);
 
-/// A call by hand or by a program. Refused with the reason when the state of the game does not
-/// allow it; nothing has changed then. `world.game` is there.
+/// Carries out a call of a person or program. If the state of the game does not allow it, returns
+/// the error of checkCall() and changes nothing. world.game must exist.
 Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCall& call,
                          Placements& placements, std::vector<Event>& events);
 
-/// One tick of a match with a referee, after bodies have moved. `events` has those of the physics,
-/// and gets those of the game. `world.game` is there.
-void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& way,
+/// Advances the game by a tick, after bodies have moved. `events` contains the events of the
+/// physics in this tick; those of the game are appended. world.game must exist.
+void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& sweep,
                  Placements& placements, std::vector<Event>& events);
 
-/// The teams defend the other goals, and their robots are told so; nobody is moved. world.game is
-/// there.
+/// Lets the teams defend the opposite goals and tells their robots. Moves nobody. world.game must
+/// exist.
 void swapSides(WorldState& world);
 
-/// Ticks as people read a clock: whole seconds, rounded up.
+/// Returns whole seconds, rounded up as on a scoreboard.
 int secondsOf(int ticks, double tickRate);
 
 }  // namespace pitchboard::sim

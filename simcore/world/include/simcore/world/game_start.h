@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where in a game a match begins: any state, with its clock, score, set play, penalties and cards.
-// Says only what differs from the beginning of a match by the same rules; scenario files have it
-// under "game" (docs/scenarios.md). Seconds of simulated time, metres. Plain values, any thread.
+// Describes the situation in which a match starts: state, clock, score, set play, penalties and
+// cards. It holds only what differs from the normal start of a match by the same rules; an empty
+// optional means "as the rules and the state imply". Scenario files have it under "game"
+// (docs/scenarios.md). Seconds of simulated time, metres. Plain values; any thread.
 
 #include <array>
 #include <map>
@@ -20,35 +21,35 @@ namespace pitchboard::sim {
 struct GameStart {
   struct Robot {
     PenaltyKind penalty = PenaltyKind::None;
-    std::optional<double> left{};  ///< nothing: as from the call
-    double since = 0.0;            ///< since the call
-    bool outside = false;          ///< it has been put beside the field
-    std::optional<bool> counts{};  ///< its time goes by; nothing: as the rules have it
+    std::optional<double> left{};  ///< remaining time; empty: the whole time of the penalty
+    double since = 0.0;            ///< time since the call
+    bool outside = false;          ///< the robot has been put beside the field
+    std::optional<bool> counts{};  ///< whether the remaining time counts down
     int warnings = 0, yellow = 0, red = 0, cautions = 0;
-    std::optional<bool> goalkeeper{};  ///< nothing: who stands nearest to the goal
+    std::optional<bool> goalkeeper{};  ///< empty: the robot nearest to the goal is the goalkeeper
     bool operator==(const Robot&) const = default;
   };
   struct Team {
     int score = 0;
-    std::optional<std::array<int, 4>> byHalf{};  ///< nothing: all goals are of this half
-    int shots = 0;                               ///< of a shoot-out
-    int scored = 0;                              ///< a bit for each shot that scored
-    int timeouts = 0;                            ///< in this half
-    int removals = 0;                            ///< those that make the next ones longer
+    std::optional<std::array<int, 4>> byHalf{};  ///< empty: all goals fell in this half
+    int shots = 0;                               ///< shots taken in the shoot-out
+    int scored = 0;                              ///< bit i is set if shot i scored
+    int timeouts = 0;                            ///< taken in this half
+    int removals = 0;                            ///< earlier removals; they make later ones longer
     bool operator==(const Team&) const = default;
   };
-  /// A set play, or the ball of a kick-off (SetPlay::None).
+  /// Who takes a set play, or a kick-off (SetPlay::None), and how far it has progressed.
   struct Taking {
     SetPlay kind = SetPlay::None;
     std::optional<TeamColor> team{};
-    std::optional<Restart::Step> step{};  ///< nothing: it begins, as by the referee's call
-    std::optional<Point> place{};         ///< nothing: where the ball is
+    std::optional<Restart::Step> step{};  ///< empty: it starts now, as if the referee called it
+    std::optional<Point> place{};         ///< empty: where the ball is
     RobotId kicker{};
     bool passed = false, onlyTaker = false;
     bool operator==(const Taking&) const = default;
   };
   struct Rest {
-    std::optional<Point> place{};  ///< nothing: where the ball is
+    std::optional<Point> place{};  ///< empty: where the ball is
     double time = 0.0;
     bool operator==(const Rest&) const = default;
   };
@@ -62,7 +63,7 @@ struct GameStart {
     double ago = 0.0;
     bool operator==(const DropIn&) const = default;
   };
-  /// Who kicks off; a drop ball is nobody's.
+  /// Which team kicks off; empty means a drop ball.
   struct KickOff {
     std::optional<TeamColor> team{};
     bool operator==(const KickOff&) const = default;
@@ -70,27 +71,29 @@ struct GameStart {
 
   PlayState state = PlayState::Initial;
   GamePhase phase = GamePhase::Normal;
-  GamePhase phaseBefore = GamePhase::Normal;  ///< a timeout
+  GamePhase phaseBefore = GamePhase::Normal;  ///< phase to return to after a timeout
   int half = 1;
-  // What is left out follows from the rules and the state: a READY lasts its whole time.
-  std::optional<double> clock{};  ///< left of the half; negative after its end
+  // Whatever is empty follows from the rules and the state: a READY lasts its whole time.
+  std::optional<double> clock{};  ///< time left of the half; negative after its end
   std::optional<ClockUse> clockUse{};
-  std::optional<double> stateTime{};  ///< since the state, or the step of the set play, began
+  std::optional<double> stateTime{};  ///< time since the state or the step of the set play began
   std::optional<double> countdown{};
   std::optional<bool> countdownRuns{};
-  std::optional<double> hidden{}, breakLeft{};
-  std::optional<TeamColor> left{};  ///< who defends the left goal
+  std::optional<double> hidden{};     ///< for how long robots are not told yet that play has begun
+  std::optional<double> breakLeft{};  ///< time left of the break between halves
+  std::optional<TeamColor> left{};    ///< the team that defends the left goal
   std::optional<TeamColor> firstKickOff{};
   std::optional<KickOff> kickOff{};
   std::optional<Taking> setPlay{};
-  std::optional<TeamColor> shooter{};  ///< of a shoot-out: who has the shot
-  std::optional<DropIn> dropIn{};
-  std::optional<Touch> touch{};
-  std::optional<Rest> ballStill{}, ballNear{};
-  double ballAlone = 0.0;
+  std::optional<TeamColor> shooter{};  ///< the team whose shot it is in a shoot-out
+  std::optional<DropIn> dropIn{};      ///< who put the ball out, in leagues without set plays
+  std::optional<Touch> touch{};        ///< who touched the ball last
+  std::optional<Rest> ballStill{};     ///< since when the ball has hardly moved
+  std::optional<Rest> ballNear{};      ///< since when the ball has been held up among robots
+  double ballAlone = 0.0;              ///< for how long no robot has been near the ball
   bool stopped = false, over = false;
   std::map<TeamColor, Team> teams{};
-  std::map<RobotId, Robot> robots{};  ///< those of which there is something to say
+  std::map<RobotId, Robot> robots{};  ///< robots that differ from the normal start
   bool operator==(const GameStart&) const = default;
 };
 

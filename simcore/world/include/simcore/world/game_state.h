@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The game as the referee has it: the part of WorldState that the rules own. Times are ticks, so
-// that they repeat to the bit and seconds on the scoreboard come out whole. Plain values.
+// The state of a refereed game: the part of WorldState that the rules own. Times are counted in
+// ticks, so that runs repeat exactly and the scoreboard shows whole seconds. Plain values; any
+// thread.
 
 #include <algorithm>
 #include <array>
@@ -60,7 +61,7 @@ constexpr PenaltyKind lastOf(PenaltyKind) {
   return PenaltyKind::Manual;
 }
 
-// In words, for people and files: "PLAYING", "corner kick", "pushing".
+// Text for people and files: "PLAYING", "corner kick", "pushing".
 std::string_view wordsOf(PlayState state);
 std::string_view wordsOf(GamePhase phase);
 std::string_view wordsOf(SetPlay play);
@@ -68,10 +69,10 @@ std::string_view wordsOf(PenaltyKind penalty);
 
 struct GamePlayer {
   PenaltyKind penalty = PenaltyKind::None;
-  bool counting = false;
-  bool outside = false;  ///< has been put beside the field
-  int ticksLeft = 0;
-  int sinceTicks = 0;
+  bool counting = false;  ///< ticksLeft counts down
+  bool outside = false;   ///< the robot has been put beside the field
+  int ticksLeft = 0;      ///< of the penalty
+  int sinceTicks = 0;     ///< since the penalty was called
   int warnings = 0, yellow = 0, red = 0, cautions = 0;
   bool goalkeeper = false;
   bool operator==(const GamePlayer&) const = default;
@@ -79,18 +80,19 @@ struct GamePlayer {
 
 struct GameTeam {
   static constexpr std::size_t mostPlayers = 20;
-  int number = 0;  ///< in the GameController
+  int number = 0;  ///< the team's number in the GameController
   TeamColor colour = TeamColor::Blue;
   int score = 0;
-  int penaltyShots = 0;
-  int singleShots = 0;                          ///< a bit for each shot that scored
+  int penaltyShots = 0;                         ///< shots taken in the shoot-out
+  int singleShots = 0;                          ///< bit i is set if shot i scored
   int timeouts = 0;                             ///< taken in this half
-  int penalties = 0;                            ///< escalating ones so far
+  int penalties = 0;                            ///< penalties that make later ones longer
   std::array<int, 4> byHalf{};                  ///< goals; 2 and 3 are the halves of extra time
-  std::array<GamePlayer, mostPlayers> players;  ///< by slot, as packets have them
-  /// Who has which slot: that of its number, or above 20 a free one; 0: nobody.
+  std::array<GamePlayer, mostPlayers> players;  ///< by slot, as in the GameController's packets
+  /// The shirt in each slot; 0: the slot is free. A shirt up to 20 has the slot of its number, a
+  /// higher one any free slot.
   std::array<int, mostPlayers> shirts{};
-  /// From 1, as in packets; 0 when this shirt has none (yet).
+  /// Returns the slot of a shirt, from 1 as in packets; 0 if it has none.
   int slotOf(int shirt) const {
     const auto found = std::find(shirts.begin(), shirts.end(), shirt);
     return shirt > 0 && found != shirts.end() ? static_cast<int>(found - shirts.begin()) + 1 : 0;
@@ -98,34 +100,37 @@ struct GameTeam {
   bool operator==(const GameTeam&) const = default;
 };
 
-/// What the automatic referee remembers of one robot.
+/// What the automatic referee remembers of a robot: for how long something has lasted.
 struct RobotWatch {
-  int downTicks = 0;
-  int outsideTicks = 0;
-  int contactTicks = 0;
-  int immuneTicks = 0;
-  Pose setPose;        ///< when SET began; in READY, where it has stood for `stillTicks`
-  int stillTicks = 0;  ///< in READY
-  int areaTicks = 0;   ///< in its own goal area
-  int backTicks = -1;  ///< since it came back from a penalty; -1: long ago, or never
+  int downTicks = 0;     ///< fallen
+  int outsideTicks = 0;  ///< outside the field
+  int contactTicks = 0;  ///< pushing an opponent
+  int immuneTicks = 0;   ///< time left in which it is not judged again
+  Pose setPose;          ///< pose at the start of SET; in READY, where it has stood still
+  int stillTicks = 0;    ///< standing still in READY
+  int areaTicks = 0;     ///< in its own goal area
+  int backTicks = -1;    ///< since it returned from a penalty; -1: long ago, or never
   bool operator==(const RobotWatch&) const = default;
 };
 
-/// How the ball came, or comes, back into play: whose it is, and how far that has gone. As it is by
-/// default, it is nobody's.
+/// How the ball comes back into play: which team has it, and how far the restart has progressed.
+/// The default is a ball that anybody may play.
 struct Restart {
-  /// Free: anybody may play the ball. Of a set play that robots are told of: Placing, everybody
-  /// stands; Preparing, who has the ball may take its place; Taking, it may be kicked. Executed:
-  /// the ball of a kick-off, a shot, or a set play that is not told of any more is the side's
-  /// alone.
-  enum class Step : std::uint8_t { Free, Placing, Preparing, Taking, Executed };
+  enum class Step : std::uint8_t {
+    Free,       ///< anybody may play the ball
+    Placing,    ///< a set play was called; everybody stands still
+    Preparing,  ///< the team that has the ball may take position
+    Taking,     ///< the ball may be kicked
+    Executed    ///< packets no longer show the restart, but only this team may play the ball
+  };
   Step step = Step::Free;
-  SetPlay kind = SetPlay::None;  ///< none: a kick-off
-  int team = -1;                 ///< index; below 0: nobody's
-  Point place;                   ///< where the ball lies for it
-  int kicker = 0;                ///< robot that took it
-  bool passed = true;            ///< a second player has touched it since, or it needs none
-  bool onlyTaker = false;        ///< who took it is still the only one that has touched it
+  SetPlay kind = SetPlay::None;  ///< None: a kick-off
+  int team = -1;                 ///< index of the team; below 0: no team
+  Point place;                   ///< where the ball lies
+  int kicker = 0;                ///< id of the robot that took it
+  bool passed = true;            ///< a second player has touched the ball, or need not
+  bool onlyTaker = false;        ///< nobody but the kicker has touched the ball since
+  /// Returns whether packets show this set play.
   bool isTold() const {
     return step == Step::Placing || step == Step::Preparing || step == Step::Taking;
   }
@@ -135,17 +140,17 @@ constexpr Restart::Step lastOf(Restart::Step) {
   return Restart::Step::Executed;
 }
 
-/// Whether the clock of the half has been used.
+/// Whether the clock of the half has started.
 enum class ClockUse : std::uint8_t {
-  Full,
-  BeganNow,  ///< with this PLAYING
-  Began
+  Full,      ///< not yet
+  BeganNow,  ///< in the current PLAYING
+  Began      ///< in an earlier PLAYING
 };
 constexpr ClockUse lastOf(ClockUse) {
   return ClockUse::Began;
 }
 
-/// A place that the ball has hardly left.
+/// A place that the ball has hardly left, and for how long.
 struct BallRest {
   Point place;
   int ticks = 0;
@@ -153,23 +158,23 @@ struct BallRest {
 };
 
 struct GameState {
-  static constexpr int nobody = -1;
-  /// What the state waits for: ticks left, and whether they go by.
+  static constexpr int nobody = -1;  ///< instead of the index of a team
+  /// Time left until the state ends by itself.
   struct Countdown {
     int ticks = 0;
-    bool runs = false;
+    bool runs = false;  ///< ticks count down
     bool operator==(const Countdown&) const = default;
   };
-  /// Who put the ball out, and how long ago (leagues without set plays).
+  /// The team that put the ball out, in leagues without set plays.
   struct DropIn {
     int team = nobody;
-    int ticks = -1;
+    int ticks = -1;  ///< since then
     bool operator==(const DropIn&) const = default;
   };
   struct Touch {
-    int robot = 0;
+    int robot = 0;  ///< id
     int team = nobody;
-    int ticks = 0;  ///< since then; 0: it touches the ball now
+    int ticks = 0;  ///< since then; 0: the robot touches the ball now
     bool operator==(const Touch&) const = default;
   };
 
@@ -177,51 +182,52 @@ struct GameState {
   bool swapped = false;  ///< teams[1] defends the left goal
   PlayState state = PlayState::Initial;
   GamePhase phase = GamePhase::Normal;
-  GamePhase phaseBefore = GamePhase::Normal;  ///< a timeout
+  GamePhase phaseBefore = GamePhase::Normal;  ///< phase to return to after a timeout
   int half = 1;
-  int firstKickOff = 0;  ///< index of the team that began the game
-  int kickOff = 0;       ///< index, or nobody: drop ball
+  int firstKickOff = 0;  ///< index of the team that kicked off first
+  int kickOff = 0;       ///< index of the team that kicks off; nobody: drop ball
   Restart restart;
   bool stopped = false;
-  bool over = false;  ///< the final whistle
-  int clock = 0;      ///< ticks left of the half, negative after its end
+  bool over = false;  ///< after the final whistle
+  int clock = 0;      ///< ticks left of the half; negative after its end
   ClockUse clockUse = ClockUse::Full;
-  int stateTicks = 0;  ///< since the state, or the step of the set play, began
+  int stateTicks = 0;  ///< since the state or the step of the set play began
   Countdown countdown;
-  int hidden = 0;  ///< ticks for which PLAYING is not told yet
-  int breakLeft = 0;
+  int hidden = 0;     ///< ticks until robots are told that play has begun
+  int breakLeft = 0;  ///< ticks left of the break between halves
   DropIn dropIn;
-  Touch touch;           ///< the last one
-  BallRest still, near;  ///< near: for a heap of robots
-  int aloneTicks = 0;
-  int shooter = nobody;             ///< team of the shot, in a shoot-out
-  bool obeyed = false;              ///< it is a GameController's, which alone changes it
+  Touch touch;                      ///< the last touch of the ball
+  BallRest still;                   ///< for the rule about a ball that does not move
+  BallRest near;                    ///< for the rule about a ball held up among robots
+  int aloneTicks = 0;               ///< since a robot was near the ball
+  int shooter = nobody;             ///< in a shoot-out: the team whose shot it is
+  bool obeyed = false;              ///< only a GameController's packets change the game
   std::vector<RobotWatch> watches;  ///< in the order of the robots
 
-  /// At the beginning of PLAYING.
+  /// Called when PLAYING begins.
   void beginClock() {
     clockUse = clockUse == ClockUse::Full ? ClockUse::BeganNow : ClockUse::Began;
   }
-  /// The set play that robots are told of, and whose it is.
+  // The set play that packets show, and the team that takes it.
   SetPlay setPlay() const { return restart.isTold() ? restart.kind : SetPlay::None; }
   int setPlayTeam() const { return restart.isTold() ? restart.team : nobody; }
   bool ballFree() const { return restart.step == Restart::Step::Free; }
-  /// Index of GameTeam::byHalf; nothing in a shoot-out.
+  /// Returns the index of the current half in GameTeam::byHalf; empty in a shoot-out.
   std::optional<std::size_t> period() const {
     const GamePhase now = phase == GamePhase::Timeout ? phaseBefore : phase;
     if (now == GamePhase::ShootOut) return {};
     return static_cast<std::size_t>((now == GamePhase::ExtraTime ? 2 : 0) + half - 1);
   }
-  /// Index of the team that defends this side.
+  /// Returns the index of the team that defends the left goal.
   std::size_t leftTeam() const { return swapped ? 1 : 0; }
-  /// Index of the team of this colour, or nobody.
+  /// Returns the index of the team of this colour, or nobody.
   int teamOf(TeamColor colour) const {
     for (std::size_t i = 0; i < teams.size(); ++i) {
       if (teams[i].colour == colour) return static_cast<int>(i);
     }
     return nobody;
   }
-  /// The player of this colour and shirt; null when it plays in neither team.
+  /// Returns the player of this colour and shirt; null if it plays in neither team.
   const GamePlayer* player(TeamColor colour, int shirt) const {
     const int team = teamOf(colour);
     const int slot = team < 0 ? 0 : teams[static_cast<std::size_t>(team)].slotOf(shirt);
@@ -229,12 +235,13 @@ struct GameState {
                ? nullptr
                : &teams[static_cast<std::size_t>(team)].players[static_cast<std::size_t>(slot - 1)];
   }
-  /// Attacks towards +x.
+  /// Returns whether the team attacks towards +x.
   bool attacksRight(std::size_t team) const { return team == leftTeam(); }
   bool operator==(const GameState&) const = default;
 };
 
-/// The teams' scores and penalties.
+// The functions below visit the values of a game as state_values.h describes.
+
 template <class Game, class Visitor>
 void visitTeams(Game& g, Visitor& v) {
   const auto all = [&v](auto&... values) { (v.value(values), ...); };
@@ -260,7 +267,7 @@ void visitWatches(Game& g, Visitor& v) {
   }
 }
 
-/// All that a game had until form 5 of saved states.
+/// Visits what a game had up to version 5 of saved states.
 template <class Game, class Visitor>
 void visitGameOfForm5(Game& g, Visitor& v) {
   const auto all = [&v](auto&... values) { (v.value(values), ...); };
@@ -277,6 +284,7 @@ void visitGameOfForm5(Game& g, Visitor& v) {
   visitWatches(g, v);
 }
 
+/// Visits everything.
 template <class Game, class Visitor>
 void visitGame(Game& g, Visitor& v) {
   visitGameOfForm5(g, v);

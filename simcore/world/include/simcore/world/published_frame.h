@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The ONE place that converts between the studio's frame (metres, radians, origin at the field's
-// centre, +x right, +y up) and the published ones (centimetres, degrees, y down): the window of the
-// published simulator (origin at the corner of its world, 70 cm outside the field) and the
-// localization variables (origin at the field's top-left corner). system.md sections 3 to 5.
+// Converts between the studio's frame (metres, radians, origin at the centre of the field, +x
+// right, +y up) and the two published frames (centimetres, degrees, y down): the window of the
+// published simulator, whose origin lies 70 cm outside the field, and the localization variables,
+// whose origin is the top-left corner of the field. No other file converts between them. Pure
+// functions; any thread.
 
 #include <base/geometry.h>
 #include <simcore/world/field.h>
 
 namespace pitchboard::sim::published_frame {
 
-/// A pose in centimetres and degrees, y down, angles counter-clockwise as seen.
+/// A pose in centimetres and degrees. y points down; angles are counter-clockwise on the screen.
 struct CmPose {
   double x = 0.0;
   double y = 0.0;
@@ -26,7 +27,7 @@ constexpr double metresFromCm(double cm) {
 constexpr double cmFromMetres(double metres) {
   return metres * 100.0;
 }
-/// m/s from cm per published frame of 1/60 s, and back.
+// A published speed is in centimetres per frame of 1/60 s.
 constexpr double mpsFromCmPerFrame(double v) {
   return v * framesPerSecond / 100.0;
 }
@@ -34,12 +35,12 @@ constexpr double cmPerFrameFromMps(double v) {
   return v * 100.0 / framesPerSecond;
 }
 
-/// Window coordinates. `degrees` comes out in [0, 360).
+// Window of the published simulator; `degrees` is in [0, 360).
 CmPose windowFromStudio(const FieldSpec& field, const Pose& pose);
 Pose studioFromWindow(const FieldSpec& field, const CmPose& window);
 Point studioFromWindow(const FieldSpec& field, double x_cm, double y_cm);
 
-/// LOCALIZATION_X, _Y, _THETA: origin at the field's top-left corner; theta in (−180, 180].
+// LOCALIZATION_X, _Y and _THETA; `degrees` is in (−180, 180].
 CmPose localizationFromStudio(const FieldSpec& field, const Pose& pose);
 Pose studioFromLocalization(const FieldSpec& field, const CmPose& localization);
 

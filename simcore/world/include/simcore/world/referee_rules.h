@@ -3,32 +3,32 @@
 
 // A referee's rule set as data: times, thresholds, and which rules are judged at all. The built-in
 // sets are resources/rules/*.json (docs/referee.md); a scenario names one and may change every
-// number. Times in seconds of simulated time, lengths in metres; 0 switches a time off where its
-// meaning says so. Plain values.
+// number. Times are seconds of simulated time, lengths metres. Each number is described in
+// referee_parameters.h, which also makes the tables of docs/referee.md. Plain values; any thread.
 
 #include <cstdint>
 #include <string>
 
 namespace pitchboard::sim {
 
-/// Which controllers' conduct the machine of states follows (docs/referee.md).
+/// The league and year whose GameController the state machine follows (docs/referee.md).
 enum class RefereeStyle : std::uint8_t {
-  Humanoid2014,       ///< the ball is replaced and play goes on: no set plays in the packets
-  Humanoid2021,       ///< set plays stop the clock: freeze, prepare, ready, execute
-  HumanoidSoccer2026  ///< set plays while the clock runs; PLAYING is told late
+  Humanoid2014,       ///< a ball that is out is put back and play continues; no set plays
+  Humanoid2021,       ///< set plays stop the clock and go through freeze, prepare, ready, execute
+  HumanoidSoccer2026  ///< the clock runs during set plays; packets announce PLAYING with a delay
 };
 constexpr RefereeStyle lastOf(RefereeStyle) {
   return RefereeStyle::HumanoidSoccer2026;
 }
 
-/// What a style means, where that is no rule of its own.
+/// What a style implies and no rule can change.
 struct RefereeConduct {
-  bool replacesBall;         ///< a ball that is out is put back, in play at once
-  bool preparesSetPlays;     ///< placing, preparing, taking; else stopped, then taken at once
-  bool goalKickAtArea;       ///< from its front corner; else from the halfway line
-  bool countsBelowZero;      ///< the break's countdown
-  bool penaltiesCountInSet;  ///< their times
-  bool waitsAtHalfway;       ///< who is removed comes back near the halfway line
+  bool replacesBall;         ///< a ball that is out is put back and is in play at once
+  bool preparesSetPlays;     ///< set plays have the steps placing, preparing and taking
+  bool goalKickAtArea;       ///< goal kicks are taken at the front corner of the goal area
+  bool countsBelowZero;      ///< the countdown of the break continues below zero
+  bool penaltiesCountInSet;  ///< the times of penalties count down in SET
+  bool waitsAtHalfway;       ///< removed robots return near the halfway line
 };
 constexpr RefereeConduct conductOf(RefereeStyle style) {
   constexpr RefereeConduct all[] = {{true, true, false, false, true, true},
@@ -40,55 +40,55 @@ constexpr RefereeConduct conductOf(RefereeStyle style) {
 struct RefereeRules {
   std::string name = "custom";
   RefereeStyle style = RefereeStyle::Humanoid2021;
-  int packetVersion = 12;  ///< of the GameController's packets
-  int packetSize = 688;    ///< bytes; version 12 has two
+  int packetVersion = 12;  ///< version of the GameController's packets
+  int packetSize = 688;    ///< bytes; tells apart the two layouts of version 12
 
-  // The states' times.
+  // Times of the states.
   double halfTime = 600;
   double extraHalfTime = 300;
   double breakTime = 300;
-  double beforeMatch = 10;  ///< INITIAL before the first READY
-  double beforeHalf = 15;   ///< at least, from FINISHED to the next READY
+  double beforeMatch = 10;  ///< in INITIAL, before the first READY
+  double beforeHalf = 15;   ///< shortest time from FINISHED to the next READY
   double readyTime = 45;
   double setTime = 5;
   double shotSetTime = 15;
-  double kickOffTime = 10;  ///< the ball is the kicking side's alone
-  double playingHidden = 0;
+  double kickOffTime = 10;   ///< during this time only the kicking team may play the ball
+  double playingHidden = 0;  ///< delay with which packets announce PLAYING
   double shotTime = 60;
   int shots = 5;
   double timeoutTime = 120;
   double refereeTimeoutTime = 600;
-  double readyStillTime = 0;  ///< READY ends when all have stood in position for so long
+  double readyStillTime = 0;  ///< READY ends once all robots have stood in position for this time
 
   // Set plays.
   double placingTime = 5;
   double prepareTime = 30;
   double readyStepTime = 1;
   double takeTime = 10;
-  double penaltyKickReady = 0;  ///< 0: a set play like the others
+  double penaltyKickReady = 0;  ///< READY before a penalty kick; 0: as in other set plays
   double penaltyKickTime = 60;
   double distanceToBall = 0.75;
 
   // Penalties.
   double removalTime = 30;
-  double removalMore = 0;  ///< for each earlier escalating penalty of the team
+  double removalMore = 0;  ///< added for each earlier escalating penalty of the team
   double motionTime = 15;
   double shotKeeperTime = 120;
-  double placedAfter = 3;  ///< until an assistant has put the robot outside
+  double placedAfter = 3;  ///< time that an assistant needs to put the robot outside
 
-  // What the automatic referee judges; 0 switches a time or a limit off.
+  // What the automatic referee judges; 0 disables a time or limit.
   double fallenTime = 20;
   double leavingTime = 20;
-  double stillTime = 30;  ///< the ball, then drop ball
+  double stillTime = 30;  ///< drop ball after the ball has not moved for this time
   double stillDistance = 0.05;
-  double nobodyTime = 30;     ///< nobody within a metre of the ball, then drop ball
-  double localStuckTime = 0;  ///< the ball within 0.1 m, then the nearest robot is penalised
+  double nobodyTime = 30;     ///< drop ball after nobody was within 1 m of the ball for this time
+  double localStuckTime = 0;  ///< the nearest robot is penalised if the ball moved less than 0.1 m
   double localStuckReach = 0.5;
   double pushingTime = 1;
-  double motionInSet = 0;  ///< m
+  double motionInSet = 0;  ///< distance that a robot may move in SET
   double inPlayDistance = 0.05;
-  int mercy = 0;         ///< goals' difference that ends the match
-  int goalAreaMost = 0;  ///< of a team's robots in its own goal area
+  int mercy = 0;         ///< goal difference that ends the match
+  int goalAreaMost = 0;  ///< robots of a team that may be in its own goal area
 
   // Rules that are judged.
   bool goals = true;
@@ -98,24 +98,24 @@ struct RefereeRules {
   bool freeKicks = true;
   bool dropBalls = true;
   bool kickOffPositions = true;
-  bool exclusiveBall = true;  ///< restarts: the other side touches the ball too early
-  bool directGoals = true;    ///< a goal needs a second player after a kick-off or throw-in
-  bool doubleTouch = false;   ///< who takes a set play may not touch the ball again at once
+  bool exclusiveBall = true;  ///< after a restart, opponents may not touch the ball too early
+  bool directGoals = true;    ///< a goal from a kick-off or throw-in needs a second player
+  bool doubleTouch = false;   ///< who took a set play may not touch the ball twice in a row
   bool changeSides = true;
   bool clockStopsInSetPlays = true;
   bool escalates = false;
-  bool countsFromCall = false;    ///< penalties count at once, not when the robot is outside
+  bool countsFromCall = false;    ///< penalties count from the call, not from leaving the field
   bool countsAlways = false;      ///< penalties count in every state
-  bool pardonsAtPlay = false;     ///< a kick-off frees everybody
-  bool halfEndsWithBall = false;  ///< only when the ball lies still, or 10 s later
-  bool knockout = false;          ///< a tie goes on: extra time, penalty shoot-out
+  bool pardonsAtPlay = false;     ///< all penalties end at a kick-off
+  bool halfEndsWithBall = false;  ///< a half ends only when the ball is at rest, or 10 s later
+  bool knockout = false;          ///< a tie is decided by extra time and penalty shoot-out
   bool extraTime = true;
-  bool automatic = true;  ///< the referee calls by itself; false: a person, or a program, does
+  bool automatic = true;  ///< false: only a person or a program makes calls
 
   bool operator==(const RefereeRules&) const = default;
 };
 
-/// All that rules had until form 5 of saved states.
+/// Passes what rules had up to version 5 of saved states to `all`.
 template <class Rules, class Visitor>
 void visitRefereeRulesOfForm5(Rules& r, Visitor&& all) {
   all(r.name, r.style, r.packetVersion, r.packetSize, r.halfTime, r.extraHalfTime, r.breakTime,
@@ -130,7 +130,7 @@ void visitRefereeRulesOfForm5(Rules& r, Visitor&& all) {
       r.halfEndsWithBall, r.knockout, r.extraTime, r.automatic);
 }
 
-/// One list of the values, for hash, saved form and whatever must not forget one.
+/// Passes all values to `all`, in one call for each group; hash and saved states use it.
 template <class Rules, class Visitor>
 void visitRefereeRules(Rules& r, Visitor&& all) {
   visitRefereeRulesOfForm5(r, all);

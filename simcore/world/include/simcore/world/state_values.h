@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one list of the values of a WorldState, in order of declaration (but for the surface of the
-// field): the hash, the saved form and
-// whatever else must not forget a value go through it. World is WorldState or const WorldState.
+// The one list of all values of a WorldState. Everything that must not miss a value goes through
+// it: the hash, saved states, and comparisons. The order is that of declaration, except for the
+// surface of the field. World is WorldState or const WorldState. Pure functions; any thread.
 //
-// A visitor has value(v) for std::string, double, bool, int, std::uint32_t, std::uint64_t and every
-// enumeration; count(vector) before the elements of a vector whose size is its own (a reader
-// resizes it there); sameCount(vector, size) where the size is known already; alternative(variant)
-// before the physics (a reader chooses it there); present(optional) before what may not be there (a
-// reader makes it there), true when it is. A saved form may have repeats(vector, index), too: true
-// when this element is the one before it once more, and is not visited.
+// A visitor has these functions:
+//   value(v)                  for each std::string, double, bool, int, std::uint32_t, std::uint64_t
+//                             and enumeration
+//   count(vector)             before the elements of a vector; a reader resizes it here
+//   sameCount(vector, size)   the same where the size follows from another vector
+//   alternative(variant)      before the values of the physics model; a reader selects it here
+//   present(optional)         before an optional value; a reader creates it here. Returns whether
+//                             there is one
+//   repeats(vector, index)    may be missing. Returns true if this element equals the one before it
+//                             and must not be visited
 
 #include <type_traits>
 
@@ -44,8 +48,8 @@ void surface(Surface& s, Visitor& v) {
   all(v, s.keptPerFrame, s.deceleration);
 }
 
-/// The field's surface stands where 0.8 had it, so that its saved states are read as they were
-/// meant and matches on the published field keep their hashes.
+/// The surface of the field is visited here, where version 0.8 had it, so that saved states of 0.8
+/// can be read and hashes of matches on the published field stay the same.
 template <class Body, class Surface, class Visitor>
 void rigidBody(Body& s, Surface& ofField, Visitor& v) {
   all(v, s.ballMass);
@@ -64,7 +68,7 @@ void robotModel(Model& m, Visitor& v) {
   noise(m.noise, v);
 }
 
-/// One of the alternatives of WorldState::physics.
+/// Visits an alternative of WorldState::physics.
 template <class Physics, class Visitor>
 void physics(Physics& state, Visitor& v) {
   using State = std::remove_const_t<Physics>;
@@ -100,7 +104,7 @@ void physics(Physics& state, Visitor& v) {
 
 }  // namespace state_values
 
-/// All but the referee and its game.
+/// Visits everything except the referee's rules and the game.
 template <class World, class Visitor>
 void visitWorld(World& world, Visitor& v) {
   auto& s = world.settings;
@@ -133,6 +137,7 @@ void visitTeamSettings(Settings& s, Visitor& v) {
   for (auto& t : s.teams) state_values::all(v, t.colour, t.number, t.name);
 }
 
+/// Visits everything.
 template <class World, class Visitor>
 void visitValues(World& world, Visitor& v) {
   visitWorld(world, v);

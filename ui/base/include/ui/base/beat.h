@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The clock of what is shown. Whoever has something new to show wants the next beat; all that are
-// due then run in one event, so that Qt makes one repaint of it. No timer runs while nobody wants
-// anything. UI thread only; parts belong to those that they call.
+// The clock of the display. Whoever has something new to show requests the next beat. All parts
+// that are due run in the same event, so that Qt repaints once. No fast timer runs while nothing is
+// requested. UI thread only; each part is owned by whoever it calls.
 
 #include <QObject>
 #include <QPointer>
@@ -21,7 +21,7 @@ class Beat : public QObject {
   using Milliseconds = std::chrono::milliseconds;
   static constexpr Milliseconds period{16};
 
-  /// The one of this program.
+  /// Returns the beat of this program.
   static Beat& display();
 
   Beat();
@@ -32,9 +32,9 @@ class Beat : public QObject {
     ~Part();
     Part(const Part&) = delete;
     Part& operator=(const Part&) = delete;
-    /// Once, in the next beat that is late enough after the last call.
+    /// Requests a call in the next beat that is at least `least` after the last call.
     void want();
-    /// What was wanted has been done already.
+    /// Withdraws a request, because its work has already been done.
     void settle() { m_wanted = false; }
     void setLeast(Milliseconds least) { m_least = least; }
 
@@ -54,17 +54,17 @@ class Beat : public QObject {
     quint64 m_calledIn = 0;  // the beat
   };
 
-  /// Calls `call` when it is wanted, at most every `least`, and only while `seen` is visible: what
-  /// is wanted meanwhile comes when it is shown. Null: whether it is seen or not. With `most` also
-  /// that long after the last call, without being wanted, to a quarter of a second.
+  /// Adds a part that calls `call` after a request, at most once per `least` and only while `seen`
+  /// is visible; requests of a hidden widget wait until it is shown. If `seen` is null, it is
+  /// always called. With `most`, it is also called without a request that long after the last call,
+  /// with a precision of a quarter of a second.
   std::unique_ptr<Part> add(QWidget* seen, Milliseconds least, std::function<void()> call,
                             Milliseconds most = {});
-  /// For what brings the news that others show: they wait for its beats rather than having their
-  /// own.
+  /// Adds a source of news that other parts show. They use its beats instead of beats of their own.
   std::unique_ptr<Part> addSource(std::function<void()> call);
-  /// Nobody waits for a beat.
+  /// Returns whether no beat is requested.
   bool isIdle() const { return !m_next.isActive(); }
-  /// How many there were.
+  /// Returns the number of beats so far.
   quint64 beats() const { return m_beats; }
 
  protected:

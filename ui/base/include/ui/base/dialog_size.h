@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How large a dialog opens: as it likes, and never larger than its screen has room for with a
-// frame. UI thread.
+// Computes the initial size of a dialog: the wanted one, limited by its screen minus a window
+// frame. UI thread only.
 
 #include <QScreen>
 #include <QWidget>

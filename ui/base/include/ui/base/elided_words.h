@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Shortens a line that is wider than its place without telling a wrong number: words are cut, a
-// number with its unit never is. Free function, any thread.
+// Shortens a line of text so that it fits, without showing a wrong number: words may be cut, but
+// never a number with its unit. Pure function; any thread.
 
 #include <QFontMetricsF>
 #include <QString>
 
 namespace pitchboard::ui {
 
-/// "silent 4 min 20 s" becomes "si… 4 min 20 s". Where even the numbers do not fit, whole ones
-/// leave from the end, and a single one gives up its unit; "…" is all that is left of a number that
-/// is wider than the place. Short names (B1, 2nd) count as numbers. `width` in pixels.
+/// Turns "silent 4 min 20 s" into "si… 4 min 20 s". If even the numbers do not fit, whole numbers
+/// are left out from the end, and the last one loses its unit; if it still does not fit, only "…"
+/// is left. Short names (B1, 2nd) count as numbers. `width` is in pixels.
 QString elidedWords(const QFontMetricsF& metrics, const QString& text, double width);
 
 }  // namespace pitchboard::ui

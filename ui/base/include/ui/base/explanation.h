@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sentences of a form or a panel that explain what stands around them. UI thread only.
+// Labels that explain a part of a form or panel. UI thread only.
 
 #include <QLabel>
 
@@ -9,7 +9,7 @@
 
 namespace pitchboard::ui {
 
-/// Small, pale and as many lines as it needs.
+/// Makes a label with small, pale text that wraps.
 inline QLabel* makeExplanation(const QString& text, QWidget* parent) {
   auto* label = new QLabel(text, parent);
   label->setFont(themeFont(TypeRole::Secondary));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The ground of a field: border, grass and lines in the colours of the theme, for everything that
-// stands or moves on one. UI thread.
+// Paints the ground of a field: border, grass and lines in the colours of the theme. UI thread
+// only.
 
 #include <QRectF>
 
@@ -16,7 +16,8 @@ inline QRectF rectOf(const sim::FieldLines::Box& box) {
   return {QPointF(box.low.x, box.low.y), QPointF(box.high.x, box.high.y)};
 }
 
-/// Paints in metres, +y up or down. `lineWidth`: as in sim::fieldLines().
+/// The painter's units must be metres; +y may point up or down. `lineWidth` as in
+/// sim::fieldLines().
 void paintGround(QPainter& painter, const sim::FieldSpec& field, double lineWidth);
 
 }  // namespace pitchboard::ui

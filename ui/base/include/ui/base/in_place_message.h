@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One sentence inside a panel, about what was just done there: the newest replaces the one before.
-// May have a button for what to do next. UI thread only.
+// A message inside a panel about what the user just did there, optionally with a button for the
+// next step. A new message replaces the old one. UI thread only.
 
 #include <QFrame>
 #include <functional>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A strip for what a person should know or decide, without stopping anything. One notice at a time,
-// the newest one; older ones wait behind it, the same one twice is shown once. Text wraps, buttons
-// keep their size: they move below the text where there is little room. UI thread only.
+// A bar that tells or asks the user something without blocking anything. It shows the newest
+// notice; older ones wait behind it, and equal notices are shown once. Text wraps; buttons keep
+// their size and move below the text if there is little room. UI thread only.
 
 #include <QFrame>
 #include <QString>
@@ -23,8 +23,8 @@ struct NoticeButton {
 
 enum class NoticeTone { Trouble, Success };
 
-/// What a notice is about. A new notice of a topic takes the place of the older one, and whoever
-/// showed it calls settle() when its cause is gone: with the next success, with another file.
+/// What a notice is about. A new notice replaces an older one with the same topic. Whoever shows a
+/// notice calls settle() when its cause is gone, such as after the next success.
 struct NoticeTopic {
   QString name;
   NoticeTone tone = NoticeTone::Trouble;
@@ -35,12 +35,13 @@ class NoticeBar : public QFrame {
  public:
   explicit NoticeBar(QWidget* parent = nullptr);
 
-  /// Lies over the lower edge of `host` from now on instead of taking room in its layout.
+  /// Places the bar over the lower edge of `host` instead of in its layout.
   void floatOver(QWidget* host);
-  /// Without buttons it can only be closed. A success leaves by itself.
+  /// Shows a notice. Without buttons it can only be closed. A notice of success disappears by
+  /// itself.
   void show(const NoticeTopic& topic, const QString& sentence,
             std::vector<NoticeButton> buttons = {});
-  /// The cause is gone.
+  /// Removes the notice of this topic, because its cause is gone.
   void settle(const QString& topic);
   NoticeTone tone() const {
     return m_notices.empty() ? NoticeTone::Trouble : m_notices.front().topic.tone;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Numbers that people type. A decimal comma is understood like a point, whatever the locale; what
-// the studio writes has a point. There are no signs between thousands: "1,234" is 1.234. Every
-// entry of a number with decimals is a NumberBox or is read by numberFromText(). UI thread only.
+// Input of numbers. A decimal comma is accepted like a point, whatever the locale; output always
+// has a point. There are no thousands separators: "1,234" is 1.234. Each input of a decimal number
+// is a NumberBox or uses numberFromText(). UI thread only.
 
 #include <QDoubleSpinBox>
 #include <optional>
 
 namespace pitchboard::ui {
 
-/// Nothing when it is not a number. Reads the minus sign of the screen (U+2212), too.
+/// Returns nothing if the text is not a number. Also reads the minus sign U+2212.
 std::optional<double> numberFromText(const QString& text);
 
 class NumberBox : public QDoubleSpinBox {

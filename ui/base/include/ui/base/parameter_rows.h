@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Rows of a form for numbers that are changed while the match runs: name, slider, value with unit.
+// Rows of a form for numbers that can be changed during a match: name, slider, value with unit. UI
+// thread only.
 
 #include <QGridLayout>
 #include <QLabel>
@@ -15,10 +16,11 @@
 
 namespace pitchboard::ui {
 
-/// Slider and spin box of one number, kept equal. `edited` is called for changes by hand only.
+/// A slider and a spin box for the same number.
 class ParameterRow : public QObject {
  public:
-  /// Below what the grid has. `edited` gets the value as it is shown.
+  /// Adds a row to the grid. `edited` is called with the shown value after changes by the user
+  /// only.
   ParameterRow(QGridLayout* grid, const QString& name, const QString& tip,
                const sim::ShownParameter& shown, std::function<void(double)> edited,
                QWidget* parent)
@@ -62,7 +64,7 @@ class ParameterRow : public QObject {
     m_box->setEnabled(enabled);
   }
 
-  /// Shows a value without calling `edited`; leaves a box alone in which somebody types.
+  /// Shows a value without calling `edited`. Does nothing while the user edits the row.
   void show(double value) {
     if (m_box->hasFocus() || m_slider->isSliderDown()) return;
     const QSignalBlocker quiet(m_box);

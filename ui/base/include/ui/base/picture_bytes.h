@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A picture as the bytes of a file. It is made in memory and written as a whole: a disk that
-// becomes full is told by the one writer of files, not by the library of a format. UI thread or any
-// other.
+// Encodes a picture in memory, so that our own file writer writes it and reports a full disk. Any
+// thread.
 
 #include <QBuffer>
 #include <QByteArray>
@@ -11,7 +10,7 @@
 
 namespace pitchboard::ui {
 
-/// Empty when nobody writes this format; `format` as a file's name ends.
+/// Returns nothing if Qt cannot write this format. `format` is the file's suffix.
 inline QByteArray pictureBytes(const QImage& picture, const char* format = "png") {
   QByteArray bytes;
   QBuffer buffer(&bytes);

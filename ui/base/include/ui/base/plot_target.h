@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How other docks hand variables to the plots: by drag and drop, or by a call. UI thread only.
+// Passes variables from other docks to the plots, by drag and drop or by a call. UI thread only.
 
 #include <QMimeData>
 #include <QObject>
@@ -9,7 +9,7 @@
 
 namespace pitchboard::ui {
 
-/// UTF-8 text, one `GROUP/COLUMN` a line: `B1/VISION_BALL_DIST`.
+/// Format: UTF-8 text with a `GROUP/COLUMN` on each line, such as `B1/VISION_BALL_DIST`.
 inline const QString variablesMimeType = QStringLiteral("application/x-pitchboard-variables");
 
 class PlotTarget : public QObject {
@@ -17,7 +17,8 @@ class PlotTarget : public QObject {
  public:
   using QObject::QObject;
 
-  /// Shows `GROUP/COLUMN` variables in the plots; groups that do not exist yet are waited for.
+  /// Shows `GROUP/COLUMN` variables in the plots. Curves of groups that do not exist yet appear
+  /// later.
   virtual void plotVariables(const QStringList& names) { emit requested(names); }
 
  signals:

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Two things that are painted thousands of times a second, and that Qt's painter works out anew
-// each time: words on one line, and boxes with round corners. Words are shaped once and kept
-// (QStaticText), a box is four small corners and rectangles. Painting for files (SVG) and at
-// fractional scales goes to Qt's painter unchanged. UI thread only. Units: device-independent
-// pixels.
+// Fast painting of single-line text and rounded boxes, which are painted thousands of times a
+// second. Text layout is cached (QStaticText), and a box is painted as four small corners and
+// rectangles. When painting into files (SVG) or at fractional scales, Qt's painter is used
+// unchanged. UI thread only. Device-independent pixels.
 
 #include <QFont>
 #include <QPainter>
@@ -13,15 +12,15 @@
 
 namespace pitchboard::ui {
 
-/// One line with the painter's font and pen, cut with an ellipsis where `elide` says so. At the
-/// right, elidedWords() cuts: numbers stay whole. In the middle is for names only.
+/// Draws a line of text with the painter's font and pen, elided as `elide` says. Qt::ElideRight
+/// uses elidedWords(), which keeps numbers whole; use Qt::ElideMiddle for names only.
 void drawWords(QPainter& painter, const QRectF& box, Qt::Alignment alignment, const QString& words,
                Qt::TextElideMode elide = Qt::ElideNone);
-/// As wide as drawWords() paints them.
+/// Returns the width that drawWords() needs.
 double wordsWidth(const QFont& font, const QString& words);
 
-/// What QPainter::drawRoundedRect() paints within `box`, edge included, with a pen of one pixel in
-/// `edge` (opaque; an invalid color means none). The place is taken to whole pixels.
+/// Draws what QPainter::drawRoundedRect() draws, with an edge of one pixel inside `box` in the
+/// opaque colour `edge` (invalid: no edge). The box is rounded to whole pixels.
 void drawRoundBox(QPainter& painter, const QRectF& box, double radius, const QColor& fill,
                   const QColor& edge = {});
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the referee says, as lines for the screen. Pure functions; seconds.
+// Formats the referee's data as text for the screen. Times are in seconds. Pure functions; any
+// thread.
 
 #include <QString>
 
@@ -9,16 +10,16 @@
 
 namespace pitchboard::ui {
 
-/// "PLAYING 05:12, first half, overtime, stopped".
+/// Returns, for example, "PLAYING 05:12, first half, overtime, stopped".
 QString refereeStateText(const link::RefereeView& view);
-/// "corner kick for team 2, prepare, ready in 23 s"; "ball free in 8 s"; empty when there is
-/// nothing of the kind.
+/// Returns, for example, "corner kick for team 2, prepare, ready in 23 s" or "ball free in 8 s";
+/// empty if there is no set play or restart.
 QString refereeSetPlayText(const link::RefereeView& view);
-/// "Really: PLAYING 05:10, ball free in 3 s"; empty without true data.
+/// Returns, for example, "Really: PLAYING 05:10, ball free in 3 s"; empty without true data.
 QString refereeTruthText(const link::RefereeView& view);
-/// "RoboFEI, team 12 (blue), ours: 2 goals, 3 players left".
+/// Returns, for example, "RoboFEI, team 12 (blue), ours: 2 goals, 3 players left".
 QString refereeTeamText(const link::RefereeTeamView& team, int ourTeam);
-/// "05:12", "−00:07".
+/// Returns, for example, "05:12" or "−00:07".
 QString refereeClockText(int seconds);
 
 }  // namespace pitchboard::ui

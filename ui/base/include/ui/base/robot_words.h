@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How robots and numbers are written on the screen.
+// Formats robots and numbers for the screen. Pure functions; any thread.
 
 #include <QString>
 #include <string_view>
@@ -13,20 +13,20 @@ namespace pitchboard::ui {
 /// "B1": letter of the team and number on the shirt.
 QString robotName(const sim::RobotIdentity& identity);
 QString robotName(const link::RobotFrame& robot);
-/// What was saved as `saved`, GROUP/COLUMN, is this variable: also when the robot was called
-/// otherwise then, or the column in version 0.8.
+/// Returns whether the GROUP/COLUMN `saved` in a file means this variable, even if the robot had
+/// another name then, or the column another name in version 0.8.
 bool isVariable(const QString& saved, const QString& variable);
-/// "walk forward, slow", or "action 42" for a code that nobody knows.
+/// Returns "walk forward, slow", or "action 42" for an unknown code.
 QString actionText(int code);
-/// "Blue" from "blue".
+/// Turns "blue" into "Blue".
 QString capitalised(std::string_view text);
-/// With a real minus sign and fixed decimals.
+/// Uses a fixed number of decimals and the minus sign U+2212.
 QString numberText(double value, int decimals);
-/// "05:12", hours when there are any.
+/// Returns "05:12", with hours if there are any.
 QString clockText(double seconds);
-/// "12 s", "32 min 17 s": how long something has lasted, as base/duration_words.h says it.
+/// Returns a duration such as "12 s" or "32 min 17 s", in the format of base/duration_words.h.
 QString durationText(double seconds, int decimals = 0);
-/// "18 720": thousands set apart by a thin space.
+/// Returns "18 720", with thin spaces between thousands.
 QString countText(qulonglong value);
 
 }  // namespace pitchboard::ui

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The end of writing a file beside its old one. Any thread.
+// Completes a QSaveFile safely. Any thread.
 
 #include <QSaveFile>
 
 namespace pitchboard::ui {
 
-/// Takes the place of the old file, only when every byte is written. QSaveFile::commit() of Qt 6.4
-/// does not notice a disk that is full for the bytes which it still has in memory: small files
-/// would be lost.
+/// Replaces the old file only if every byte has been written. QSaveFile::commit() of Qt 6.4 does
+/// not notice a full disk while writing its last buffer, so that small files would be lost.
 inline bool commitWhole(QSaveFile& file) {
   return file.flush() && file.commit();
 }

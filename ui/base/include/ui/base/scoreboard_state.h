@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a scoreboard says of a moment, in the words and colours of the screen: those of the
-// simulated match, or what the referee says. Values; UI thread, for the colours of the theme.
+// What a scoreboard shows for a frame, of the simulated match or of the referee's packets. Plain
+// values with colours of the theme; UI thread only.
 
 #include <QColor>
 #include <QString>
@@ -12,19 +12,19 @@
 namespace pitchboard::ui {
 
 struct ScoreboardState {
-  QString leftName, rightName;     ///< ROBOFEI; BLUE without a name; TEAM 12 without a colour
-  QColor leftColour, rightColour;  ///< not valid: no square
+  QString leftName, rightName;     ///< ROBOFEI; without a name BLUE, without a colour TEAM 12
+  QColor leftColour, rightColour;  ///< invalid: no coloured square
   int left = 0, right = 0;
   QString clock = QStringLiteral("00:00");
   QString state;      ///< PLAYING, PAUSED, STOPPED, FINISHED, NO REFEREE
-  QString penalties;  ///< "B2 24 · R3 5": robots and seconds; empty: none
-  QString tip;        ///< more of what the referee says
+  QString penalties;  ///< robots and seconds, such as "B2 24 · R3 5"; empty: none
+  QString tip;        ///< tool tip with further data of the referee
   bool operator==(const ScoreboardState&) const = default;
 };
 
-/// "ROBOFEI – GUESTS, " in front of other text; empty where no team has a name.
+/// Returns "ROBOFEI – GUESTS, " to put before other text; empty if no team has a name.
 QString teamsText(const link::MatchFrame& frame);
-/// Of a live frame: what the referee says.
+/// For a live frame, uses the referee's packets.
 ScoreboardState scoreboardOf(const link::MatchFrame& frame);
 
 }  // namespace pitchboard::ui

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What all tables of the window share: their look, and the label that stands in the place of one
-// that has no rows. UI thread only.
+// The style of all tables of the window, and the label that replaces an empty table. UI thread
+// only.
 
 #include <QHeaderView>
 #include <QLabel>
@@ -12,7 +12,7 @@
 
 namespace pitchboard::ui {
 
-/// The look that all tables share: rows of one height, no grid, whole rows selected.
+/// Sets rows of equal height, no grid, and selection of whole rows.
 inline void styleTable(QTableView* table) {
   table->setFrameShape(QFrame::NoFrame);
   table->setShowGrid(false);
@@ -31,7 +31,7 @@ inline void styleTable(QTableView* table) {
   table->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
 }
 
-/// Says in the place of an empty table why it is empty. The name is for tests.
+/// Makes a label that explains why the table is empty. Tests find it by its object name.
 inline QLabel* makeEmptyLabel(QWidget* parent, const QString& objectName) {
   auto* label = new QLabel(parent);
   label->setObjectName(objectName);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Colours, type and metrics of the light and dark theme (palette table of docs/design-language.md).
-// One accent; team colours mean teams, red and amber mean trouble, green is the field and the
-// lamps. UI thread only.
+// Colours, fonts and sizes of the light and dark theme (docs/design-language.md has the palette).
+// There is one accent colour; team colours stand for teams only, red and amber for problems, green
+// for the field and for working processes. UI thread only.
 
 #include <QColor>
 #include <QFont>
@@ -26,32 +26,32 @@ struct ThemeColors {
   QColor accentLine, accentFill, selectedRow;
   QColor blueTeam, redTeam, blackTeam, orangeTeam, yellowTeam;
   QColor warningText, warningGround, errorText, errorGround, workingText, workingGround;
-  QColor workingMark;  ///< a lamp without its letter, on a collapsed card
+  QColor workingMark;  ///< lamp without a letter, on a collapsed card
   QColor grass, fieldBorder, fieldLines, ball;
 
   QColor team(TeamColor color) const;
 };
 
-/// Colours in force; follows setTheme(). Widgets repaint on QEvent::PaletteChange.
+/// Returns the current colours. Widgets repaint on QEvent::PaletteChange after setTheme().
 const ThemeColors& theme();
 bool isDarkTheme();
-/// Applies palette, style sheet and icon theme to the application. With FollowDesktop later changes
-/// of the desktop are followed too, where it tells them (its settings portal).
+/// Applies palette, style sheet and icon theme to the application. With FollowDesktop, later
+/// changes are followed if the desktop reports them (through its settings portal).
 void setTheme(QApplication& application, ThemeChoice choice);
 ThemeChoice themeChoice();
 
-/// A Breeze icon drawn in the text colour of the theme, with its disabled state, sharp at any size;
-/// a built-in drawing when the icon theme is not installed. Follows later theme changes.
+/// Returns a Breeze icon in the text colour of the theme, sharp at any size; a built-in drawing if
+/// the icon theme is not installed. Follows later theme changes.
 QIcon themedIcon(const QString& name);
 
-/// The type scale, relative to the application's font: body, secondary (age, units, dock titles,
-/// status bar), small (lamps, tags), score (bold).
+/// Font sizes relative to the application's font: body, secondary (age, units, dock titles, status
+/// bar), small (lamps, tags), score (bold).
 enum class TypeRole { Body, Secondary, Small, Score };
 QFont themeFont(TypeRole role, bool bold = false);
 
-/// `pixels` of the mock (drawn for 12 px body text) at the application's font size: keeps
-/// proportions at any font size and scaling. The widget is there for the day fonts differ per
-/// screen; it may be null.
+/// Converts pixels of the design, which has body text of 12 px, to the application's font size, so
+/// that proportions stay the same. `widget` is reserved for fonts that differ per screen and may be
+/// null.
 int scaled(const QWidget* widget, double pixels);
 
 }  // namespace pitchboard::ui

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Time along a line of pixels, and how moments are written. Seconds of the source; pixels of a
-// widget. Plain values.
+// Converts between time and pixels on an axis, and formats times. Seconds of the source; pixels of
+// the widget. Plain values; any thread.
 
 #include <QDateTime>
 #include <QString>
@@ -34,19 +34,21 @@ struct AxisTick {
   QString label;
 };
 
-/// Round times inside the shown range, at least `minimumPixels` apart, at most 200. With `clock`
-/// (the time of day at second 0) labels are times of day.
+/// Returns at most 200 round times in the shown range, at least `minimumPixels` apart. With
+/// `clock`, the time of day at second 0, labels are times of day.
 std::vector<AxisTick> axisTicks(const TimeAxis& axis, double minimumPixels,
                                 const std::optional<QDateTime>& clock = {});
 
-/// A round step of time that is at least this long: 1, 2, 5, 10, 15, 30 s, 1, 2, 5, ... min, h.
+/// Returns the next round step that is not shorter: 1, 2, 5, 10, 15, 30 s, 1, 2, 5, ... min, h.
 double roundStep(double seconds);
 
-/// "03:12.250", "1:03:12", "−00:05": with this many decimals, cut off and not rounded up.
+/// Returns "03:12.250", "1:03:12" or "−00:05" with this many decimals, which are cut off, not
+/// rounded.
 QString momentText(double seconds, int decimals);
-/// The same as time of day where there is a clock (the time of day at second 0): "15:03:12.250".
+/// Returns the time of day, such as "15:03:12.250", if there is a clock (the time of day at second
+/// 0); otherwise the same as above.
 QString momentText(double seconds, int decimals, const std::optional<QDateTime>& clock);
-/// "00:03:12", hours always there: for a sign that does not change its width.
+/// Returns "00:03:12", always with hours, for labels of constant width.
 QString longMomentText(double seconds);
 
 }  // namespace pitchboard::ui

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What other threads hand to the UI thread: calls, run there in the order of post(). Owned by
-// whoever the calls are meant for; what has not run when it goes is dropped, so a call may use its
-// owner. The calls wait under a std::mutex, and a counter of the kernel wakes the event loop: a
-// thread sanitizer cannot see into Qt's event queue, and would report whatever crosses there, even
-// an empty event.
+// Runs calls from other threads on the UI thread, in the order of post(). The queue belongs to the
+// object that the calls use; calls that have not run when it is destroyed are dropped. It uses a
+// std::mutex and an eventfd instead of Qt's event queue, because a thread sanitizer cannot see into
+// the latter and would report everything that is passed through it.
 
 #include <QObject>
 #include <deque>
@@ -23,14 +22,14 @@ class UiQueue : public QObject {
  public:
   using Call = std::function<void()>;
 
-  /// UI thread, as is the destructor. Threads that post must have ended before that, but for those
-  /// that a waiting call owns.
+  /// Create and destroy it on the UI thread. Threads that post must have ended before, except for
+  /// those that a waiting call owns.
   UiQueue();
   ~UiQueue() override;
 
-  /// Any thread. The call runs when the UI thread is back in its event loop.
+  /// Any thread. The call runs once the UI thread is back in its event loop.
   void post(Call call);
-  /// UI thread. Runs what waits, for a program whose event loop may have ended.
+  /// UI thread. Runs all waiting calls now, for programs whose event loop may have ended.
   void deliver();
 
  protected:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Undo and redo over several stacks in order of time: what was done last is undone first, wherever
-// the focus is. UI thread only.
+// Undo and redo across several stacks: the newest command is undone first, wherever the focus is.
+// UI thread only.
 
 #include <QHash>
 #include <QObject>
@@ -19,11 +19,11 @@ namespace pitchboard::ui {
 class UndoHistory : public QObject {
  public:
   explicit UndoHistory(QObject* parent);
-  /// `usable` says whether the stack's commands may be undone and redone now; call refresh() when
-  /// its answer changes.
+  /// Adds a stack. `usable` tells whether its commands can be undone and redone now; call refresh()
+  /// when that changes.
   void add(QUndoStack* stack, std::function<bool()> usable);
   void refresh();
-  /// "Undo Remove B1"; disabled while there is nothing.
+  /// "Undo Remove B1"; disabled if there is nothing to undo.
   QAction* undoAction() const { return m_undo; }
   QAction* redoAction() const { return m_redo; }
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The mouse wheel changes no control that has no focus: combo boxes, number fields, sliders and tab
-// bars leave it to what scrolls behind them, and do not take the focus by it. UI thread only.
+// Keeps the mouse wheel from changing controls without focus: combo boxes, number fields, sliders
+// and tab bars pass it on to the area that scrolls, and do not take the focus. UI thread only.
 
 class QApplication;
 
 namespace pitchboard::ui {
 
-/// For every window, dock and dialog of the application, present and future; once is enough. The
-/// application owns it.
+/// Call it once; it applies to all present and future windows. The application owns the guard.
 void guardWheel(QApplication& application);
 
 }  // namespace pitchboard::ui

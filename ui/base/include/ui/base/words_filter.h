@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The filter behind the search fields over tables. Window thread; belongs to its view.
+// The filter of search fields above tables. UI thread only.
 
 #include <QSortFilterProxyModel>
 #include <QStringList>
 
 namespace pitchboard::ui {
 
-/// Keeps the rows in which every word occurs in some column, whatever the case.
+/// Keeps rows in which each word occurs in some column, ignoring case.
 class WordsFilter : public QSortFilterProxyModel {
   Q_OBJECT
  public:

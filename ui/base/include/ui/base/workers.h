@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Threads that do work for the UI thread: with one thread, in the order of start(). Owned by
-// whoever starts work there; the destructor waits for all of it. They take the place of
-// QThreadPool, whose hand-overs a thread sanitizer cannot see. Any thread may call them.
+// Worker threads for the UI thread. With one thread, work runs in the order of start(). Owned by
+// whoever starts the work; the destructor waits for all of it. Used instead of QThreadPool, because
+// a thread sanitizer cannot see into the latter. Any thread may call it.
 
 #include <condition_variable>
 #include <cstddef>
@@ -25,9 +25,9 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
 
   void start(Work work);
-  /// Only when a thread has nothing to do; whether it was started.
+  /// Starts the work only if a thread is idle; returns whether it did.
   bool tryStart(Work work);
-  /// Until nothing waits and nothing is done any more.
+  /// Waits until all work is done.
   void waitForDone();
   std::size_t threads() const { return m_most; }
 
@@ -45,7 +45,7 @@ class Workers {
   std::vector<std::thread> m_threads;  // made when they are first needed
 };
 
-/// As many threads as the machine has cores, for work that anyone may split.
+/// Returns workers with a thread for each core, shared by everybody who splits work.
 Workers& sharedWorkers();
 
 }  // namespace pitchboard::ui

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Experiments in the studio: choose or edit one, play it in threads of its own, look at tables,
-// ways on the field, distributions and differences, see any run again in Replay, and two of them
-// over each other. UI thread only.
+// The Experiments dock: choose or edit an experiment, play it on other threads, view tables, paths
+// on the field, distributions and differences, and open any run in Replay, or two runs compared. UI
+// thread only.
 
 class QWidget;
 
@@ -17,7 +17,7 @@ class SituationTests;
 struct ExperimentsDockParts {
   ReplayController* replay = nullptr;
   ComparedSession* compared = nullptr;
-  SituationTests* tests = nullptr;  ///< what they save is offered here, and played
+  SituationTests* tests = nullptr;  ///< tests that it saves are offered and played here
 };
 QWidget* makeExperimentsDock(const ExperimentsDockParts& parts, QWidget* parent);
 

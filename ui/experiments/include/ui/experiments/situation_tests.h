@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Saves the moment that is shown, of whatever source, as a test: asks what must hold, writes the
-// file, and says so to whoever plays it. UI thread only; owned by the window.
+// Saves the moment that is shown, of any source, as a situation test: asks what must hold, writes
+// the file and emits `saved`. UI thread only; owned by the window.
 
 #include <QObject>
 
@@ -18,7 +18,7 @@ class SourceSwitch;
 class SituationTests : public QObject {
   Q_OBJECT
  public:
-  /// What it is made from; all outlive it, but `settings`, which may be null.
+  /// All must outlive this object; `settings` may be null.
   struct Parts {
     const SourceSwitch* source = nullptr;
     const MatchController* match = nullptr;
@@ -27,15 +27,15 @@ class SituationTests : public QObject {
   };
   SituationTests(const Parts& parts, QWidget* window);
 
-  /// There is a robot in the moment shown.
+  /// Returns whether there is a robot in the moment shown.
   bool isPossible() const;
-  /// A dialog that is about the moment of now, however the source goes on behind it.
+  /// Opens a dialog about the current moment, while the source continues behind it.
   void ask();
 
  signals:
-  /// The file is there, and wanted to be played at once, or only known.
+  /// The file has been written; `play` tells whether to play it immediately.
   void saved(const QString& path, bool play);
-  /// Why there is no test to be made.
+  /// No test can be made, for the reason in `sentence`.
   void failed(const QString& sentence);
 
  private:

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The keys of the published simulator (system.md section 9) as data. They work while "Published
-// keys" is on; the window asks the field to carry them out wherever the focus is. Constant data,
-// safe in every thread.
+// The keys of the published simulator as a table. They work while "Published keys" is on, wherever
+// the focus is. Constant data; any thread.
 
 #include <Qt>
 #include <optional>
@@ -11,14 +10,14 @@
 
 namespace pitchboard::ui {
 
-/// What a key does. All but Select need a match that can be changed.
+/// What a key does. All actions except Select need a match that can be changed.
 enum class FieldAction {
   Select,           ///< `value`: RobotId
   AddRobot,         ///< at the cursor; `value`: index into teamColors
-  AddRobotByShift,  ///< left Shift yellow, right Shift orange
+  AddRobotByShift,  ///< yellow with the left Shift key, orange with the right one
   PlaceBall,
   MoveHere,  ///< the selected robots to the cursor
-  Act,       ///< `value`: action of the selected robots, `other`: DECISION_ACTION_B, -1: unchanged
+  Act,       ///< for the selected robots; `value`: action, `other`: DECISION_ACTION_B or -1 (keep)
   Search,    ///< `value`: on or off
   LoadMatch,
   Reset,
@@ -33,15 +32,15 @@ struct FieldOrder {
 
 struct FieldKey {
   int key = 0;                      ///< Qt::Key
-  Qt::KeyboardModifiers modifiers;  ///< exactly these (the keypad's is ignored)
-  const char* shown;                ///< how people read the key
+  Qt::KeyboardModifiers modifiers;  ///< exactly these; KeypadModifier is ignored
+  const char* shown;                ///< name of the key on the screen
   const char* meaning;
   FieldOrder order;
-  int count = 1;  ///< so many keys in a row, each with the next `value`
+  int count = 1;  ///< number of successive keys, each with the next `value`
 };
 
 std::span<const FieldKey> fieldKeys();
-/// What a key press asks for; nothing when it is none of these keys.
+/// Returns what a key press does; empty if it is none of these keys.
 std::optional<FieldOrder> fieldOrder(int key, Qt::KeyboardModifiers modifiers);
 
 }  // namespace pitchboard::ui

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What can be shown or hidden on the field: the one table from which the layers menu, the settings
-// and the first look of the field are made. Constant data, safe in every thread.
+// The layers that can be shown or hidden on the field. The layers menu, the settings and the
+// defaults all use this table. Constant data; any thread.
 
 #include <array>
 #include <cstddef>
@@ -31,9 +31,9 @@ enum class FieldLayer {
 
 struct FieldLayerInfo {
   FieldLayer layer;
-  const char* key;   ///< its word in settings: never change it
-  const char* name;  ///< on the screen
-  bool shown;        ///< at first
+  const char* key;   ///< name in the settings; must never change
+  const char* name;  ///< name on the screen
+  bool shown;        ///< by default
 };
 
 inline constexpr std::array fieldLayers{

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which layers and drawings the field shows, kept between runs. UI thread only.
+// Keeps which layers and drawings the field shows in the settings. UI thread only.
 
 class QSettings;
 
@@ -9,9 +9,9 @@ namespace pitchboard::ui {
 
 class FieldView;
 
-/// What is not in the settings stays as it is.
+/// Layers that are not in the settings are left unchanged.
 void restoreFieldLayers(FieldView& field, const QSettings& settings);
-/// Writes only what differs from what is there, so that it may be called often.
+/// Writes only differences, so that it can be called often.
 void saveFieldLayers(const FieldView& field, QSettings& settings);
 
 }  // namespace pitchboard::ui

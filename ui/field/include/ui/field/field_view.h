@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The field: draws the newest frame and turns the mouse into commands of the MatchController. Keys
-// are the window's, which calls what they mean here.
-// UI thread only. The scene is in metres, +y up.
+// The field: draws the newest frame and turns mouse input into edits of the match. Keys are handled
+// by the window, which calls the functions below. UI thread only. The scene is in metres, +y up.
 
 #include <QImage>
 #include <QWidget>
@@ -23,51 +22,52 @@ class QMenu;
 
 namespace pitchboard::ui {
 
-/// For menus; also on the tool strip.
+/// Actions for the menus and the tool strip.
 struct FieldActions {
-  std::vector<QAction*> layers;   ///< checkable, one per FieldLayer, in that order
-  std::vector<QAction*> options;  ///< how layers look: field of view of all, granularity of EOPRA
+  std::vector<QAction*> layers;   ///< checkable, one for each FieldLayer, in that order
+  std::vector<QAction*> options;  ///< options of layers, such as the granularity of EOPRA
   std::vector<QAction*> tools;    ///< select, ruler, add
-  /// Published keys (checkable, remembered), show keys (for the window to answer), fit, flip sides
+  /// `publishedKeys` is checkable and kept in the settings; the window connects `showKeys`.
   QAction *publishedKeys, *showKeys, *fit, *flip;
 };
 
 class FieldView : public QWidget, public FieldPictures {
   Q_OBJECT
  public:
-  /// Shows the source's frames; what is done by hand goes to the controller. Without a source
-  /// showFrame() feeds it; without a controller nothing can be moved.
+  /// Shows the source's frames and passes edits to the controller. Without a source, call
+  /// showFrame(); without a controller, nothing can be edited.
   FieldView(FrameSource* source, MatchController* controller, QWidget* parent = nullptr);
   explicit FieldView(MatchController* controller, QWidget* parent = nullptr);
   ~FieldView() override;
 
   void showFrame(const FramePtr& frame);
-  /// Another source's view of the same robots, drawn beside them with the difference; null: none.
+  /// Draws the same robots as another source sees them, with the difference; null: none.
   void showOther(const FramePtr& frame);
-  /// A moment of another session, drawn over this one; null: none.
+  /// Draws a moment of another session on top; null: none.
   void showCompared(const FramePtr& frame);
   /// What may follow a moment, drawn in the layer Exploration; null: nothing.
   void showForecast(const ForecastPtr& forecast);
 
   std::vector<RobotKey> selection() const;
   void select(const std::vector<RobotKey>& ids);
-  /// Keeps this robot in the middle of the view; nothing ends it.
+  /// Keeps this robot in the middle of the view; empty: stops following.
   void follow(std::optional<RobotKey> id);
   std::optional<RobotKey> followed() const;
   const FieldActions& actions() const;
-  /// What can be done with the selected robots, with all of them and the ball, for the menu bar.
+  /// Fills the menu bar's menu about the selected robots, all robots and the ball.
   void fillRobotsMenu(QMenu* menu);
-  /// The robot of a simulated match in this slot, else one with this number; nobody: none.
+  /// Selects the robot with this id in a simulated match, otherwise one with this number.
   void selectNumber(int number);
-  /// Moves the selected robots: to the right and up as the field is seen, metres.
+  /// Moves the selected robots by metres, right and up on the screen.
   void nudge(QPointF metres);
-  /// Ends a drag, or a tool other than Select; says whether there was one.
+  /// Cancels a drag, or returns to the Select tool. Returns whether it did either.
   bool cancel();
-  /// While held, a drag with the left button pans. At the end: says whether it was used for that.
+  /// While held, dragging with the left button pans. On release, returns whether the view was
+  /// panned.
   bool setPanHeld(bool held);
-  /// Does what this key press means in the published simulator (field_keys.h); false: nothing.
+  /// Carries out a key of the published simulator (field_keys.h). Returns false if it is none.
   bool takePublishedKey(const QKeyEvent& event);
-  /// Opens the editor for the pose of this robot.
+  /// Opens the editor for the robot's pose.
   void editPose(RobotKey id);
   void setFlipped(bool flipped);
   bool isFlipped() const;
@@ -79,7 +79,7 @@ class FieldView : public QWidget, public FieldPictures {
  signals:
   void selectionChanged(const std::vector<pitchboard::RobotKey>& ids);
   void followedChanged(std::optional<pitchboard::RobotKey> id);
-  /// Cursor in metres on the field; not valid when the cursor left it.
+  /// Position of the cursor on the field in metres; not valid once the cursor has left the field.
   void cursorMoved(QPointF metres, bool valid);
   void blackboardRequested(pitchboard::RobotKey id);
   void saveScenarioRequested();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Attaches blackboards of this computer: chooses a System V segment, the robot it belongs to and
-// the catalog of its variables, and detaches them. Qt owns it. UI thread only.
+// The dialog that attaches and detaches blackboards of this computer: the user chooses a System V
+// segment, the robot that it belongs to, and the catalog of its variables. UI thread only.
 
 #include <QDialog>
 
@@ -20,10 +20,10 @@ class NumberBox;
 class AttachDialog : public QDialog {
   Q_OBJECT
  public:
-  /// `boards` outlives it.
+  /// `boards` must outlive the dialog.
   AttachDialog(AttachedBoards* boards, QWidget* parent);
 
-  /// Attaches what is chosen; false when it cannot be, which is then shown.
+  /// Attaches the chosen segment. On failure, shows the reason and returns false.
   bool attach();
 
  private:
@@ -45,7 +45,7 @@ class AttachDialog : public QDialog {
   QLabel* m_message;
 };
 
-/// Opens the dialog, or brings the open one to the front.
+/// Opens the dialog, or raises it if it is already open.
 void showAttachDialog(AttachedBoards* boards, QWidget* window);
 
 }  // namespace pitchboard::ui

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What was heard and could not be used: by kind, for each robot and each sender, with the last
-// text. UI thread only.
+// The dock that lists received messages that could not be used, by kind, robot and sender, with the
+// last text. UI thread only.
 
 class QWidget;
 

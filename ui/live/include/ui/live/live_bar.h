@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the tool bar shows in Live: ports, our team, monitor mode, and the import of a catalog while
-// robots send variables that no known one has. UI thread only.
+// The part of the tool bar for Live: ports, our team, monitor mode, and a button that imports a
+// catalog while robots send unknown variables. UI thread only.
 
 #include <QWidget>
 
@@ -26,7 +26,7 @@ class LiveBar : public QWidget {
   /// Both must outlive the bar.
   LiveBar(LiveController* live, QSettings* settings, QWidget* parent);
   enum class Room { Wide, Narrow, Least };
-  /// With less room the button of the ports loses its text, then the others do, too.
+  /// With less room, first the button of the ports loses its text, then the others do.
   void setRoom(Room room);
 
  private:

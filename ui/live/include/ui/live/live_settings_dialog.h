@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where Live listens, whom it believes, how it reads messages, and monitor mode. Not modal: the
-// match goes on. Errors are shown in the dialog. UI thread only.
+// The dialog with the settings of Live: where to listen, accepted senders, message profiles and
+// monitor mode. It is not modal, and shows errors itself. UI thread only.
 
 #include <QDialog>
 
@@ -26,7 +26,7 @@ class LiveSettingsDialog : public QDialog {
   Q_OBJECT
  public:
   LiveSettingsDialog(LiveController* live, QSettings* settings, QWidget* parent);
-  /// Takes what is in the boxes; false when something is wrong, which is then shown.
+  /// Applies the settings. If one is wrong, shows the reason and returns false.
   bool apply();
 
  private:
@@ -61,7 +61,7 @@ class LiveSettingsDialog : public QDialog {
   QString m_profileFile;
 };
 
-/// Opens the dialog, or brings the open one to the front.
+/// Opens the dialog, or raises it if it is already open.
 void showLiveSettings(LiveController* live, QSettings* settings, QWidget* window);
 
 }  // namespace pitchboard::ui

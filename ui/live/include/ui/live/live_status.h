@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the status line says in Live, from looks at the counters.
+// Makes the text of the status bar in Live from the counters of the watch. One thread at a time.
 
 #include <QString>
 #include <deque>
@@ -14,14 +14,14 @@ namespace pitchboard::ui {
 struct LiveStatusText {
   QString network;  ///< "UDP 24/s, 0 lost, 0 bad"
   QString referee;  ///< "Referee v12, 2.0/s"
-  QString trouble;  ///< the most urgent thing, or nothing: shown in red
-  QString tip;      ///< every port and what is wrong with it
+  QString trouble;  ///< the most urgent problem, shown in red; empty: none
+  QString tip;      ///< all ports and their problems
 };
 
-/// How often a counter grows, over the last five seconds.
+/// Measures how fast a counter grows over the last five seconds.
 class RateWindow {
  public:
-  /// `seconds`: any monotonic clock. Returns the rate, 1/s.
+  /// Adds a value of the counter and returns the rate in 1/s. `seconds` is from a monotonic clock.
   double look(double seconds, quint64 count);
 
  private:
@@ -30,7 +30,7 @@ class RateWindow {
 
 class LiveStatus {
  public:
-  /// `seconds`: any monotonic clock.
+  /// `seconds` is from a monotonic clock.
   LiveStatusText update(const link::LiveDetails& details, const link::MatchFrame* frame,
                         double seconds);
 

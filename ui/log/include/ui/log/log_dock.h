@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The log with filters of words and level; follows the newest line until one scrolls up; Ctrl+C
-// copies, and what is shown can be saved. UI thread only.
+// The Log dock, with filters by words and level. It follows the newest entry until the user scrolls
+// up. Entries can be copied and saved. UI thread only.
 
 class QWidget;
 
@@ -12,8 +12,8 @@ class MatchController;
 class SourceSwitch;
 class Timeline;
 
-/// All must outlive the dock. A click on a line shows its moment everywhere, if it is of the source
-/// that is shown; what came after the moment shown is pale.
+/// All arguments must outlive the dock. A click on an entry of the source that is shown goes to its
+/// moment. Entries after the moment shown are pale.
 QWidget* makeLogDock(MatchController* controller, const SourceSwitch* source, Timeline* timeline,
                      QWidget* parent);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Every noise value, number of the robots and physics constant, with units; changes act at once. UI
+// The dock with all values of noise, robot models and physics. Changes take effect immediately. UI
 // thread only.
 
 class QWidget;
@@ -12,9 +12,9 @@ class MatchController;
 class RobotSelection;
 class SourceSwitch;
 
-/// Controller, selection and source must outlive the dock. While `source` shows the past of the
-/// match, the dock shows what it was played with then, grey. The numbers of robots are those of the
-/// selected ones, or of all when none is selected.
+/// All arguments must outlive the dock. While `source` shows the past of the match, the dock shows
+/// the values of that time, disabled. Values of robot models are those of the selected robots, or
+/// of all robots if none is selected.
 QWidget* makeNoiseDock(MatchController* controller, RobotSelection* selection,
                        const SourceSwitch* source, QWidget* parent);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where value axes are divided, and how their numbers are written. (Time: timeline/time_axis.h.)
+// Limits, steps and number format of value axes; ui/base/time_axis.h has those of time axes. Pure
+// functions; any thread.
 
 #include <QString>
 
@@ -13,18 +14,18 @@ struct ValueLimits {
   bool operator==(const ValueLimits&) const = default;
 };
 
-/// A step of 1, 2 or 5 times a power of ten so that `span` has at most `most` of them.
+/// Returns a step of 1, 2 or 5 times a power of ten, such that `span` has at most `most` steps.
 double niceStep(double span, int most);
 struct NiceLimits {
   ValueLimits limits;
   double step = 1.0;
 };
-/// Limits on whole steps around [low, high]; a flat line gets room on both sides. One step more
-/// than `mostSteps` where the ends are rounded.
+/// Returns limits at whole steps around [low, high]; a constant value gets room on both sides.
+/// Rounding may add one step to `mostSteps`.
 NiceLimits niceLimits(double low, double high, int mostSteps);
-/// Decimals that tell multiples of `step` apart.
+/// Returns the decimals needed to tell multiples of `step` apart.
 int decimalsOf(double step);
-/// A value for a legend or a table: about five significant digits, fixed for its magnitude.
+/// Returns a value for a legend or table, with about five significant digits.
 QString valueText(double value);
 
 }  // namespace pitchboard::ui

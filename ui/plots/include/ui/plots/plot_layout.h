@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the plots show, without any data: tabs, plots, curves. Plain values; they are what a preset
-// holds. Variables are named `GROUP/COLUMN`, so a layout fits every source that has such names.
-// In place of a group, `each` stands for every group that has the columns, and `first` for the
-// first one; `curve/NAME` is another computed curve of the plots.
+// A layout of the plots without data: tabs, plots and curves, as saved by name. Variables are named
+// `GROUP/COLUMN`, so that a layout fits every source with such names. As a group, `each` stands for
+// every group that has the columns, and `first` for the first one; `curve/NAME` is another computed
+// curve. Plain values; any thread.
 
 #include <QColor>
 #include <QJsonObject>
@@ -19,9 +19,9 @@
 namespace pitchboard::ui {
 
 enum class CurveKind {
-  Variable,       ///< inputs: the variable
+  Variable,       ///< its input
   Derivative,     ///< d/dt of the input, per second
-  Integral,       ///< over time, from the first sample kept
+  Integral,       ///< over time, from the first sample in memory
   MovingAverage,  ///< `parameter`: window in s
   Difference,     ///< first input minus second
   WrapAngle,   ///< into (−parameter/2, parameter/2]; parameter: a full turn in the input's unit
@@ -33,7 +33,7 @@ enum class CurveStyle { Line, Steps, Points, LineAndPoints };
 
 struct CurveSpec {
   enum class Side {
-    ByUnit,  ///< with the curves whose unit it has, or can be converted to
+    ByUnit,  ///< the axis whose curves have the same or a convertible unit
     Left,
     Right
   };
@@ -42,33 +42,33 @@ struct CurveSpec {
   QString expression;
   double parameter = 0.0;
   double offset = 0.0;
-  QString unit;         ///< instead of the variable's; empty: the variable's
-  QString title;        ///< instead of its name; empty: the name
-  int colorNumber = 0;  ///< of the palette of curves, which has one for each theme
-  QColor color;         ///< chosen by hand; not valid: the palette's
+  QString unit;         ///< empty: the variable's unit
+  QString title;        ///< empty: the name
+  int colorNumber = 0;  ///< index in the palette of curves
+  QColor color;         ///< chosen by the user; invalid: that of the palette
   CurveStyle style = CurveStyle::Line;
-  double width = 1.5;        ///< px of the mock
-  Side side = Side::ByUnit;  ///< the value axis that it is read at
-  QStringList hidden;        ///< names of the shown curves (curveName) that are not drawn
+  double width = 1.5;        ///< pixels of the design, see scaled()
+  Side side = Side::ByUnit;  ///< the value axis
+  QStringList hidden;        ///< names (curveName) of curves that are not drawn
   bool operator==(const CurveSpec&) const = default;
 };
 
 enum class PaneKind {
   Chart,  ///< curves over time
-  Lane,   ///< codes and flags in words over time
-  Xy      ///< each curve: its second input over its first
+  Lane,   ///< texts of codes and flags over time
+  Xy      ///< for each curve, the second input over the first
 };
 
 struct PaneSpec {
   PaneKind kind = PaneKind::Chart;
   QString title;
-  QString valueTitle;        ///< beside the value axis
-  bool autoValues = true;    ///< limits follow what is visible
-  ValueLimits values;        ///< when not automatic
-  bool equalScales = false;  ///< Xy: a metre is a metre in both directions
+  QString valueTitle;        ///< title of the value axis
+  bool autoValues = true;    ///< limits follow the visible values
+  ValueLimits values;        ///< used if not automatic
+  bool equalScales = false;  ///< Xy: both axes have the same scale
   QList<CurveSpec> curves;
-  int share = 100;  ///< of the height, relative to the other plots
-  // Chart: of the second value axis.
+  int share = 100;  ///< height relative to the other plots
+  // Chart: the second value axis.
   QString rightTitle;
   bool autoRight = true;
   ValueLimits right;
@@ -88,15 +88,15 @@ struct PlotLayout {
 };
 
 QJsonObject toJson(const PlotLayout& layout);
-/// Refuses what is not a layout, with line and key in `source`; unknown members are ignored so that
-/// layouts of later versions can be read.
+/// Errors name line and key in `source`. Unknown members are ignored, so that layouts of later
+/// versions can be read.
 Result<PlotLayout> layoutFromText(std::string_view text, std::string_view source);
 
-/// "VISION_BALL_DIST B1", "d/dt VISION_BALL_DIST B1", or the title.
+/// Returns "VISION_BALL_DIST B1", "d/dt VISION_BALL_DIST B1", or the title.
 QString curveName(const CurveSpec& curve);
-/// Computed from the same things in the same way, whatever it looks like.
+/// Returns whether both have the same data, whatever they look like.
 bool sameData(const CurveSpec& a, const CurveSpec& b);
-/// A variable on its own.
+/// Makes a curve of a variable.
 CurveSpec variableCurve(const QString& name);
 
 }  // namespace pitchboard::ui

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Menus and dialogs of the plots.
+// Menus and dialogs of the plots. UI thread only.
 
 #include <QPoint>
 
@@ -13,11 +13,11 @@ class PlotPage;
 class PlotPane;
 class PlotsDock;
 
-/// Tabs, named layouts, export: the menu of the tool row. Owned by the dock.
+/// Makes the menu of the tool row: tabs, named layouts, export. Owned by the dock.
 QMenu* makePlotsMenu(PlotsDock* dock);
-/// What can be done with a plot, or with one of its curves (`curve` ≥ 0).
+/// Shows the context menu of a plot, or of one of its curves if `curve` ≥ 0.
 void showPlotMenu(PlotsDock* dock, PlotPage* page, PlotPane* pane, int curve, const QPoint& at);
-/// Asks for a new curve of the page in front.
+/// Opens the dialog for a new curve on the current page.
 void askForCurve(PlotsDock* dock);
 void editCurve(PlotsDock* dock, PlotPane* pane, int curve);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The plots: tabs of plots over one linked time, their tool row, and what is kept of them between
-// runs. UI thread only.
+// The Plots dock: tabs of plots with a common time axis, their tool row, and the layout that is
+// kept between runs. UI thread only.
 
 #include <QPointer>
 #include <QTimer>
@@ -38,22 +38,22 @@ class PlotTarget;
 class SourceSwitch;
 class Timeline;
 
-/// What the dock shows and moves; everything outlives it.
+/// What the dock shows and changes; all must outlive it.
 struct PlotsContext {
   SourceSwitch* source = nullptr;
   LinkedTime* time = nullptr;           ///< visible range, cursor and marks of plots and timeline
   Timeline* timeline = nullptr;         ///< the moment shown, events; may be null
-  PlotTarget* plots = nullptr;          ///< who asks for plots from elsewhere; may be null
+  PlotTarget* plots = nullptr;          ///< requests from other docks; may be null
   QSettings* settings = nullptr;        ///< the user's; may be null
-  ComparedSession* compared = nullptr;  ///< whose curves are drawn beside; may be null
-  AbandonedFuture* future = nullptr;    ///< else its; may be null
-  PlotLayout first = {};                ///< shown when nothing was kept, at the very first start
+  ComparedSession* compared = nullptr;  ///< its curves are drawn as well; may be null
+  AbandonedFuture* future = nullptr;    ///< drawn if no session is compared; may be null
+  PlotLayout first = {};                ///< layout of the very first start
 };
 
 class PlotsDock : public QWidget {
   Q_OBJECT
  public:
-  /// The layout of the last time comes from `context.settings`, when there are any.
+  /// Restores the last layout from `context.settings`, if there is one.
   PlotsDock(const PlotsContext& context, QWidget* parent);
   ~PlotsDock() override;
 
@@ -64,23 +64,23 @@ class PlotsDock : public QWidget {
   PlotPage* addPage(const PageSpec& spec);
   void closePage(int index);
   void renamePage(int index);
-  /// The tabs of the pages, empty while there is one. They stand above the plots unless the window
-  /// has a better place for them.
+  /// Returns the tabs of the pages, which are hidden while there is only one page. They are above
+  /// the plots unless the window puts them elsewhere.
   QWidget* pageTabs() const { return m_pageRow; }
 
   PlotLayout layoutSpec() const;
-  /// Can be undone, as everything that is changed here.
+  /// Can be undone, like all changes here.
   void setLayoutSpec(const PlotLayout& layout);
   QUndoStack* undoStack() const { return m_undo; }
 
   const PlotsContext& context() const { return m_context; }
-  /// Says what went wrong, above the plots.
+  /// Shows a problem above the plots.
   void showNotice(const QString& sentence);
-  void settleNotice();  ///< what it said is over
+  void settleNotice();  ///< removes the notice
 
-  /// Every variable of the source that is shown, `GROUP/COLUMN`.
+  /// Returns all variables of the source that is shown, as `GROUP/COLUMN`.
   QStringList variables() const;
-  /// Adds to the page in front, and brings it there.
+  /// Adds curves to the current page and raises the dock.
   void plotVariables(const QStringList& names);
 
  protected:

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Blackboards that a crashed program left behind, told when the studio starts. Window thread.
+// The notice about blackboards that a crashed program left behind, shown when the studio starts. UI
+// thread only.
 
 namespace pitchboard::ui {
 
 class MatchController;
 class NoticeBar;
 
-/// Offers to remove blackboards that nobody uses any more. Call it before a match is opened:
-/// afterwards the match itself uses them.
+/// Offers to remove blackboards that no process uses any more. Call it before a match is opened,
+/// because the match uses blackboards with the same keys.
 void showOrphanNotice(NoticeBar* notices, MatchController* controller);
 
 }  // namespace pitchboard::ui

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Table of the robots' processes; restart and stop in its context menu. UI thread only.
+// The Processes dock: a table of the robots' processes, with Restart and Stop in the context menu.
+// UI thread only.
 
 class QWidget;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The referee, whatever is shown: the state of the game, the teams with their penalties and cards,
-// and what the referee said. In Simulate also the controls of a person who referees, arranged by
-// what happens next; every call can be undone. UI thread only.
+// The Referee panel, for every source: the state of the game, the teams with their penalties and
+// cards, and the referee's calls. In Simulate it also has controls for a human referee, with the
+// most likely next calls first; all calls can be undone. UI thread only.
 
 class QWidget;
 
@@ -21,7 +21,7 @@ struct RefereeContext {
   const RobotSelection* selection = nullptr;  ///< robots chosen on the field; may be null
 };
 
-/// What the context names must outlive the panel.
+/// All members of the context must outlive the panel.
 QWidget* makeRefereePanel(const RefereeContext& context, QWidget* parent);
 
 }  // namespace pitchboard::ui

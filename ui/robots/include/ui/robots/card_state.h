@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a robot's card says, as a value: computed from the source's frames, drawn by RobotCard.
+// The content of a robot's card, computed from the source's frames and drawn by RobotCard. Plain
+// values; any thread.
 
 #include <QString>
 #include <array>
@@ -16,13 +17,13 @@ using LampState = telemetry::HeartbeatState;
 
 struct Lamp {
   LampState state = LampState::Unknown;
-  int seconds = 0;  ///< silent for so long (real time); 0 otherwise
+  int seconds = 0;  ///< how long the process has been silent, in real time; otherwise 0
   bool operator==(const Lamp&) const = default;
 };
 
 enum class TagKind { None, Warning, Error };
 
-/// A further value that a card can show: "VISION_BALL_DIST", "83.2", "cm".
+/// An additional value on a card, such as "VISION_BALL_DIST", "83.2", "cm".
 struct CardValue {
   QString name, text, unit;
   bool operator==(const CardValue&) const = default;
@@ -38,41 +39,42 @@ struct CardState {
   TeamColor team = TeamColor::Blue;
   int number = 0;
   QString name;
-  QString teamName;  ///< "RoboFEI"; empty: it has none
-  QString subtitle;  ///< what its team calls it, and its behaviour; may be empty
-  QString runtime;   ///< who runs, where somebody has chosen
+  QString teamName;  ///< such as "RoboFEI"; may be empty
+  QString subtitle;  ///< the robot's name in its team and its behaviour; may be empty
+  QString runtime;   ///< the runtime profile if one was chosen
   std::array<Lamp, lampCount> lamps;
   QString tag;
-  QString tagTip;  ///< a whole sentence where the tag is not all there is to say
+  QString tagTip;  ///< tool tip that explains the tag in a sentence
   TagKind tagKind = TagKind::None;
-  bool tagIsBattery = false;  ///< volts and bar, which are red, say the same
+  bool tagIsBattery = false;  ///< the tag repeats what the red battery shows
   QString action;
-  QString detail;  ///< age of the tick and distance walked; or how it is heard
+  QString detail;  ///< simulated: distance walked; live: state of the link
   QString detailTip;
-  bool live = false;                          ///< heard by network
-  bool timedOut = false;                      ///< greyed
-  std::optional<telemetry::Battery> battery;  ///< nothing: it tells no voltage
-  std::vector<CardValue> values;              ///< shown where the user asked for them
+  bool live = false;                          ///< a live robot
+  bool timedOut = false;                      ///< offline: the card is grey
+  std::optional<telemetry::Battery> battery;  ///< empty if the robot sends no voltage
+  std::vector<CardValue> values;              ///< shown if the user chose them
   bool operator==(const CardState&) const = default;
 
   bool batteryLow() const { return battery && battery->low; }
 
-  /// What lamp i stands for: in Live the letter C is control, not communication.
+  /// Returns the process of a lamp. In Live, the letter C stands for control.
   QString process(std::size_t lamp) const;
 };
 
-/// What stands behind the name on a card: what its team calls it, its behaviour.
+/// Returns the text behind the name on a card: the robot's name in its team, and its behaviour.
 QString subtitleOf(const link::RobotFrame& robot);
 
-/// `detail`: of a robot that is not heard, the age of what is shown.
+/// `detail` is CardState::detail of robots that are not live.
 CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field, const QString& detail);
 
-/// Remembers how old frames are when they are shown.
+/// Makes cards from successive frames and tracks the age of what they show.
 class CardTracker {
  public:
-  /// `milliseconds`: any monotonic real time. One entry per robot of the frame, in its order.
+  /// Returns a state for each robot of the frame, in its order. `milliseconds` is from a monotonic
+  /// clock.
   std::vector<CardState> update(const link::MatchFrame& frame, qint64 milliseconds);
-  /// Forgets everything: another match.
+  /// Forgets everything, for another match.
   void reset() { *this = {}; }
 
  private:

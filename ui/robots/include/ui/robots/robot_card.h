@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One robot's card: badge, name, battery, lamps, action, chosen values. Draws a CardState and
-// nothing else; only what changed is painted again. UI thread only.
+// The card of a robot: badge, name, battery, lamps, action, chosen values. It draws a CardState and
+// repaints only what changed. UI thread only.
 
 #include <QFrame>
 #include <QStringList>
@@ -11,10 +11,10 @@
 
 namespace pitchboard::ui {
 
-/// What cards show besides badge and name; the same for all of them.
+/// What all cards show besides badge and name.
 struct CardParts {
   bool battery = true, processes = true, action = true, health = true;
-  QStringList values;  ///< names, in the order shown
+  QStringList values;  ///< names of additional values, in the order shown
   bool operator==(const CardParts&) const = default;
 };
 
@@ -30,7 +30,7 @@ class RobotCard : public QFrame {
   bool isSelected() const { return m_selected; }
   void setCollapsed(bool collapsed);
   bool isCollapsed() const { return m_collapsed; }
-  /// It is being dragged to another place.
+  /// Returns whether the card is being dragged.
   bool isDragged() const { return m_dragging; }
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
@@ -39,7 +39,7 @@ class RobotCard : public QFrame {
   void clicked(Qt::KeyboardModifiers modifiers);
   void collapsedByHand(bool collapsed);
   void menuRequested(const QPoint& globalPosition);
-  /// Dragged by hand: to another place in the list, or out of it.
+  // The user drags the card within the list, or out of it.
   void dragged(const QPoint& globalPosition);
   void dropped(const QPoint& globalPosition);
 

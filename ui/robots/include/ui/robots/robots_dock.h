@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The cards of all robots, refreshed ten times a second. Selects both ways with the field. Cards
-// are dragged into another order, or out of the list into a window of their own; what they show is
-// chosen in their menu and kept.
+// The Robots dock: the cards of all robots, refreshed ten times a second. The selection is shared
+// with the field. Cards can be reordered by dragging, or dragged out into a window of their own;
+// what they show is chosen in their menu and kept in the settings. UI thread only.
 
 #include <QElapsedTimer>
 #include <QScrollArea>
@@ -29,33 +29,33 @@ class MatchController;
 class RobotSelection;
 class SourceSwitch;
 
-/// What the dock shows and changes; everything outlives it.
+/// What the dock shows and changes; all must outlive it.
 struct RobotsContext {
   MatchController* controller = nullptr;
   SourceSwitch* source = nullptr;
   RobotSelection* selection = nullptr;
-  LiveOverlay* overlay = nullptr;  ///< cards tell how far the two differ; may be null
+  LiveOverlay* overlay = nullptr;  ///< cards show the distance to the other source; may be null
   QSettings* settings = nullptr;   ///< the user's; may be null
-  LiveController* live = nullptr;  ///< forgets robots; may be null
+  LiveController* live = nullptr;  ///< to forget robots; may be null
 };
 
 class RobotsDock : public QScrollArea {
   Q_OBJECT
  public:
   RobotsDock(const RobotsContext& context, QWidget* parent);
-  /// Those in the list, from the top; not those that float.
+  /// Returns the cards in the list from the top, without those that float.
   QList<RobotCard*> cards() const;
   void setAllCollapsed(bool collapsed);
-  /// Gives the card a window of its own; closing that puts it back.
+  /// Moves the card into a window of its own; closing the window puts it back.
   void floatCard(RobotKey id);
   QDockWidget* floating(RobotKey id) const;
-  /// Puts the card before the one at this place of the list.
+  /// Moves the card before the one with this index in the list.
   void moveCard(RobotKey id, qsizetype place);
   void setParts(const CardParts& parts);
   const CardParts& parts() const { return m_parts; }
-  /// What concerns the cards, for the menu bar.
+  /// Adds the actions for cards to the menu bar.
   void addCardActions(QMenu& menu);
-  /// From so many robots on cards are collapsed, unless somebody opens them.
+  /// With at least this many robots, cards are collapsed unless the user expands them.
   static constexpr std::size_t many = 9;
   QSize sizeHint() const override;
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Exports part of the session that Replay has open, or of what memory holds of the match or of
-// Live: numbers (CSV, JSON lines), a shorter session, a report, the field as a picture or a video.
-// The dialog stays while a worker writes, shows how far it is, and can be cancelled; it never stops
-// the window. UI thread only.
+// The export dialog. It exports part of the session that is open in Replay, or of the match or live
+// data in memory, as numbers (CSV, JSON lines), a shorter session, a report, or a picture or video
+// of the field. A worker writes while the dialog shows the progress and can cancel; the window is
+// never blocked. UI thread only.
 
 #include <QDateTime>
 #include <QDialog>
@@ -40,30 +40,30 @@ class MomentBox;
 class NumberBox;
 class VideoExport;
 
-/// What is exported from: a file, or memory.
+/// Where the exported data come from: a file, or memory.
 struct ExportSource {
   QString session;                     ///< the file; empty: memory
-  std::function<SessionMaker()> make;  ///< from memory: what writes it (SessionRecording)
-  QString folder, name;                ///< of the file that is proposed, without its ending
-  /// What can be chosen: the groups of the source.
+  std::function<SessionMaker()> make;  ///< writes what is in memory, see SessionRecording
+  QString folder, name;                ///< proposed folder and file name, without suffix
+  /// The groups of the source, to choose from.
   std::vector<telemetry::GroupInfo> groups{};
-  std::optional<QDateTime> clock{};  ///< time of day at second 0, where there is one
+  std::optional<QDateTime> clock{};  ///< time of day at second 0, if known
 };
 
 class ExportDialog : public QDialog {
   Q_OBJECT
  public:
-  /// `range` is what is chosen at first; `pictures` outlives the dialog.
+  /// `range` is the initial range. `pictures` must outlive the dialog.
   ExportDialog(ExportSource source, telemetry::TimeRange range, const FieldPictures* pictures,
                QWidget* parent);
-  ~ExportDialog() override;  ///< cancels what is being written
+  ~ExportDialog() override;  ///< cancels a running export
 
-  /// Writes in the chosen form; finished() or failed() follows. Never overwrites.
+  /// Exports in the chosen format; written() or failed() follows. Never overwrites a file.
   void exportTo(const QString& path);
-  /// What makes videos, instead of "ffmpeg".
+  /// Sets the program that makes videos; the default is "ffmpeg".
   void setVideoProgram(const QString& program) { m_program = program; }
   bool isWriting() const { return m_writing; }
-  /// Ending of the chosen form's files: ".csv".
+  /// Returns the suffix of the chosen format, such as ".csv".
   QString suffix() const;
 
  signals:

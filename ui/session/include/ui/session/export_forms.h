@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The forms in which part of a session leaves the studio, and the writing of those that need
-// nothing but the session. Any thread.
+// The formats in which part of a session can be exported, and functions that write those formats
+// that need only the session file. Any thread.
 
 #include <QByteArray>
 #include <QString>
@@ -28,8 +28,8 @@ struct ExportRequest {
   telemetry::ExportSelection selection;
 };
 
-/// Numbers or a report; the bytes of the file. `picture` stands in a report. An old file goes when
-/// the new one is whole.
+/// Writes numbers or a report, in which `picture` is included, and returns the size of the file. An
+/// old file is replaced once the new one is complete.
 Result<std::uint64_t> writeExport(const ExportRequest& request, const ExportForm& form,
                                   const QByteArray& picture,
                                   const telemetry::ExportProgress& progress);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Session files in the window: opened by menu, by dropping one, or from the command line; what is
-// wrong with one is a notice, and a broken one is repaired into a new file from there. UI thread
-// only.
+// Opens session files from the menu, by drag and drop, or from the command line. Problems are shown
+// as notices, from which a damaged file can be repaired into a new one. UI thread only.
 
 #include <QObject>
 #include <atomic>
@@ -32,13 +31,13 @@ class SessionFiles : public QObject {
   /// Shows Replay once the file is open.
   void open(const QString& path);
   void askAndOpen();
-  /// Empty when no file was chosen.
+  /// Asks for a file; returns an empty path if none was chosen.
   QString askForFile(const QString& title);
-  /// Into a new file beside it, which is opened.
+  /// Repairs the session into a new file beside it, and opens that.
   void repair(const QString& path);
-  /// The moment shown as a scenario that is played from there: the mode becomes Simulate.
+  /// Switches to Simulate and plays a match that starts from the moment shown.
   void simulateFromHere(link::MomentOptions::Poses poses);
-  /// In Simulate while looking back: the match itself goes on from the moment shown.
+  /// In Simulate while looking back: continues the match from the moment shown.
   void continueFromHere();
 
  protected:

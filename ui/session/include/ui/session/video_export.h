@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A video from part of a session file: moments are rebuilt on a thread of their own, painted, and
-// go to ffmpeg. UI thread; nothing waits.
+// Makes a video of part of a session file: moments are rebuilt on a thread of their own, painted,
+// and passed to ffmpeg. UI thread only; never blocks.
 
 #include <QObject>
 #include <atomic>
@@ -23,14 +23,14 @@ class VideoExport : public QObject {
   Q_OBJECT
  public:
   VideoExport(std::unique_ptr<FramePainter> painter, QObject* parent);
-  ~VideoExport() override;  ///< as cancel()
+  ~VideoExport() override;  ///< same as cancel()
 
-  /// One second of the session is one second of the video. Errors as VideoWriter::start(), and
-  /// InvalidArgument for a range that ends before it begins; later ones come by failed().
-  /// `robots`: names of those that are painted; empty: all.
+  /// Starts a video in which a second is a second of the session. Fails as VideoWriter::start(),
+  /// and with InvalidArgument if the range ends before it begins; later errors come with failed().
+  /// `robots` are the names of the robots to paint; empty: all.
   Result<void> start(const QString& session, telemetry::TimeRange range,
                      const std::vector<std::string>& robots, const VideoOptions& options);
-  /// Ends at once and leaves no file. No signal follows.
+  /// Stops immediately and leaves no file. No signal follows.
   void cancel();
 
  signals:

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Writes a video from pictures: they are piped as raw pixels into ffmpeg, a program of its own that
-// is looked for when a video is wanted. The file gets its name only when it is whole: cancelling,
-// or an error, leaves nothing behind. UI thread; nothing waits: give a picture whenever ready() is
-// true.
+// Writes a video from pictures, which are piped as raw pixels into the program ffmpeg. The file
+// gets its name only when it is complete; cancelling or an error leaves nothing behind. UI thread
+// only; never blocks: add a picture whenever ready() is true.
 
 #include <QImage>
 #include <QObject>
@@ -20,40 +19,40 @@
 namespace pitchboard::ui {
 
 struct VideoOptions {
-  QString path;                   ///< ends in .mp4 or .webm, which chooses the format
-  QSize size{1280, 720};          ///< pixels; odd sizes lose a row or a column
-  double framesPerSecond = 30.0;  ///< of the video, 1 to 240
-  bool overwrite = false;         ///< an existing file is replaced, once the new one is whole
+  QString path;                   ///< must end in .mp4 or .webm, which selects the format
+  QSize size{1280, 720};          ///< pixels; rounded down to even numbers
+  double framesPerSecond = 30.0;  ///< 1 to 240
+  bool overwrite = false;         ///< replace an existing file once the new one is complete
   QString program = QStringLiteral("ffmpeg");
-  QString source = {};  ///< the file that is read meanwhile; it is never overwritten
+  QString source = {};  ///< the file that is being read; it is never overwritten
 };
 
 class VideoWriter : public QObject {
   Q_OBJECT
 
  public:
-  static constexpr int smallest = 16, largest = 8192;  ///< pixels of a side
+  static constexpr int smallest = 16, largest = 8192;  ///< width and height in pixels
 
   explicit VideoWriter(QObject* parent = nullptr);
-  ~VideoWriter() override;  ///< as cancel()
+  ~VideoWriter() override;  ///< same as cancel()
 
-  /// Error InvalidArgument (name, size, rate), Conflict (the file exists or is the source, or a
-  /// video is being written), NotFound (there is no ffmpeg) or SystemError (it cannot be started,
-  /// the folder cannot be written), in a sentence for the screen.
+  /// Errors, with a message for the screen: InvalidArgument (name, size, rate), Conflict (the file
+  /// exists or is the source, or a video is being written), NotFound (ffmpeg is not installed),
+  /// SystemError (ffmpeg cannot be started, or the folder is not writable).
   Result<void> start(const VideoOptions& options);
   bool isWriting() const { return m_process.state() != QProcess::NotRunning; }
-  /// A picture is welcome now: little waits to be encoded.
+  /// Returns whether a picture can be added now because few are waiting to be encoded.
   bool ready() const;
-  /// Copies it; one of another size is scaled. Pictures that come while nothing is written are
-  /// ignored.
+  /// Adds a copy of the picture, scaled if it has another size. Ignored if no video is being
+  /// written.
   void add(const QImage& picture);
-  /// That was the last picture; finished() or failed() follows.
+  /// Call it after the last picture; finished() or failed() follows.
   void finish();
-  /// Ends at once and removes what was written. No signal follows.
+  /// Stops immediately and removes what was written. No signal follows.
   void cancel();
 
   qint64 pictures() const { return m_pictures; }  ///< added so far
-  QSize size() const { return m_size; }           ///< of the video
+  QSize size() const { return m_size; }
 
  signals:
   /// ready() has become true.

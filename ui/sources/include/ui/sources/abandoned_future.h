@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a match had played beyond the moment that it goes on from: a second, pale branch of timeline
-// and plots, which can be drawn over the field or dropped. There is one at most; the next
-// MatchMemory::continueFrom() replaces it, another match or too little memory ends it. UI thread
-// only; times are those of the match.
+// The abandoned future: what a match had already played after the moment from which the user let it
+// continue. Timeline and plots show it as a second branch, which can be compared on the field or
+// dropped. There is at most one; the next MatchMemory::continueFrom() replaces it, and another
+// match or lack of memory removes it. UI thread only; times are those of the match.
 
 #include <QObject>
 #include <memory>
@@ -23,17 +23,17 @@ class AbandonedFuture : public QObject {
   AbandonedFuture(MatchController* match, SourceSwitch* source, Timeline* timeline,
                   QObject* parent);
 
-  /// There is one, and its match is shown.
+  /// Returns whether there is one and its match is shown.
   bool isOn() const;
-  /// Where the match left it, and how far it goes, s.
+  // The time from which the match continued, and the end of the abandoned future, s.
   double begin() const { return m_left.from; }
   double end() const { return m_end; }
-  /// Whether it is drawn over the field, too.
+  /// Returns whether it is also drawn on the field.
   bool isCompared() const { return m_compared; }
   void setCompared(bool on);
   void drop();
 
-  /// Null while it is not on; before begin() the rows are those of the match.
+  /// Returns its rows, which before begin() are those of the match; null if it is not on.
   std::shared_ptr<const telemetry::SeriesStore> series() const;
   const EventList& events() const { return *m_events; }
   /// "abandoned at 04:48"
@@ -41,9 +41,9 @@ class AbandonedFuture : public QObject {
 
  signals:
   void changed();
-  /// The match has just left it.
+  /// There is a new abandoned future.
   void began();
-  /// Its moment at the time that is shown; null: none.
+  /// The frame at the time that is shown; null if there is none.
   void momentReached(const pitchboard::ui::FramePtr& frame);
 
  private:

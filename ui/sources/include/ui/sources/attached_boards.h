@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The blackboards of this computer that a person attached: one list for every source, kept in the
-// settings. Live shows them as robots, and a simulated match has their variables beside those of
-// its robots; they are only read. The list is LiveOptions::boards. UI thread only.
+// The blackboards of this computer that the user has attached. All sources share the list, which is
+// kept in the settings and is also LiveOptions::boards. Live shows the blackboards as robots; a
+// simulated match shows their variables beside those of its own robots. They are only read. UI
+// thread only.
 
 #include <QObject>
 #include <QTimer>
@@ -22,17 +23,18 @@ class SourceSwitch;
 
 class AttachedBoards : public QObject {
  public:
-  /// All of them outlive this; without `settings` nothing is kept.
+  /// All arguments must outlive this object; `settings` may be null.
   AttachedBoards(MatchController* match, LiveController* live, SourceSwitch* source,
                  QSettings* settings, QObject* parent = nullptr);
   ~AttachedBoards() override;
 
   const std::vector<link::AttachedBoard>& list() const;
-  /// Adds it, in place of an attached one with its key. Fails where it is not valid, which changes
-  /// nothing, and where its segment cannot be read now: then it is attached once it can be.
+  /// Attaches a blackboard, replacing one with the same key. Fails without a change if it is not
+  /// valid. Also fails if its segment cannot be read now, but then attaches it as soon as it can
+  /// be.
   Result<void> attach(const link::AttachedBoard& board);
   void detach(int key);
-  /// Of every board in the list, in the source that is shown.
+  /// Returns the status of each blackboard in the list, in the source that is shown.
   std::vector<link::AttachedStatus> status() const;
 
  private:

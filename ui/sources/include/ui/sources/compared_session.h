@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A second session beside the one that is shown, whatever that is: its moments are for drawing over
-// the field, its events stand in the timeline's second row, its curves in the same plots. Both are
-// aligned by their times (live ones by their beginnings: each watch has a second 0 of its own), by
-// an event chosen in each, or by hand. UI thread only; the file is read on threads of its own.
+// A second session that is compared with the source that is shown: its robots are drawn on the
+// field, its events in the second row of the timeline, its curves in the same plots. The two can be
+// aligned by time (live recordings by their beginnings, because second 0 is arbitrary there), by an
+// event chosen in each, or manually. UI thread only; the file is read on other threads.
 
 #include <QObject>
 #include <optional>
@@ -22,39 +22,40 @@ class ComparedSession : public QObject {
  public:
   ComparedSession(Timeline* timeline, QObject* parent);
 
-  /// Returns at once; changed() or failed() follows. On failure what was compared stays.
+  /// Opens a file; returns immediately. changed() or failed() follows; after a failure the previous
+  /// session is still compared.
   void open(const QString& path);
   void stop();
   bool isOn() const { return m_file.isOpen(); }
   QString path() const { return m_file.path(); }
   void setMemoryBudget(std::size_t bytes) { m_file.setMemoryBudget(bytes); }
 
-  /// Its events; null while nothing is compared.
+  /// Null while no session is compared.
   const EventList* events() const;
-  /// Its rows, at its own times; null while nothing is compared.
+  /// The rows with the times of the compared session; null while there is none.
   std::shared_ptr<const telemetry::SeriesStore> series() const { return m_file.series(); }
-  /// Its second 0 on the timeline of what is shown, s.
+  /// Time of its second 0 on the timeline of the source that is shown, s.
   double offset() const { return m_offset; }
   void setOffset(double seconds);
-  /// Chooses an event of what is shown (`here`, s) or of the compared session (`there`, s of its
-  /// own). When both are chosen they stand at one moment.
+  // Choose an event of the source that is shown (`here`, s) and one of the compared session
+  // (`there`, s of that session). Once both are chosen, they are aligned.
   void alignHere(double here);
   void alignThere(double there);
   std::optional<double> here() const { return m_here; }
   std::optional<double> there() const { return m_there; }
-  /// Second 0 of both at one moment again; of live sessions the beginnings.
+  /// Aligns second 0 of both, or the beginnings of live recordings.
   void alignByTime();
   bool isAlignedByTime() const { return m_offset == offsetByTime(); }
   /// "match.mcap · +3.20 s"
   QString caption() const;
 
  signals:
-  /// On, off, or aligned in another way.
+  /// A session was opened, closed or aligned.
   void changed();
-  /// There are more rows in series().
+  /// series() has more rows.
   void rowsCame();
   void failed(const QString& sentence);
-  /// Its moment that belongs to what is shown; null: none.
+  /// The frame that belongs to the moment shown; null if there is none.
   void momentReached(const pitchboard::ui::FramePtr& frame);
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A change by hand that can be undone, of the match or of the plots: the one kind of undo command.
-// UI thread only.
+// A change by the user that can be undone, in the match or in the plots. All undo commands are of
+// this kind. UI thread only.
 
 #include <QElapsedTimer>
 #include <QString>
@@ -13,12 +13,11 @@
 namespace pitchboard::ui {
 
 struct Edit {
-  QString text;  ///< what the undo menu calls it
+  QString text;  ///< name in the undo menu
   std::function<void()> redo, undo;
-  /// An edit with the same key within a second continues the one before it, and both are undone
-  /// together. Empty: it stands alone.
+  /// Edits with the same key within a second become one undo step. Empty: never merged.
   QString mergeKey = {};
-  bool done = false;  ///< it has happened already: it is not done when it is pushed
+  bool done = false;  ///< already carried out: pushing it does not call `redo`
 };
 
 class EditCommand : public QUndoCommand {

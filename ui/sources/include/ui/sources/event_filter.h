@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which events a person wants to see on the timeline and to step through: kinds that are left out,
-// and robots to whom the events of robots are limited. A plain value; any thread.
+// Filters the events that the timeline shows and steps through, by kind and by robot. A plain
+// value; any thread.
 
 #include <set>
 #include <string>
@@ -13,9 +13,9 @@ namespace pitchboard::ui {
 
 struct EventFilter {
   std::set<link::MatchEventKind> hidden;
-  std::set<std::string> robots;  ///< "B1"; empty: all. Events of no robot are always shown
+  std::set<std::string> robots;  ///< names; empty: all. Does not affect events without a robot
 
-  /// Has a mark, and nobody left it out.
+  /// Returns whether the event has a mark and passes the filter.
   bool shows(const link::MatchEvent& event) const {
     return link::isMarked(event) && !hidden.contains(event.kind) &&
            (robots.empty() || event.name.empty() || robots.contains(event.name));

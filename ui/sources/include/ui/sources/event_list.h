@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Events of one source in order of time, for the timeline and for tables. Bounded: the oldest
-// leave first, bookmarks last of all. UI thread only.
+// The events of a source in order of time, for the timeline and for tables. If there are too many,
+// the oldest are dropped, bookmarks last. UI thread only.
 
 #include <QAbstractTableModel>
 #include <QDateTime>
@@ -25,31 +25,32 @@ class EventList : public QAbstractTableModel {
   static constexpr int maxNote = 200;  ///< characters
 
   explicit EventList(QObject* parent = nullptr, std::size_t most = maxEvents);
-  /// Asked when a time is written: the time of day at second 0, if times are written so.
+  /// `clock` returns the time of day at second 0, or nothing if times are shown in seconds.
   void setClock(std::function<std::optional<QDateTime>()> clock);
-  /// The clock gives something else now.
+  /// Call it when the result of `clock` has changed.
   void writeTimesAnew();
 
-  /// In its place by time, behind those of the same time. Returns its row. A time that is not
-  /// finite is not taken: -1. Nor is an Undone: the events before that it takes back leave.
+  /// Inserts the event by time, after those of equal time, and returns its row. Returns -1 for a
+  /// time that is not finite, and for an Undone event, which removes the events that it undoes.
   int add(link::MatchEvent event);
-  /// The same for many, with one reset of the model when they are not simply later ones.
+  /// Adds many events. Resets the model once if they are not all later than those in the list.
   void add(std::vector<link::MatchEvent> events);
-  /// The source was put back: what came after this time has not happened.
+  /// Removes all events after this time, because the source continues from there.
   void rewind(double time);
   void clear();
   void removeEvent(int row);
-  /// Only a bookmark has a note of one's own; others are left alone.
+  /// Sets the note of a bookmark; does nothing for other events.
   void setNote(int row, const QString& note);
 
   const std::deque<link::MatchEvent>& events() const { return m_events; }
   const link::MatchEvent& event(int row) const { return m_events[static_cast<std::size_t>(row)]; }
-  /// Row of the first event after / last event before this time, of those that the filter shows.
+  // Return the row of the first event after, or the last event before, this time that passes the
+  // filter.
   std::optional<int> next(double time, const EventFilter& filter = {}) const;
   std::optional<int> previous(double time, const EventFilter& filter = {}) const;
-  /// Events that had to leave.
+  /// Returns the number of events dropped because there were too many.
   std::size_t dropped() const { return m_dropped; }
-  /// Grows with every change, for whoever caches what it draws.
+  /// Increases with every change, for caches.
   std::uint64_t revision() const { return m_revision; }
 
   int rowCount(const QModelIndex& parent = {}) const override;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Pictures of the field for files and documents, without a window round it. The field makes them;
-// whoever exports knows no more of it than this. UI thread only.
+// Makes pictures of the field for files and documents. The field implements it, so that exporting
+// does not depend on the field. UI thread only.
 
 #include <QByteArray>
 #include <QImage>
@@ -25,22 +25,22 @@ class FramePainter {
 class FieldPictures {
  public:
   virtual ~FieldPictures() = default;
-  /// The largest picture within `size` pixels that the field fills; both sides are even.
+  /// Returns the largest size within `within` (pixels) with the proportions of the field; width and
+  /// height are even.
   virtual QSize pictureSize(QSize within) const = 0;
-  /// The field as it is shown now, as large as it fits into `size` pixels, with score, match clock
-  /// and state.
+  /// Returns the field as it is shown now, fitted into `size` pixels, with score, clock and state.
   virtual QImage picture(QSize size) const = 0;
-  /// The same as an SVG document, whose user unit is one pixel. Empty when it cannot be made.
+  /// Returns the same as an SVG document whose user unit is a pixel; empty on failure.
   virtual QByteArray svgPicture(QSize size) const = 0;
-  /// The bytes of a file whose name ends so ("png", "svg"): a picture within these pixels that the
-  /// field fills. Empty when it cannot be made.
+  /// Returns a picture with pictureSize() as the bytes of a file with this suffix ("png", "svg");
+  /// empty on failure.
   QByteArray pictureFile(QSize within, const QString& suffix) const {
     const QSize size = pictureSize(within);
     return suffix.toLower() == QLatin1String("svg")
                ? svgPicture(size)
                : pictureBytes(picture(size), suffix.toLatin1().constData());
   }
-  /// Paints other moments, with the side and the layers that are shown now; may outlive this.
+  /// Returns a painter for other moments, with the current side and layers. It may outlive this.
   virtual std::unique_ptr<FramePainter> framePainter() const = 0;
 };
 

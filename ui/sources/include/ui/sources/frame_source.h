@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where frames and rows come from: a simulated match, live robots, a recorded session. Field,
-// cards, inspector, plots and timeline take them from here and do not know which kind it is. UI
-// thread only.
+// A source of frames and rows: a simulated match, live robots, or a recorded session. Field, cards,
+// variables, plots and timeline use this interface and do not know the kind of source. UI thread
+// only.
 
 #include <QDateTime>
 #include <QObject>
@@ -33,34 +33,34 @@ class FrameSource : public QObject {
   using QObject::QObject;
 
   virtual SourceKind kind() const = 0;
-  /// The newest frame; null while there is none.
+  /// Returns the newest frame; null while there is none.
   virtual FramePtr frame() const = 0;
-  /// Rows of everything that the source knows; null while there is nothing. Another object after
+  /// Returns the rows of all variables; null while there are none. It is another object after
   /// `restarted`.
   virtual std::shared_ptr<const telemetry::SeriesStore> series() const = 0;
-  /// What to say in place of robots while there are none: a sentence or two.
+  /// Returns the text that is shown while there are no robots: a sentence or two.
   virtual QString emptyText() const = 0;
-  /// The moment at or before this time (s), from what the source remembers; null when it does not.
+  /// Returns the frame at or before this time (s); null if the source does not have it in memory.
   virtual FramePtr frameAt(double /*time*/) const { return nullptr; }
-  /// Time of day at second 0, where the source has one.
+  /// Returns the time of day at second 0; empty if unknown.
   virtual std::optional<QDateTime> clock() const { return {}; }
-  /// What moves in a recording; null for a source that goes on by itself.
+  /// Returns the playback of a recording; null if the source advances by itself.
   virtual Playback* playback() const { return nullptr; }
 
  signals:
   void frameReceived(const pitchboard::ui::FramePtr& frame);
-  /// From the next frame on these robots have other keys; what is known of them goes on.
+  /// These robots have other keys from the next frame on.
   void robotsRenamed(const std::vector<pitchboard::Renaming>& renamings);
   void eventsReceived(const std::vector<pitchboard::link::MatchEvent>& events);
   void logReceived(const std::vector<pitchboard::LogLine>& lines);
-  /// What a recording holds of events, once for each recording.
+  /// All events of a recording, once for each recording.
   void eventsRecorded(const std::vector<pitchboard::link::MatchEvent>& events);
-  /// Another match or session, or none: what was remembered of the old one is void.
+  /// There is another match or session, or none. Receivers forget what they kept of the old one.
   void restarted();
-  /// Rows of a recording that were asked for are in memory now: the same range looks different.
+  /// More rows of a recording are in memory, so that a range may look different.
   void rowsCame();
-  /// The source goes on from this moment (s) of its past. Its rows later than that are gone, and
-  /// whatever else was remembered of later times must go as well: it has not happened.
+  /// The source continues from this earlier time (s). It has dropped its later rows; receivers drop
+  /// whatever else they kept of later times.
   void rewound(double time);
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The time that plots and timeline show together: the visible range, whether it follows the newest
-// data or the moment shown, that moment, the one under the cursor, and the A and B marks. Seconds
-// of the source. UI thread only.
+// The time axis that plots and timeline share: the visible range, whether it follows the newest
+// data, the moment shown, the time under the cursor, and the marks A and B. Seconds of the source.
+// UI thread only.
 
 #include <QObject>
 #include <array>
@@ -19,9 +19,9 @@ using TimeMarks = std::array<std::optional<double>, 2>;  ///< s; A, B
 class LinkedTime : public QObject {
   Q_OBJECT
  public:
-  static constexpr double minimumSpan = 1e-3;    ///< s; less cannot be told apart on an axis
+  static constexpr double minimumSpan = 1e-3;    ///< s, the shortest visible range
   static constexpr double defaultWindow = 15.0;  ///< s
-  /// s; of robots that send less often than a match has ticks, and of what was recorded.
+  /// s; the default in Live, where robots send rarely, and in Replay.
   static constexpr double longWindow = 60.0;
   /// Windows offered for following, s.
   static constexpr std::array<double, 7> windows{5, 15, 30, 60, 120, 300, 600};
@@ -30,35 +30,35 @@ class LinkedTime : public QObject {
 
   telemetry::TimeRange range() const { return m_range; }
   double span() const { return m_range.end - m_range.begin; }
-  /// Shows exactly this; ends following. An empty or infinite range is not taken.
+  /// Shows exactly this range and stops following. Ignores an empty or infinite range.
   void setRange(telemetry::TimeRange range);
 
   bool isFollowing() const { return m_following; }
   void setFollowing(bool on);
   double window() const { return m_window; }
-  /// Seconds shown while following.
+  /// Sets the length of the range while following.
   void setWindow(double seconds);
 
-  /// What there is at all; nothing while there are no rows. Moves the range when following.
+  /// Sets the range of existing data; empty while there are none. Moves the visible range while
+  /// following.
   void setData(std::optional<telemetry::TimeRange> data);
   std::optional<telemetry::TimeRange> data() const { return m_data; }
-  /// The source goes on from this earlier moment. Marks behind it go, and a range that shows
-  /// nothing before it follows the source again.
+  /// Called when the source continues from this earlier time. Removes later marks, and follows the
+  /// source again if the visible range is entirely later.
   void rewind(double time);
 
-  /// The moment that field and cards show when it is not the newest one: while looking back, and in
-  /// a recording. The visible range keeps it in sight as long as it follows, and as long as it was
-  /// in sight. Nothing: the newest is shown.
+  /// Sets the moment that field and cards show while looking back or in a recording; empty: they
+  /// show the newest one. If the range follows, or the moment was visible, it stays visible.
   void setMoment(std::optional<double> time);
   std::optional<double> moment() const { return m_moment; }
-  /// Where the line of the moment shown stands; nothing while there are no rows.
+  /// Returns the position of the playhead; empty while there are no rows.
   std::optional<double> playhead() const;
-  /// Where values are read: under the pointer, else at the moment shown, which is the newest one
-  /// while the source goes on. Nothing while there are no rows.
+  /// Returns the time at which values are read: under the cursor, otherwise at the playhead; empty
+  /// while there are no rows.
   std::optional<double> readAt() const { return m_cursor ? m_cursor : playhead(); }
 
-  /// Zooms by `factor` (< 1: closer) so that `anchor` stays where it is. While the newest moment is
-  /// followed it stays at the right edge and the window changes.
+  /// Zooms by `factor` (below 1: in) around `anchor`. While following the newest moment, it stays
+  /// at the right edge and the window changes instead.
   void zoom(double factor, double anchor);
   void pan(double seconds);
   void fitAll();
@@ -70,12 +70,12 @@ class LinkedTime : public QObject {
   const TimeMarks& marks() const { return m_marks; }
   void setMarks(const TimeMarks& marks);
   bool hasMarks() const { return m_marks[0] && m_marks[1]; }
-  /// Puts A and B into the visible range, or takes both away.
+  /// Puts A and B into the visible range, or removes both.
   void showMarks(bool on);
 
-  /// Asks whoever can (timeline, field) to show the field as it was at this time.
+  /// Requests that the moment at this time is shown everywhere.
   void requestMoment(double time) { emit momentRequested(time); }
-  /// The same for the newest moment of a source that goes on.
+  /// Requests that the newest moment is shown.
   void requestNow() { emit nowRequested(); }
 
  signals:
@@ -84,7 +84,7 @@ class LinkedTime : public QObject {
   void windowChanged(double seconds);
   void cursorChanged();
   void marksChanged();
-  /// Somebody moved them; before they were there.
+  /// The user moved the marks; `before` are their old positions.
   void marksMoved(const pitchboard::ui::TimeMarks& before);
   void momentChanged();
   void momentRequested(double time);

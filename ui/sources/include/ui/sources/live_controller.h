@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The studio's hold on the live match: owns the watch (which receives and decodes on threads of its
-// own) and hands its frames, events and log lines on as values. It runs from start() on, also while
-// another source is shown. It sends nothing but the monitor request, when that is turned on. UI
-// thread only.
+// The live match as a source. It owns the LiveWatch, which receives and decodes on its own threads,
+// and passes on its frames, events and log entries. After start() it runs even while another source
+// is shown. It sends nothing, except the monitor request if that is turned on. UI thread only.
 
 #include <memory>
 
@@ -24,42 +23,42 @@ class LiveController : public FrameSource {
   explicit LiveController(QObject* parent = nullptr);
   ~LiveController() override;
 
-  /// Begins to listen; does nothing when it already does.
+  /// Starts to listen; does nothing if it already listens.
   void start();
-  /// Forgets everything and listens no more.
+  /// Stops listening and forgets everything.
   void stop();
   bool isListening() const { return m_watch != nullptr; }
 
   const link::LiveOptions& options() const { return m_options; }
-  /// Takes effect at once; robots and counters stay. Options that are not valid are refused with
-  /// `errorOccurred`, and the old ones stay.
+  /// Takes effect immediately; robots and counters are kept. If the options are not valid, emits
+  /// `errorOccurred` and keeps the old ones.
   void setOptions(const link::LiveOptions& options);
-  /// The referee's number of our team; 0: none.
+  /// Sets our team by its number at the referee; 0: none.
   void setOurTeam(int number);
-  /// Asks this referee for monitor mode, or nobody any more.
+  /// Requests monitor mode from this referee; empty: from nobody.
   void setMonitor(std::optional<telemetry::Address> referee);
-  /// Bytes that rows may take; the oldest leave first.
+  /// Limits the memory for rows, in bytes; the oldest are dropped first.
   void setMemoryBudget(std::size_t bytes);
-  /// Forgets robots, referee and counters, and goes on listening.
+  /// Forgets robots, referee and counters, and continues to listen.
   void clear();
-  /// Forgets one robot, or one of two programs that send its number; its curves stay.
+  /// Forgets a robot, or one of two programs that send the same number. Its curves are kept.
   void forget(const RobotKey& robot);
 
   SourceKind kind() const override { return SourceKind::Live; }
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override { return m_series; }
   QString emptyText() const override;
-  /// Made again from the datagrams that are kept.
+  /// Rebuilds the frame from the datagrams in memory.
   FramePtr frameAt(double time) const override;
-  /// Null while nothing is listened to.
+  /// Null while it does not listen.
   std::shared_ptr<const link::LiveMemory> memory() const { return m_memory; }
-  /// The time of day at 0 s, to the nanosecond.
+  /// Returns the time of day at 0 s, in nanoseconds.
   telemetry::WallTime began() const;
   std::optional<QDateTime> clock() const override;
 
-  /// Ports, senders, errors: copied from the watch, so not for every frame.
+  /// Returns ports, senders and errors. They are copied, so do not call it for every frame.
   link::LiveDetails details() const;
-  /// "UDP 1241–1256".
+  /// Returns text such as "UDP 1241–1256".
   QString portsText() const;
   void observe(std::shared_ptr<link::LiveObserver> observer);
   void stopObserving(const std::shared_ptr<link::LiveObserver>& observer);

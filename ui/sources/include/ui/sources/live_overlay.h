@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The simulated and the live match side by side: while it is on, it also tells where the other of
-// the two sees each robot. UI thread only.
+// Shows the simulated and the live match together: while it is on, it provides the frames of the
+// one that is not shown. UI thread only.
 
 #include <QObject>
 
@@ -20,14 +20,14 @@ class LiveOverlay : public QObject {
   LiveOverlay(MatchController* controller, LiveController* live, SourceSwitch* shown,
               QObject* parent);
   bool isOn() const { return m_on; }
-  /// Live begins to listen.
+  /// Turning it on also starts Live.
   void setOn(bool on);
-  /// The other source's newest frame; null while it is off or there is no other.
+  /// Returns the newest frame of the other source; null while the overlay is off.
   FramePtr other() const;
 
  signals:
   void switched(bool on);
-  /// other(), whenever that may be another one.
+  /// other() may have changed.
   void otherReceived(const pitchboard::ui::FramePtr& frame);
 
  private:

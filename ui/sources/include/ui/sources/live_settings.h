@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Live's options in the user's settings. What cannot be read is left at its default.
+// Loads and saves the options of Live in the user's settings. Options that cannot be read keep
+// their defaults. Any thread, one at a time for the same settings.
 
 #include <QString>
 
@@ -14,18 +15,18 @@ namespace pitchboard::ui {
 struct LiveSettings {
   link::LiveOptions options;
   QString profileFile;     ///< empty: the published profile
-  QString senders;         ///< as typed: addresses and networks, separated by commas or blanks
-  QString refereeSenders;  ///< the same, of the referee
-  QString monitorAddress;  ///< whom to ask; monitor mode itself is off at every start
-  QString problem;         ///< why something could not be taken; a sentence
+  QString senders;         ///< addresses and networks as typed, separated by commas or spaces
+  QString refereeSenders;  ///< the same for the referee
+  QString monitorAddress;  ///< referee to ask; monitor mode itself is off at each start
+  QString problem;         ///< why an option could not be read, as a sentence; empty: no problem
 };
 
 LiveSettings loadLiveSettings(const QSettings& settings);
 void saveLiveSettings(QSettings& settings, const LiveSettings& live);
-/// Of the settings only the robots that are this computer.
+/// Saves only the attached blackboards.
 void saveAttachedBoards(QSettings& settings, const std::vector<link::AttachedBoard>& boards);
 
-/// Of the settings only the maps of variables that robots send.
+/// Saves only the catalogs of variables that robots send.
 void saveCatalogs(QSettings& settings, const std::vector<std::string>& files);
 
 /// Reads "192.168.0.7, 192.168.1.0/24". Error InvalidArgument names the part that is wrong.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The studio's hold on the match being simulated: opens and ends it, plays, pauses and steps it,
-// takes what is new in the next beat of the display, and hands frames, events and log lines to
-// docks and field as values. What is done to it by hand is MatchEdits, what is kept of it
-// MatchMemory; both end with it. UI thread only. Matches are made and ended on a worker thread;
-// only currentMoment() and stateHash() wait, for the tick in progress.
+// The simulated match as a source. It opens and closes matches, plays, pauses and steps them, and
+// passes on frames, events and log entries in the next beat of the display. Edits by the user are
+// in MatchEdits, the recorded past in MatchMemory; the controller owns both. UI thread only.
+// Matches are started and ended on a worker thread; no function blocks, except where it says that
+// it waits for the tick in progress.
 
 #include <QObject>
 #include <QString>
@@ -29,19 +29,19 @@ class MatchEdits;
 class MatchMemory;
 struct RetiredMatch;
 
-/// What is carried out on the match's thread between two ticks, and what follows from it in the
-/// window, unless another match was opened meanwhile.
+/// An order that is carried out on the match's thread between two ticks. The other two functions
+/// are called on the UI thread afterwards, unless another match has been opened.
 struct MatchOrder {
-  QString whatFailed;  ///< stands before the reason in errorOccurred
+  QString whatFailed;  ///< first part of the message in errorOccurred; the reason follows
   std::function<Result<void>(link::SimulatedMatch&)> carryOut;
   std::function<void()> onFailure = {};
   std::function<void()> onSuccess = {};
-  link::Changed changes = link::Changed::Yes;  ///< when it is carried out
+  link::Changed changes = link::Changed::Yes;  ///< whether a success changes the match
 };
 
 enum class Trouble {
-  Refused,  ///< something was asked for and not done; over with the next thing that is done
-  Lasting   ///< the match plays otherwise than asked for, or not at all
+  Refused,  ///< a request failed; the notice disappears with the next successful one
+  Lasting   ///< the match does not play as requested, or not at all
 };
 
 class MatchController : public FrameSource {
@@ -53,108 +53,106 @@ class MatchController : public FrameSource {
   MatchEdits* edits() const { return m_edits; }
   MatchMemory* memory() const { return m_memory; }
 
-  /// Ends the running match and starts this one, both on a worker thread: returns at once. Until
-  /// `opened` there is no frame and isOpening() holds; orders given meanwhile reach the new match,
-  /// edits that can be undone are ignored. Opening again supersedes what was not started yet.
-  /// On failure the old match is gone and whyNotOpened() tells why. When separate processes cannot
-  /// be had (a key is in use), the match plays with inline processes on heap blackboards and
+  /// Ends the running match and starts this one on a worker thread; returns immediately. Until
+  /// `opened` is emitted, isOpening() is true and there is no frame; orders reach the new match,
+  /// and edits that can be undone are ignored. Calling open() again replaces a match that has not
+  /// been started yet. After a failure there is no match, and whyNotOpened() returns the reason. If
+  /// separate processes are not possible (a key is in use), processes run inside the studio, and
   /// `errorOccurred` says so.
   void open(const link::Scenario& scenario, bool paused = false);
-  /// The same, for MatchEdits::replaceMatch(): returns the match that was played, as it is now.
-  /// `between` runs on the worker thread when the old match is gone and the new one is not made
-  /// yet. Waits for the tick in progress.
+  /// The same for MatchEdits::replaceMatch(): returns the previous match as it is now. `between`
+  /// runs on the worker thread after the old match has ended and before the new one is made. Waits
+  /// for the tick in progress.
   std::shared_ptr<RetiredMatch> replace(const link::Scenario& scenario, bool paused,
                                         std::function<void()> between = {});
-  /// The match goes on where replace() took it, with its rows and events, as long as it is the one
-  /// that was replaced last. Returns the match that was played until now.
+  /// Continues a match that replace() returned. It has its rows and events if it was the last one
+  /// replaced. Returns the match that was played until now.
   std::shared_ptr<RetiredMatch> bringBack(const std::shared_ptr<RetiredMatch>& retired);
-  /// Ends the match; its processes and blackboards go, on the worker thread. restart() plays it
-  /// again.
+  /// Ends the match, its processes and blackboards on the worker thread. restart() plays it again.
   void close();
   bool isOpen() const { return m_runner != nullptr; }
   bool isOpening() const { return m_opening; }
-  /// What this match was opened with.
+  /// Returns the scenario with which the match was opened.
   const link::Scenario& scenario() const { return m_scenario; }
-  /// What restart() plays: the scenario from its beginning, with the physics model chosen since.
+  /// Returns the scenario that restart() plays: from the beginning, with the current physics model.
   link::Scenario beginning() const;
   SourceKind kind() const override { return SourceKind::Simulate; }
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override;
   QString emptyText() const override;
-  /// Why the match that was asked for last could not be made; empty while there is one.
+  /// Returns why the last match could not be started; empty while there is a match.
   const QString& whyNotOpened() const { return m_whyNotOpened; }
   FramePtr frameAt(double time) const override;
-  /// Where the robots' processes run: as asked for, or Inline when that was not possible.
+  /// Returns where the robots' processes run: as requested, or Inline if that was not possible.
   link::Cognition cognition() const { return m_cognition; }
-  /// What the next match is made with.
+  /// Returns the options of the next match.
   const link::MatchOptions& options() const { return m_options; }
-  /// For the next match: where the robots' processes run, and its number on this computer (nothing:
-  /// the next free one).
+  // For the next match: where the robots' processes run, and its number on this computer (empty:
+  // the next free one).
   void setCognition(link::Cognition where) { m_options.cognition = where; }
   void setMatchNumber(std::optional<int> number) { m_options.match = number; }
-  /// Names of the blackboards' words, for the next match on; the published ones at first.
+  /// Sets the catalog of the blackboards from the next match on; the default is the published one.
   void setCatalog(std::shared_ptr<const link::VariableCatalog> catalog);
   const link::VariableCatalog& nextCatalog() const { return *m_nextCatalog; }
-  /// Those of the match that is open or being opened.
+  /// Returns the catalog of the match that is open or being opened.
   const link::VariableCatalog& catalog() const { return *m_catalog; }
 
   // Transport.
   void setPaused(bool paused);
   void stepOnce();
-  /// Plays at full speed up to this tick of the match, then pauses; for repeatable pictures.
+  /// Plays as fast as possible up to this tick, then pauses; for repeatable pictures.
   void runTo(std::uint64_t tick);
-  /// Plays at full speed until the ball may be kicked off next, or an event that the filter shows,
-  /// for 20 minutes of the match at most; then it goes on as before.
+  // Play as fast as possible until the next kick-off, or the next event that passes the filter, for
+  // at most 20 minutes of the match; then continue as before.
   void skipToKickOff();
   void skipToEvent(const EventFilter& shown);
-  /// link::MatchRunner::unlimitedSpeed = maximum. Not at once if a program keeps real time because
-  /// its profile asks for it, and the speed is not ×1: then `askedForSpeed` follows, and
-  /// answerSpeed().
+  /// link::MatchRunner::unlimitedSpeed means as fast as possible. If a program's profile asks for
+  /// real time and the speed is not ×1, emits `askedForSpeed` instead and waits for answerSpeed().
   void setSpeed(double timesRealTime);
-  /// What becomes of programs that keep real time at another speed than ×1.
+  /// What to do with programs that use real time when the speed is not ×1.
   enum class RealTimePrograms { RestartWithMatchTime, LeaveBehind };
   void answerSpeed(double timesRealTime, RealTimePrograms what);
   double speed() const { return m_speed; }
-  /// How separate reference processes keep time at ×1, from now on and in later matches.
+  /// Sets how separate reference processes keep time at ×1, now and in later matches.
   void setPace(link::RobotsPace pace);
   link::RobotsPace pace() const { return m_options.pace; }
-  /// Whether the match slows down to what a team's own programs manage.
+  /// Sets whether the match slows down for team programs that cannot keep up.
   void setWaitForTeamPrograms(bool on);
   bool waitsForTeamPrograms() const { return m_options.waitForTeamPrograms; }
   bool isPaused() const { return m_paused; }
-  /// Plays beginning(), which can be undone. Refused as an edit is (MatchEdits::allowsChange()).
-  /// `between`: see replace().
+  /// Plays beginning(), which can be undone. Does nothing if MatchEdits::allowsChange() is false.
+  /// See replace() for `between`.
   void restart(std::function<void()> between = {});
 
-  // Orders to the match, or to the one that is being opened. A change by hand goes through
-  // MatchEdits::order() instead, which refuses it while the past is shown.
+  // Orders to the match, or to the one that is being opened. For changes by the user, call
+  // MatchEdits::order() instead, which refuses them while the past is shown.
   void post(link::MatchRunner::Command command);
-  /// A failure is told by errorOccurred, after `onFailure` has run.
+  /// After a failure, calls `onFailure` and emits errorOccurred.
   void post(MatchOrder order);
-  /// Sees every tick from now on, until stopObserving() or `ending`. False: there is no match.
+  /// Adds an observer of all ticks until stopObserving() or `ending`. Returns false without a
+  /// match.
   bool observe(std::shared_ptr<link::TickObserver> observer);
   /// Waits for the tick in progress.
   void stopObserving(const std::shared_ptr<link::TickObserver>& observer);
 
-  /// The present moment as a scenario, for saving. Waits for the tick in progress.
+  /// Returns the current moment as a scenario. Waits for the tick in progress.
   link::Scenario currentMoment();
-  /// Waits for the tick in progress and passes on its frame, events and log lines: a match that is
-  /// paused then has nothing more to tell.
+  /// Waits for the tick in progress and passes on its frame, events and log entries.
   void settle();
-  /// Hash of the simulation's state at the present tick. Waits for the tick in progress.
+  /// Returns the hash of the simulation's state. Waits for the tick in progress.
   std::uint64_t stateHash();
 
  signals:
-  void ending();  ///< the match goes now: its observers see it for the last time
-  /// It may come back: whoever keeps something of it adds it. Before `ending`.
+  void ending();  ///< the match is about to end; last chance for its observers
+  /// Emitted before `ending` if the match may come back. Receivers add what they keep of it.
   void retiring(pitchboard::ui::RetiredMatch& match);
   void scenarioChanged();   ///< another match is being opened, or none; `restarted` follows
-  void opened();            ///< it is there, or failed
+  void opened();            ///< the match has been started, or could not be
   void transportChanged();  ///< paused, speed, or whether there is a match
-  /// These programs keep real time: they cannot go at this speed as they are.
+  /// These programs use real time and cannot follow this speed; see answerSpeed().
   void askedForSpeed(const QStringList& programs, double timesRealTime);
   void errorOccurred(const QString& sentence, pitchboard::ui::Trouble trouble = Trouble::Lasting);
-  void obeyed();  ///< an order was carried out, the first one after a refusal
+  void obeyed();  ///< an order succeeded, the first one after a failure
 
  private:
   struct Opening;  ///< what the worker made

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Everything that is done by hand to the match being simulated: robots and ball are placed, added,
-// removed, get another behaviour, number or model, the match gets another physics or noise, or is
-// replaced, all of which can be undone; processes and words of the blackboards, which cannot.
-// It is the one gate for all changes by hand: whoever has a change of its own (the referee)
-// performs or orders it here, and nothing passes while the past is shown. Belongs to the
-// MatchController and ends with it. UI thread only; what is ordered is carried out on the match's
-// thread between two ticks.
+// All changes that the user makes to the simulated match. Those to robots, ball, physics and noise,
+// and replacing the match, can be undone; those to processes and blackboard variables cannot. Every
+// change by the user, including referee calls, goes through this class, because it refuses changes
+// while the past is shown. Owned by MatchController. UI thread only; changes are carried out on the
+// match's thread between two ticks.
 
 #include <QObject>
 #include <QString>
@@ -25,15 +23,15 @@ class QUndoStack;
 
 namespace pitchboard::ui {
 
-/// A robot and where it is to stand; for moving several at once.
+/// A new pose for a robot.
 struct RobotPlacement {
   RobotId id;
   Pose from;
   Pose to;
 };
 
-/// A part of an order that can be undone; both on the match's thread. `undo` follows only a `redo`
-/// that succeeded.
+/// A part of an order that can be undone. Both functions run on the match's thread; `undo` is
+/// called only after a successful `redo`.
 struct EditStep {
   std::function<Result<void>(link::SimulatedMatch&)> redo, undo;
 };
@@ -44,85 +42,80 @@ class MatchEdits : public QObject {
   explicit MatchEdits(MatchController* match);
 
   QUndoStack* undoStack() const { return m_undoStack; }
-  /// A robot as this match knows it (identity and behaviour; the pose is that of its entry).
+  /// Returns a robot of the match with its identity and behaviour; its pose is that at the start.
   const link::ScenarioRobot* robot(RobotId id) const;
-  /// The name of its physics model.
+  /// Returns the name of the physics model.
   const std::string& physics() const { return m_physics; }
-  /// While on, nothing that is done by hand reaches the match: a person looks at another moment of
-  /// it. The first attempt is answered by `failed`.
+  /// While locked, because the past is shown, the match cannot be changed. The first attempt emits
+  /// `failed`.
   void setLocked(bool on);
   bool isLocked() const { return m_locked; }
-  /// Why, for people.
+  /// Returns the message why the match is locked.
   static QString lockedText();
 
-  // The gate. Each does nothing when no match is open, and while locked.
-  /// Whether the match may be changed; when it is locked, `failed` says why.
+  // The following functions do nothing while no match is open, and while locked.
+  /// Returns whether the match may be changed; emits `failed` if it is locked.
   bool allowsChange();
-  /// Does the edit and puts it on the undo stack.
+  /// Carries out the edit and puts it on the undo stack.
   void perform(Edit edit);
-  /// Carried out in one go between two ticks, all of them or none. On the undo stack as one command
-  /// once the match has carried it out, and not when it refused. `whatFailed`: as in MatchOrder;
-  /// `mergeKey`: as in Edit.
+  /// Carries out all steps between two ticks, or none of them. After a success they are one command
+  /// on the undo stack. `whatFailed` as in MatchOrder, `mergeKey` as in Edit.
   void performOrder(const QString& text, const QString& whatFailed, std::vector<EditStep> steps,
                     const QString& mergeKey = {});
-  /// For events that follow from one decision by hand (sim::RefereeCall::cause): another one each
-  /// time.
+  /// Returns a new number for sim::RefereeCall::cause.
   std::uint32_t newCause() { return ++m_lastCause; }
-  /// A change that cannot be undone, or a part of an edit. Reaches a match that is being opened,
-  /// too.
+  /// Makes a change that cannot be undone or is part of an edit, also in a match that is being
+  /// opened.
   void order(MatchOrder change);
   void order(link::MatchRunner::Command change);
 
-  /// The match goes on from this moment: its robots are known, and nothing can be undone.
+  /// Called when the match continues from this moment: takes over its robots and clears the undo
+  /// stack.
   void adopt(const link::Moment& moment);
 
-  // Edits by hand: take effect at once and can be undone.
+  // Edits that take effect immediately and can be undone.
   void moveRobots(const std::vector<RobotPlacement>& placements);
-  /// The same by arrow keys and wheel: those of a second become one command, but never one with a
-  /// drag.
+  /// The same for arrow keys and wheel: moves within a second become one command.
   void nudgeRobots(const std::vector<RobotPlacement>& placements);
-  /// `velocity`: with which it leaves `to`, m/s.
+  /// `velocity` is that of the ball at `to`, in m/s.
   void moveBall(Point from, Point to, Velocity velocity = {});
   void addRobot(TeamColor team, const Pose& pose, std::optional<int> number = {});
   void removeRobots(const std::vector<RobotId>& ids);
-  /// These robots play for another team, each with the smallest shirt number that is free there.
+  /// Moves the robots to a team; each gets the smallest free shirt number there.
   void setTeam(const std::vector<RobotId>& ids, TeamColor team);
-  /// Another number on the shirt; `failed` when a team-mate wears it.
+  /// Changes the shirt number; emits `failed` if a team-mate has it.
   void setNumber(RobotId id, int number);
-  /// Another decision process takes the robots over.
   void setBehaviour(const std::vector<RobotId>& ids, const QString& behaviour);
-  /// They become robots of this kind. Changes of one thing within a second are one command.
+  /// Changes the robot model. Changes of the same robots within a second become one command.
   void setModel(const std::vector<RobotId>& ids, const sim::RobotModel& model);
-  /// The model of motion and collisions: the match goes on with it (Simulation::setPhysics()).
+  /// Changes the physics model, with which the match continues (Simulation::setPhysics()).
   void setPhysics(const QString& model);
-  /// Another match in place of this one; undone, this one goes on where it was, with its game, rows
-  /// and events. `text`: what the undo menu calls it; `done`: what `replaced` says; `between`: see
-  /// MatchController::replace(). Also while the past is shown.
+  /// Replaces the match by another one; undoing continues the old match with its game, rows and
+  /// events. `text` is for the undo menu, `done` for the signal `replaced`; for `between` see
+  /// MatchController::replace(). Also allowed while the past is shown.
   void replaceMatch(const link::Scenario& scenario, const QString& text, const QString& done,
                     bool paused, std::function<void()> between = {});
 
-  // While a drag is going on the world follows, but only its end is one undoable command:
-  /// Shows robots at their `to` pose without an entry on the undo stack.
+  // Move robots and ball during a drag, without the undo stack; only its end is an undo command.
   void previewRobots(const std::vector<RobotPlacement>& placements);
   void previewBall(Point position);
 
-  // Undoable, too; refused ones leave no step:
+  // Edits that can be undone; if the match refuses one, it is not put on the undo stack.
   void setNoise(const sim::NoiseParameters& noise);
   void setRigidBody(const sim::RigidBodySettings& settings);
   void setClockRunning(bool running);
   void resetScore();
-  /// Who runs for the robot; all its processes start anew.
+  /// Changes the robot's runtime and restarts all of its processes.
   void setRuntime(RobotId id, const link::RuntimeChoice& choice);
 
-  // Not undoable: actions of the robots themselves.
-  /// Writes DECISION_ACTION_A (and B when given) as the decision process would.
+  // Changes that cannot be undone.
+  /// Writes DECISION_ACTION_A, and B if given, like the decision process.
   void commandAction(RobotId id, int actionA, std::optional<int> actionB = {});
   void commandSearch(RobotId id, bool on);
-  /// Writes one word of the robot's blackboard between two ticks, as any process could; `value` is
-  /// converted to the variable's type. `variableWritten` follows, or the
-  /// controller's `errorOccurred`.
+  /// Writes a variable of the robot's blackboard between two ticks; `value` is converted to its
+  /// type. `variableWritten` or the controller's `errorOccurred` follows.
   void writeVariable(RobotId id, const QString& name, double value);
-  // One of the separate processes, by ProcessStatus::id.
+  // Separate processes, by ProcessStatus::id.
   void startProcess(int process);
   void stopProcess(int process);
   void restartProcess(int process);
@@ -131,14 +124,14 @@ class MatchEdits : public QObject {
  signals:
   void failed(const QString& sentence);
   void lockedChanged(bool on);
-  /// Another match is played, and undo brings back the one before: "Match restarted".
+  /// Another match was started, and undo brings the old one back. `done` is such as "Match
+  /// restarted".
   void replaced(const QString& done);
-  /// A robot got another team, number, behaviour, runtime or model: by hand, by undo, or because
-  /// the match refused it and it is as before.
+  /// Team, number, behaviour, runtime or model of a robot changed, by an edit, by undo, or back to
+  /// the old value because the match refused the edit.
   void robotsChanged();
-  /// physics() changed: by hand, by undo, or with another match.
   void physicsChanged();
-  /// `time`: of the tick after which it was written, simulated s.
+  /// `time` is the simulated time in s after which it was written.
   void variableWritten(pitchboard::RobotId id, const QString& name, double time);
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What is kept of the match being simulated: rows of its variables, exact states of the recent
-// past, and frames rebuilt from them. Belongs to the MatchController and ends with it. UI thread
-// only; the match's thread writes rows and states.
+// The recorded past of the simulated match: rows of its variables, exact states of the recent past,
+// and frames rebuilt from rows. Owned by MatchController. UI thread only; the match's thread writes
+// rows and states.
 
 #include <QObject>
 #include <cstddef>
@@ -26,12 +26,12 @@ namespace pitchboard::ui {
 
 class MatchRows;
 
-/// What a match leaves behind when it goes on from an earlier moment.
+/// What a match leaves behind when it continues from an earlier moment.
 struct MatchBranch {
-  double from = 0.0;  ///< where it was left, s
+  double from = 0.0;  ///< s, the moment from which the match continues
   std::shared_ptr<const telemetry::SeriesStore> rows;
-  std::size_t bytes = 0;                 ///< of rows that the match has no more
-  std::vector<link::MatchEvent> events;  ///< later than `from`, as the timeline had them
+  std::size_t bytes = 0;                 ///< size of rows that only the branch has
+  std::vector<link::MatchEvent> events;  ///< events of the timeline after `from`
 };
 
 class MatchMemory : public QObject {
@@ -40,7 +40,7 @@ class MatchMemory : public QObject {
   explicit MatchMemory(MatchController* match);
   ~MatchMemory() override;
 
-  /// What of a match can be kept while another one is played.
+  /// What can be kept of a match while another one is played.
   struct Kept {
     std::shared_ptr<MatchRows> rows;
     std::shared_ptr<link::MatchSampler> sampler;
@@ -48,50 +48,48 @@ class MatchMemory : public QObject {
     std::shared_ptr<link::DrawingMemory> drawings;
   };
 
-  // The controller: another match is being made, or one comes back with what was kept of it, or
-  // there is none.
+  // Called by the controller when a match is made or comes back, and when there is none.
   void begin(Kept kept);
   void forget();
   const Kept& kept() const { return m_kept; }
-  /// Emits `continuedWithout` when processes of the robots begin anew at this moment. `where` they
-  /// run.
+  /// Emits `continuedWithout` if processes of the robots lose their memory at this moment. `where`
+  /// is where they run.
   void tellWhatIsLost(const link::Moment& moment, link::Cognition where);
-  /// What has to watch the match from its first tick, for its rows and states.
+  /// Returns the observers that have to see the match from its first tick.
   std::vector<std::shared_ptr<link::TickObserver>> observers() const;
 
   std::shared_ptr<const telemetry::SeriesStore> series() const;
-  /// Rebuilt from the rows; null when they do not hold that time (s).
+  /// Returns the frame at this time (s), rebuilt from rows; null if they do not reach back so far.
   FramePtr frameAt(double time) const;
-  /// Bytes that the rows of a match may take; the oldest leave first. At once and for matches to
-  /// come.
+  /// Limits the memory for the rows of this and later matches, in bytes; the oldest rows are
+  /// dropped first.
   void setMemoryBudget(std::size_t bytes);
   std::size_t memoryBudget() const { return m_budget; }
-  /// Rows are kept of every n-th tick (1: each), from now on. Waits for the tick in progress.
+  /// Samples every n-th tick from now on. Waits for the tick in progress.
   void setSampling(int everyNth);
   int sampling() const { return m_everyNth; }
-  /// Of the match that is open: whoever wants its rows is added to it, on the match's thread.
+  /// Returns the sampler of the open match, to which others can be added on the match's thread.
   std::shared_ptr<link::MatchSampler> sampler() const { return m_kept.sampler; }
-  /// Where other blackboards of this computer are sampled to: others after the controller's
-  /// `restarted`; null while there is no match.
+  /// Returns where to write rows of attached blackboards; null without a match. It is another
+  /// object after the controller's `restarted`.
   std::shared_ptr<telemetry::RowSink> rowsBeside() const;
-  /// The match's time for these rows, s; any thread.
+  /// Returns a function for the match's time (s) of these rows, which any thread may call.
   std::function<double()> timeBeside() const;
-  /// The exact states of the recent past; another one after `restarted`, null while there is no
-  /// match.
+  /// Returns the exact states of the recent past; null without a match. It is another object after
+  /// `restarted`.
   std::shared_ptr<const link::StateArchive> archive() const { return m_kept.archive; }
-  /// What programs have drawn in the recent past; as archive().
+  /// Returns what programs have drawn in the recent past; see archive().
   std::shared_ptr<const link::LiveHistory> drawn() const;
-  /// Puts the match back to this moment (s) exactly, with what the processes inside it remembered,
-  /// pauses, and forgets what came after it and what could be undone. `branching`, the controller's
-  /// `rewound` and `branched` follow, or its `errorOccurred` when memory does not hold the moment
-  /// any more.
+  /// Restores the exact state of this time (s), including what processes inside the studio
+  /// remember, and pauses. Drops the later past and the undo stack. `branching`, the controller's
+  /// `rewound` and `branched` follow; or its `errorOccurred` if the state is no longer in memory.
   void continueFrom(double time);
 
  signals:
   void failed(const QString& sentence);
-  /// The match goes on, but not with all that its robots knew: what is lost.
+  /// The match continues, but its robots have lost what `sentence` says.
   void continuedWithout(const QString& sentence);
-  /// Whoever keeps something of the future that is left adds it. Before `rewound`.
+  /// Emitted before `rewound`. Receivers add what they keep of the abandoned future.
   void branching(pitchboard::ui::MatchBranch& left);
   void branched(const pitchboard::ui::MatchBranch& left);
 

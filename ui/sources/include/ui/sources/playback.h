@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A position in recorded time that moves by itself: plays at a chosen speed, steps, loops a range.
-// Who shows the moment listens to positionChanged(). Seconds of the source. UI thread only.
+// Plays recorded time: a position that advances at a chosen speed, steps, and loops a range.
+// Whoever shows the moment connects to positionChanged(). Seconds of the source. UI thread only.
 
 #include <QElapsedTimer>
 #include <QObject>
@@ -22,38 +22,38 @@ class Playback : public QObject {
 
   explicit Playback(QObject* parent = nullptr);
 
-  /// What can be shown; it may grow and lose its beginning while playing. Empty: nothing.
+  /// Sets the range that can be played; its ends may move during playback. Empty: nothing can.
   void setRange(std::optional<telemetry::TimeRange> range);
   std::optional<telemetry::TimeRange> range() const { return m_range; }
-  /// Kept within the range.
+  /// Limits `time` to the range.
   void seek(double time);
   double position() const { return m_position; }
-  /// Plays this range over and over; nothing: to the end. A range without a length is not taken.
+  /// Repeats this range; empty: plays to the end. Ignores a range without length.
   void setLoop(std::optional<telemetry::TimeRange> loop);
   std::optional<telemetry::TimeRange> loop() const { return m_loop; }
-  /// Ticks per second of what is shown, for step().
+  /// Sets the ticks per second for step().
   void setTickRate(double perSecond);
   double tickRate() const { return m_tickRate; }
 
   bool isAvailable() const { return m_range.has_value(); }
   bool isPaused() const { return m_paused; }
-  /// Playing on from the very end starts at the beginning.
+  /// At the end of the range, playing starts from the beginning.
   void setPaused(bool paused);
-  /// So many ticks forward or back, then pauses.
+  /// Moves by this many ticks and pauses.
   void step(int ticks);
   void toStart();
   double speed() const { return m_speed; }
-  /// Seconds per second; kept between slowest and fastest.
+  /// Limits the speed to the range from slowest to fastest.
   void setSpeed(double timesRealTime);
   std::span<const double> speeds() const;
 
-  /// What the timer does: goes on by this much of a person's time. For tests as well.
+  /// Advances by this much real time. Called by the timer and by tests.
   void advance(double seconds);
 
  signals:
   void changed();  ///< paused, speed, loop, or whether there is something to play
   void positionChanged(double time);
-  /// Played up to the end of the range: paused there, unless who listens seeks or plays on.
+  /// The end of the range was reached. Playback pauses there unless a receiver seeks or plays.
   void reachedEnd();
 
  private:

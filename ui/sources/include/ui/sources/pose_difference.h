@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How far apart two sources see the same robot: truth and what is heard of it, for instance.
+// The difference between the poses of a robot in two sources, such as its true and its received
+// pose. Pure functions; any thread.
 
 #include <QString>
 #include <optional>
@@ -13,12 +14,12 @@ namespace pitchboard::ui {
 struct PoseDifference {
   Pose other;
   double metres = 0.0;
-  double radians = 0.0;  ///< of the heading, 0 to π
+  double radians = 0.0;  ///< difference in yaw, 0 to π
 };
 
-/// Robots are the same when they have the same telemetry port: a live robot's number is a simulated
-/// one's slot. Nothing when the other source does not know this robot's pose, or has not heard it
-/// for long.
+/// Robots correspond if they have the same telemetry port: the number of a live robot is the id of
+/// a simulated one. Empty if the other source has no pose of this robot, or if the robot is
+/// offline.
 std::optional<PoseDifference> poseDifference(const link::MatchFrame& other,
                                              const link::RobotFrame& here);
 /// "12 cm 4°".

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a person decides as the referee, as edits of the match: undoing one puts rules and game back
-// as they were, and what it had moved. And the menus of field and robots that decide. UI thread;
-// carried out on the match's thread.
+// Referee calls by the user as edits of the match, and the menus for them. Undoing a call restores
+// rules, game and whatever it had moved. UI thread only; calls are carried out on the match's
+// thread.
 
 #include <QString>
 #include <optional>
@@ -18,27 +18,26 @@ class QMenu;
 
 namespace pitchboard::ui {
 
-/// Makes the call; it is on the undo stack once the match has carried it out.
+/// Makes a call. It is put on the undo stack, as `words`, once the match has carried it out.
 void callReferee(MatchEdits* edits, const sim::RefereeCall& call, const QString& words);
-/// The same call for each of these robots, as one step of undo.
+/// Makes the same call for each of these robots, as a single undo command.
 void callReferee(MatchEdits* edits, sim::RefereeCall call, const std::vector<RobotId>& robots,
                  const QString& words);
-/// The call as a part of a larger edit.
+/// Returns the call as a part of a larger edit.
 EditStep refereeStep(MatchEdits* edits, sim::RefereeCall call);
-/// The game begins anew with this rule set (a name of refereeRuleSets(); `published`: without a
-/// referee).
+/// Restarts the game with a rule set: a name of refereeRuleSets(), or `published` for a match
+/// without a referee.
 void chooseReferee(MatchEdits* edits, const std::string& ruleSet, const QString& title);
 
-/// Why this call would be refused now; empty: it is allowed.
+/// Returns why this call is not possible now; empty: it is.
 QString whyRefused(const link::MatchFrame* frame, const sim::RefereeCall& call);
 
-/// What the referee can do with these robots: penalise, pardon, show cards. Nothing where the match
-/// has no referee.
+/// Adds the calls for these robots: penalties, pardon, cards. Adds nothing without a referee.
 void addRefereeMenu(QMenu* menu, MatchController* match, const std::vector<RobotId>& robots);
-/// What the referee can do on the ground: goals, and the ball at `place` or on a mark.
+/// Adds the calls for a place on the field: goals, and the ball at `place` or on a mark.
 void addRefereeGround(QMenu* menu, MatchController* match, Point place);
 
-/// "corner kick" as "Corner kick".
+/// Turns "corner kick" into "Corner kick".
 QString asLabel(std::string_view words);
 
 }  // namespace pitchboard::ui

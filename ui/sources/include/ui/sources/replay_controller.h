@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A recorded session as a source: shows its moments, plays, and reads its rows into memory for
-// inspector and plots while the first moment is already on the screen. UI thread only; files are
-// read on worker threads.
+// A recorded session as a source. It shows and plays moments, and reads rows into memory for
+// variables and plots while the first moment is already shown. UI thread only; files are read on
+// worker threads.
 
 #include <atomic>
 
@@ -22,19 +22,19 @@ class ReplayController : public FrameSource {
   explicit ReplayController(QObject* parent = nullptr);
   ~ReplayController() override;
 
-  /// Opens this file; returns at once. `opened` or `failed` follows; on failure what was open
-  /// stays. Opening again supersedes.
+  /// Opens a file; returns immediately. `opened` or `failed` follows; after a failure the previous
+  /// session stays open. Calling open() again replaces a request that has not finished.
   void open(const QString& path);
   void close();
   bool isOpen() const { return m_file != nullptr; }
   bool isOpening() const { return m_opening; }
   const QString& path() const { return m_path; }
   telemetry::SessionInfo info() const;
-  /// The file broke off or is damaged: repair makes a whole one of it.
+  /// Returns whether the file is truncated or damaged and can be repaired.
   bool isBroken() const;
-  /// JSON text of what the session was played with; empty when it has none.
+  /// Returns the scenario of the session as JSON; empty if it has none.
   std::string attachedScenario() const;
-  /// What the file has rows of, from the moment it is open; series() gets them while it is read.
+  /// Returns the groups of the file as soon as it is open, before series() has their rows.
   std::vector<telemetry::GroupInfo> groups() const;
 
   SourceKind kind() const override { return SourceKind::Replay; }
@@ -45,19 +45,19 @@ class ReplayController : public FrameSource {
   std::optional<QDateTime> clock() const override;
   Playback* playback() const override { return m_playback; }
 
-  /// Part of the rows that are in memory, 0 to 1; 1 also when nothing is being read.
+  /// Returns the share of rows in memory, 0 to 1; 1 if nothing is being read.
   double loaded() const { return m_loaded; }
-  /// Bytes that rows may take. Of a session that does not fit, a coarse picture of everything and
-  /// the rows around what is looked at are in memory; of one that has no such picture (it broke
-  /// off, or is older than 0.3) the end is, and noted() says so.
+  /// Limits the memory for rows, in bytes. If a session does not fit, memory contains a coarse
+  /// overview and the rows around the visible range; if the file has no overview (truncated, or
+  /// older than 0.3), memory contains its end, and noted() says so.
   void setMemoryBudget(std::size_t bytes);
 
  signals:
   void opened();
   void failed(const QString& sentence);
-  /// What the file has that could not be understood or is damaged, in sentences.
+  /// Remarks about the file, such as parts that could not be read.
   void noted(const QStringList& sentences);
-  /// Reading the rest of the file has met damage: what and where, in sentences.
+  /// Damage found while reading the rest of the file.
   void damageFound(const QStringList& sentences);
   void loadedChanged(double part);
 

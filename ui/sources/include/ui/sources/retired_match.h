@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A match that is not played any more and can come back as it was. A value; rows, states and
-// drawings are shared, and are there only of the match that was replaced last. UI thread.
+// A match that has been replaced and can be brought back by undo. Only the match replaced last
+// keeps its rows, states and drawings. A value; UI thread only.
 
 #include <memory>
 #include <optional>
@@ -16,14 +16,14 @@
 namespace pitchboard::ui {
 
 struct RetiredMatch {
-  link::Scenario scenario;             ///< its present moment, with everybody who plays
-  link::Scenario beginning;            ///< what restart() plays
-  std::optional<link::Moment> moment;  ///< nothing: it was still being opened
-  link::MatchOptions options;          ///< it was opened with
+  link::Scenario scenario;             ///< its last moment, with all robots
+  link::Scenario beginning;            ///< what MatchController::restart() plays
+  std::optional<link::Moment> moment;  ///< empty if it was still being opened
+  link::MatchOptions options;          ///< the options with which it was opened
   std::shared_ptr<const link::VariableCatalog> catalog;
   bool paused = false;
   MatchMemory::Kept memory;
-  std::vector<link::MatchEvent> events;  ///< as the timeline had them
+  std::vector<link::MatchEvent> events;  ///< the events of the timeline
 };
 
 }  // namespace pitchboard::ui

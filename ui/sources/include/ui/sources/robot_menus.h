@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the menus of a robot's card, of the field and of the menu bar share, so that each offers the
-// same.
+// Menus about robots, shared by robot cards, field and menu bar. UI thread only.
 
 #include <vector>
 
@@ -12,15 +11,14 @@ class QMenu;
 
 namespace pitchboard::ui {
 
-/// All of the submenus below and the referee's (referee_calls.h), orders first.
+/// Adds all submenus below and those of the referee (referee_calls.h).
 void addRobotMenus(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids);
-/// "Order": every action a robot knows, and searching the ball.
+/// Adds "Order": all actions of a robot, and searching for the ball.
 void addOrderMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids);
-/// "Behaviour", "Team" and "Model" of these robots, "Number" of one; what all of them have is
-/// marked. Does nothing for robots that the controller does not know.
+// Add "Behaviour", "Runtime", "Team" and "Model" for these robots, and "Number" for one. What all
+// of them have is checked. Nothing is added for robots that are not in the match. A runtime is a
+// built-in profile, a file, or a program that replaces the decision process.
 void addBehaviourMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids);
-/// Who runs for these robots: a built-in profile, a file, a program in place of decision; for one
-/// robot also "mine among reference robots".
 void addRuntimeMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids);
 void addTeamMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids);
 void addModelMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which robots are selected, and which one the view follows: the same everywhere in the window. UI
-// thread only.
+// The selected robots, and the one that the view follows, shared by the whole window. UI thread
+// only.
 
 #include <QObject>
 #include <algorithm>
@@ -27,7 +27,7 @@ class RobotSelection : public QObject {
     m_ids = ids;
     emit changed(m_ids);
   }
-  /// With this robot in it, or without, if it was there.
+  /// Returns the selection with this robot added, or removed if it is selected.
   std::vector<RobotKey> toggled(RobotKey id) const {
     std::vector<RobotKey> ids = m_ids;
     const auto found = std::find(ids.begin(), ids.end(), id);
@@ -39,7 +39,7 @@ class RobotSelection : public QObject {
   }
   void toggle(RobotKey id) { set(toggled(id)); }
 
-  /// The same by a mouse outside of the field, to which the keys then belong: `chosen`.
+  /// Selects robots by a click outside the field; emits `chosen`, so that the field gets the keys.
   void choose(const std::vector<RobotKey>& ids) {
     set(ids);
     emit chosen();
@@ -56,7 +56,7 @@ class RobotSelection : public QObject {
   void changed(const std::vector<pitchboard::RobotKey>& ids);
   void followedChanged(std::optional<pitchboard::RobotKey> id);
   void chosen();
-  // Asked for in one part of the window, opened by another.
+  // Requests from one part of the window to another.
   void poseRequested(pitchboard::RobotKey id);
   void blackboardRequested(pitchboard::RobotKey id);
 

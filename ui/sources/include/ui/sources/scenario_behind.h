@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The scenario that what is shown came from: that of the simulated match, or the one that a
-// recorded session has attached. What starts from a moment takes over physics and noise from it. UI
+// Finds the scenario of the source that is shown: that of the simulated match, or the one attached
+// to a recorded session. A match that starts from a moment takes physics and noise from it. UI
 // thread only.
 
 #include <optional>
@@ -15,8 +15,8 @@ class MatchController;
 class ReplayController;
 class SourceSwitch;
 
-/// Nothing for live robots, and for a session without one. Its game is that of the moment that is
-/// shown; none where that is not kept to the tick.
+/// Empty for live robots, and for a session without a scenario. The game is that of the moment
+/// shown; there is none if the exact state of that moment is not in memory.
 std::optional<link::Scenario> scenarioBehind(const SourceSwitch& source,
                                              const MatchController& match,
                                              const ReplayController& replay);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Record: keeps everything of the simulated match, or of what is heard live, in a session file from
-// the press of a button until the next, or until the match ends; and saves what has just happened
-// from memory. Files get a name of their own in the chosen folder and are never overwritten. UI
-// thread only; the file is written by a thread of its own, and what takes long runs on a worker.
+// Records the simulated match or the live data to a session file until it is stopped or the match
+// ends, and saves the recent past from memory. Files get new names in the chosen folder and are
+// never overwritten. UI thread only; files are written on other threads.
 
 #include <QDir>
 #include <QObject>
@@ -30,7 +29,7 @@ class MatchController;
 class SourceSwitch;
 class Timeline;
 
-/// Writes a session to this path, which is not there yet.
+/// Writes a session to this path, which must not exist.
 using SessionMaker = std::function<Result<void>(const QString& path)>;
 
 class SessionRecording : public QObject {
@@ -38,41 +37,41 @@ class SessionRecording : public QObject {
  public:
   SessionRecording(MatchController* controller, LiveController* live, SourceSwitch* source,
                    Timeline* timeline, QSettings* settings, QObject* parent);
-  ~SessionRecording() override;  ///< as end(), without a word
+  ~SessionRecording() override;  ///< same as end(), without signals
 
-  /// Where files go: Documents/Pitchboard unless another one was chosen. Made when needed.
+  /// Returns the folder for files: Documents/Pitchboard unless another one was chosen. It is
+  /// created when needed.
   QString folder() const;
   void setFolder(const QString& folder);
 
-  /// How recordings are written from the next one on; tests give it a disk of their own.
+  /// Sets how later recordings are written; tests simulate disks with it.
   void setWriting(const telemetry::SessionWriterOptions& options) { m_writing = options; }
 
   bool isRecording() const { return m_recorder.has_value(); }
-  /// What is shown can be recorded.
+  /// Returns whether the source that is shown can be recorded.
   bool isPossible() const;
   void start();
-  /// As start(), into this file; its folder is made when needed. A file that is there already is
-  /// left alone: the new one gets a number behind its name, and `noted` says so.
+  /// Like start(), but into this file, whose folder is created if needed. If the file exists, a
+  /// number is added to the name, and `noted` says so.
   void startInto(const QString& path);
   void stop();
-  /// stop(), and waits until every file is complete; what there is to say of them has been said
-  /// then.
+  /// Stops and waits until all files are complete and all signals have been emitted.
   void end();
-  /// Of the recording that goes on.
+  /// Returns the status of the current recording.
   telemetry::SessionStatus status() const;
   QString path() const { return m_path; }
 
-  /// What happened in the last `seconds`, from memory into a new file; `saved` follows.
+  /// Saves the last `seconds` from memory into a new file; `saved` follows.
   void saveLast(double seconds);
-  /// Writes the last `seconds` of the simulated match or of what was heard, on any thread; the past
-  /// is what it is now. Empty when nothing is in memory, or a session is shown.
+  /// Returns a function that writes the last `seconds` before this call, of the simulated match or
+  /// of Live, on any thread. Empty if nothing is in memory, or if a session is shown.
   SessionMaker recentPast(double seconds) const;
 
  signals:
   void changed();                   ///< started or stopped
   void saved(const QString& path);  ///< a file is complete
   void failed(const QString& sentence);
-  void noted(const QString& sentence);  ///< good to know: nothing failed
+  void noted(const QString& sentence);  ///< a remark; nothing failed
 
  private:
   QString newPath(const QString& title);
@@ -110,11 +109,11 @@ class SessionRecording : public QObject {
   Workers m_worker;
 };
 
-/// This path, with a number before its suffix when there is such a file already.
+/// Returns the path, with a number before its suffix if the file exists.
 QString freePath(const QString& path);
 
-/// "match-3v3 2026-07-01 14.23.05.mcap" in this folder, with a number behind it when it is there
-/// already. `title` may hold anything.
+/// Returns a new name in the folder, such as "match-3v3 2026-07-01 14.23.05.mcap". `title` may be
+/// any text.
 QString sessionFileName(const QDir& folder, const QString& title, const QDateTime& when);
 
 }  // namespace pitchboard::ui

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The time of what is shown, for everything that moves in it: the moment shown, whether that is now
-// or the past, what can be looked back at, the events of the source, a chosen range. A simulated
-// match and live robots go on while a person looks back; a recorded session is always looked back
-// at. UI thread only.
+// Navigation in the time of the source that is shown: the moment shown, whether that is now or the
+// past, the available past, events, and a selected range. A simulated match and live robots
+// continue while the user looks back. UI thread only.
 
 #include <QDateTime>
 #include <QObject>
@@ -25,65 +24,65 @@ class SourceSwitch;
 class Timeline : public QObject {
   Q_OBJECT
  public:
-  /// The switch outlives the timeline.
+  /// `source` must outlive the timeline.
   explicit Timeline(SourceSwitch* source, QObject* parent = nullptr);
   ~Timeline() override;
 
-  /// Remembers events of this source also while another one is shown.
+  /// Keeps the events of this source also while another one is shown.
   void watch(FrameSource* source);
-  /// The newest one of the source that is shown; null when it has none.
+  /// Returns the newest frame of the source that is shown; null if there is none.
   FramePtr frame() const;
-  /// Of the source that is shown; another list after sourceChanged().
+  /// Returns the events of the source that is shown; another list after sourceChanged().
   EventList* events() const;
 
-  /// What can be shown at all: memory, or the whole recorded session.
+  /// Returns the range that can be shown: what is in memory, or the whole recorded session.
   std::optional<telemetry::TimeRange> available() const;
-  /// The newest moment of the source, whatever is shown.
+  /// Returns the newest time of the source, whatever is shown.
   double now() const;
-  /// The moment that field, cards and scoreboard show.
+  /// Returns the time that field, cards and scoreboard show.
   double shownTime() const;
-  /// The source goes on and the past is shown.
+  /// Returns whether the past of a source is shown that continues meanwhile.
   bool isLookingBack() const;
-  /// The source is a recorded session: there is no now to go to.
+  /// Returns whether the source is a recorded session, which has no "now".
   bool isRecording() const;
-  /// Moves in the past: of the session, or while looking back.
+  /// Returns the playback of the session, or of the past while looking back.
   Playback* playback() const;
-  /// Moves while looking back, whatever the source is.
+  /// Returns the playback for looking back, whatever the source is.
   Playback* past() const { return m_past; }
-  /// Wall clock at second 0, where the source has one (Live).
+  /// Returns the time of day at second 0; empty if unknown.
   std::optional<QDateTime> clock() const;
 
-  /// Shows this moment. At or after now in a source that goes on: back to now.
+  /// Shows this moment. At or after now(), shows the newest one again.
   void seek(double time);
   void goLive();
-  /// One tick back or on; from now it starts to look back.
+  /// Moves by this many ticks; starts looking back if necessary.
   void step(int ticks);
-  /// Of the events that the filter shows. While it plays, going back again soon after an event was
-  /// reached means the one before.
+  // Go to the next or previous event that passes the filter; return false if there is none. During
+  // playback, going back shortly after an event goes to the one before it.
   bool goToNextEvent();
   bool goToPreviousEvent();
-  /// At the moment shown; its row in events().
+  /// Adds a bookmark at the moment shown and returns its row in events().
   int addBookmark(const QString& note = {});
-  /// Of the bookmark at exactly this time.
+  /// Sets the note of the bookmark at exactly this time.
   void setNote(double time, const QString& note);
 
   const EventFilter& eventFilter() const { return m_filter; }
   void setEventFilter(const EventFilter& filter);
 
   std::optional<telemetry::TimeRange> selection() const { return m_selection; }
-  /// A range of less than a tick is none.
+  /// A range of less than a tick clears the selection.
   void setSelection(std::optional<telemetry::TimeRange> range);
   bool isLooping() const { return m_looping; }
-  /// Plays the chosen range over and over; without one the visible one is for the caller to choose.
+  /// Repeats the selected range. If there is none, the caller selects the visible one first.
   void setLooping(bool on);
 
  signals:
-  void sourceChanged();  ///< another source or another match: read everything anew
+  void sourceChanged();  ///< another source or match: read everything again
   void moved();          ///< shownTime() or now()
   void lookingBackChanged(bool on);
   void selectionChanged();
   void eventFilterChanged();
-  /// For recordings; also when a note changed.
+  /// A bookmark was added or its note changed; recordings write it.
   void bookmarked(const pitchboard::link::MatchEvent& event);
 
  private:

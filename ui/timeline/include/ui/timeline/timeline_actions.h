@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What can be done in time: actions for the menu and for the timeline's context menu. Their keys
-// are the window's (its map of keys).
+// Actions of the timeline, for the menu bar and its context menu. The window's key map assigns
+// their keys. UI thread only.
 
 #include <QObject>
 #include <QPoint>
@@ -32,7 +32,7 @@ class TimelineActions : public QObject {
   QAction* loop() const { return m_loop; }
 
  signals:
-  /// A bookmark was set: its note can be written.
+  /// A bookmark was added; its note can be edited.
   void bookmarkAdded(int row);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The timeline with the button that leads back to now. UI thread only.
+// The Timeline dock, with the button that returns to now. UI thread only.
 
 class QWidget;
 
@@ -13,13 +13,13 @@ class LinkedTime;
 class Timeline;
 class TimelineActions;
 
-/// What the dock shows and moves; everything outlives it.
+/// What the dock shows and changes; all must outlive it.
 struct TimelineContext {
-  LinkedTime* time = nullptr;    ///< visible range and marks, those of the plots
+  LinkedTime* time = nullptr;    ///< visible range and marks, shared with the plots
   Timeline* timeline = nullptr;  ///< the moment shown, events, looking back
   TimelineActions* timelineActions = nullptr;
-  ComparedSession* compared = nullptr;  ///< its events stand in a second row; may be null
-  AbandonedFuture* future = nullptr;    ///< a pale branch; may be null
+  ComparedSession* compared = nullptr;  ///< its events are in a second row; may be null
+  AbandonedFuture* future = nullptr;    ///< shown as a second branch; may be null
 };
 
 QWidget* makeTimelineDock(const TimelineContext& context, QWidget* parent);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Every variable of every robot with its newest value; see docs/studio.md, "Variables". UI thread
-// only.
+// The Variables dock: all variables of all robots with their values (docs/studio.md, "Variables").
+// UI thread only.
 
 #include <functional>
 
@@ -18,14 +18,14 @@ class RobotSelection;
 class SourceSwitch;
 class Timeline;
 
-/// What the dock shows and changes; everything outlives it.
+/// What the dock shows and changes; all must outlive it.
 struct VariablesContext {
-  MatchController* controller = nullptr;  ///< words are written to its robots
+  MatchController* controller = nullptr;  ///< writes variables of its robots
   SourceSwitch* source = nullptr;
   Timeline* timeline = nullptr;         ///< the moment shown; null: always the newest
   PlotTarget* plots = nullptr;          ///< where variables can be sent to be plotted; may be null
   QSettings* settings = nullptr;        ///< the user's; may be null
-  RobotSelection* selection = nullptr;  ///< who asks for a robot's blackboard; may be null
+  RobotSelection* selection = nullptr;  ///< requests for a robot's blackboard; may be null
   AttachedBoards* boards = nullptr;     ///< blackboards of this computer; may be null
   std::function<void()> attachBoard{};  ///< opens the dialog that attaches one; may be empty
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The studio's window: arranges tool bar, field, docks and menus, and keeps their layout. It owns
-// no logic: the match is the controller's, files are ScenarioFiles', docks look after themselves.
-// How the studio ends stands in one place, shutDown(). UI thread only.
+// The main window: arranges tool bar, field, docks and menus, and keeps their layout. It contains
+// no other logic: matches belong to MatchController, files to ScenarioFiles and SessionFiles.
+// shutDown() ends everything in the right order. UI thread only.
 
 #include <QAction>
 #include <QMainWindow>
@@ -69,31 +69,31 @@ class MainWindow : public QMainWindow {
   ReplayController* replay() const { return m_replay; }
   LiveController* live() const { return m_live; }
   AttachedBoards* boards() const { return m_boards; }
-  /// A recorded session, in Replay; what is wrong with it is a notice.
+  /// Opens a recorded session in Replay. Problems are shown as notices.
   void openSession(const QString& path);
   /// Asks for a scenario or a session.
   void askAndOpen();
-  /// Paths, newest first, of sessions that are still there.
+  /// Returns the paths of recent sessions that still exist, newest first.
   QStringList recentSessions() const;
-  /// Finds actions, variables, robots and events by words.
+  /// Opens the command palette, which finds actions, variables, robots and events.
   void showPalette();
-  /// Records what is shown into this file, as the button does into one of its own choice. What goes
-  /// wrong, now or later, is a notice and `recordingFailed`.
+  /// Records the source that is shown into this file. Errors, now or later, are shown as notices
+  /// and emit `recordingFailed`.
   void recordInto(const QString& path);
-  /// Offers to export from what is shown: the session, or what memory holds.
+  /// Opens the export dialog for the session, or for what is in memory.
   void showExport();
-  /// Megabytes that the rows of one source may take in memory, 1 to 65536; kept in the settings.
+  // Memory limit for the rows of each source, 1 to 65536 MB; kept in the settings.
   int memoryBudget() const;
   void setMemoryBudget(int megabytes);
-  /// Shows this kind of source; Live begins to listen.
+  /// Shows the source of this kind; Live starts to listen.
   void showSource(SourceKind kind);
-  /// Simulated and heard robots side by side on the field.
+  /// Shows simulated and live robots together on the field.
   void overlayLive(bool on);
 
-  /// Docks where they were; the default layout when there is none or it cannot be restored.
+  /// Restores the layout of the docks, or the default layout if that is not possible.
   void restoreLayout();
   void resetLayout();
-  /// Offers to remove blackboards that an earlier run left at this key base.
+  /// Offers to remove blackboards that an earlier run left behind.
   void offerToRemoveOrphans();
 
  signals:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Scenarios and pictures in files: opens, saves, exports. Never modal but for the file dialogs.
+// Opens and saves scenarios, and exports pictures. Only file dialogs are modal. UI thread only.
 
 #include <QObject>
 #include <functional>
@@ -22,18 +22,19 @@ class ScenarioFiles : public QObject {
   ScenarioFiles(MatchController* controller, FieldView* field, ScenarioChooser* chooser,
                 QWidget* window);
 
-  /// A built-in name or a path; on failure the running match goes on and `failed` tells why.
+  /// Opens a built-in scenario or a file. On failure, the running match continues and `failed` is
+  /// emitted.
   void open(const QString& nameOrPath);
-  /// The same, as something that can be undone.
+  /// The same, but can be undone.
   void load(const QString& nameOrPath);
-  /// The present moment.
+  /// Saves the current moment as a scenario.
   void save(const QString& path);
-  /// The field as PNG.
+  /// Saves the field as PNG.
   void exportPicture(const QString& path);
   void askAndOpen();
   void askAndSave();
   void askAndExportPicture();
-  /// Tells the chooser which scenario a match that was opened elsewhere is.
+  /// Selects the scenario in the chooser after it was opened elsewhere.
   void showCurrent(const QString& nameOrPath);
 
  signals:

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "game_belief.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <robotlink/cognition/act.h>
+
+namespace pitchboard::link {
+namespace {
+
+constexpr double remembers = 6.0;    // s
+constexpr double moves = 0.8;        // m between two sightings of one opponent
+constexpr double sigmaSeen = 0.12;   // m
+constexpr double sigmaGrows = 0.15;  // m/s
+constexpr double keepersRoom = 1.3;  // m before a goal
+constexpr double getsUp = 3.0;       // s that a team-mate lies on the field, on average
+
+rollout::RobotBelief at(const Point& place, double yaw, double sigma, double yawSigma) {
+  rollout::RobotBelief robot;
+  robot.pose = {place, yaw};
+  robot.sigma = sigma;
+  robot.yawSigma = yawSigma;
+  return robot;
+}
+
+}  // namespace
+
+rollout::Setup setupFor(const ProcessOptions& options) {
+  rollout::Setup setup;
+  setup.field = options.field;
+  setup.body.ballMass = options.field.ballMass;
+  setup.noise.ofModel = true;
+  const bool isKnown = options.behaviour == "supporter" || options.behaviour == "keeper";
+  for (std::size_t i = 0; i < allPlayers; ++i) {
+    rollout::Player player;
+    player.side = i < theirKeeper ? rollout::Side::Left : rollout::Side::Right;
+    player.model = options.model;
+    player.behaviour.name = i == mateKeeper || i == theirKeeper ? "keeper" : "striker";
+    if (i == ownPlayer) {
+      player.behaviour.name = isKnown ? options.behaviour : "striker";
+      player.behaviour.parameters = options.parameters;
+    }
+    setup.players.push_back(std::move(player));
+  }
+  return setup;
+}
+
+void OpponentMemory::update(const Points& opponents, double now) {
+  std::vector<bool> isNew(m_known.size(), false);
+  for (const Point& place : opponents) {
+    std::size_t best = m_known.size();
+    double least = moves;
+    for (std::size_t i = 0; i < m_known.size(); ++i) {
+      const double way = distance(m_known[i].place, place);
+      if (way >= least || (i < isNew.size() && isNew[i])) continue;
+      best = i;
+      least = way;
+    }
+    if (best == m_known.size()) {
+      m_known.push_back({place, now});
+      isNew.push_back(true);
+    } else {
+      isNew[best] = true;
+      m_known[best] = {place, now};
+    }
+  }
+  std::erase_if(m_known,
+                [now](const Known& one) { return now - one.seen > remembers || one.seen > now; });
+}
+
+rollout::Belief beliefOf(const Situation& now, const OpponentMemory& opponents, double time,
+                         const ProcessOptions& options) {
+  const sim::FieldSpec& field = options.field;
+  rollout::Belief belief;
+  belief.robots.resize(allPlayers);
+  for (rollout::RobotBelief& robot : belief.robots) robot.absent = true;
+  const Point ball = *now.ball;
+  const auto facing = [&ball](const Point& from) { return direction(from, ball); };
+
+  // What its own pose is wrong by counts less than where the ball lies before its feet.
+  belief.robots[ownPlayer] = at(now.pose.position, now.pose.yaw, 0.03, 0.03);
+  const sim::GaitSpeed gait = sim::gaitSpeed(options.model, now.doing.action, now.doing.b);
+  belief.robots[ownPlayer].forward = gait.forward;
+  belief.robots[ownPlayer].left = gait.left;
+  belief.robots[ownPlayer].turn = gait.turn;
+
+  std::size_t mates = 0, next = firstMate;
+  for (const auto& mate : now.mates) {
+    if (!mate) continue;
+    ++mates;
+    if (mate->active && !mate->takesPart()) continue;  // it stands aside
+    const bool isKeeper = mate->intention == Intention::Keep && belief.robots[mateKeeper].absent;
+    const std::size_t place = isKeeper ? mateKeeper : next;
+    if (place == theirKeeper) continue;
+    if (!isKeeper) ++next;
+    belief.robots[place] = at(mate->position, facing(mate->position), sigmaSeen, 0.5);
+    if (mate->active) continue;
+    belief.robots[place].down = true;
+    belief.robots[place].getsUpIn = getsUp;
+  }
+
+  const Point theirGoal{field.halfLength(), 0.0};
+  const OpponentMemory::Known* keeper = nullptr;
+  for (const OpponentMemory::Known& one : opponents.known()) {
+    const double way = distance(one.place, theirGoal);
+    if (way < keepersRoom && (!keeper || way < distance(keeper->place, theirGoal))) keeper = &one;
+  }
+  const auto sigmaOf = [time](const OpponentMemory::Known& one) {
+    return sigmaSeen + sigmaGrows * (time - one.seen);
+  };
+  next = firstTheirs;
+  for (const OpponentMemory::Known& one : opponents.known()) {
+    if (&one == keeper) {
+      belief.robots[theirKeeper] = at(one.place, facing(one.place), sigmaOf(one), 0.4);
+    } else if (next < allPlayers) {
+      belief.robots[next++] = at(one.place, facing(one.place), sigmaOf(one), 0.7);
+    }
+  }
+  // A keeper stands where nobody has looked, unless all of them are known.
+  if (!keeper && mates > 0 && opponents.known().size() <= mates) {
+    const Point line{field.halfLength() - 0.4, 0.0};
+    belief.robots[theirKeeper] = at(line, facing(line), 0.25, 0.4);
+  }
+
+  belief.ball.place = ball;
+  belief.ball.sigma = 0.03 + 0.04 * distance(now.pose.position, ball);
+  if (now.seesBall) belief.ball.velocity = now.ballVelocity;
+  belief.ball.velocitySigma = 0.02;
+  if (!now.seesBall) belief.ball.sigma = 0.3;
+  belief.game.goalsLeft = now.goalsOwn;
+  belief.game.goalsRight = now.goalsTheirs;
+  if (now.secondsLeft > 0) belief.game.secondsLeft = now.secondsLeft;
+  return belief;
+}
+
+}  // namespace pitchboard::link

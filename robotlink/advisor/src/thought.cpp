@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "thought.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "game_belief.h"
+#include "position_value.h"
+
+namespace pitchboard::link {
+namespace {
+
+using rollout::Column;
+using Row = std::array<double, rollout::columnCount>;
+
+double in(const Row& row, Column column) {
+  return row[static_cast<std::size_t>(column)];
+}
+
+double valueOfRow(const Row& row, const sim::FieldSpec& field) {
+  const double goals = in(row, Column::GoalsLeft) - in(row, Column::GoalsRight);
+  if (goals != 0.0) return goals;
+  Position end;
+  end.ball = {in(row, Column::BallX), in(row, Column::BallY)};
+  end.near = in(row, Column::NearLeft);
+  end.theirsNear = in(row, Column::NearRight);
+  if (static_cast<rollout::Ended>(static_cast<int>(in(row, Column::EndedBy))) ==
+      rollout::Ended::BallOut) {
+    // Whoever touched it last has lost it.
+    const bool ours = in(row, Column::LastTouch) < static_cast<double>(theirKeeper);
+    end.near = ours ? 2.0 : 0.0;
+    end.theirsNear = ours ? 0.0 : 2.0;
+  } else {
+    end.velocity = {in(row, Column::BallVx), in(row, Column::BallVy)};
+  }
+  return positionValue(field, end);
+}
+
+std::size_t heatCell(const Point& ball, const sim::FieldSpec& field) {
+  const auto cell = [](double place, double half, int count) {
+    const double share = (place + half) / (2.0 * half);
+    return std::clamp(static_cast<int>(share * count), 0, count - 1);
+  };
+  return static_cast<std::size_t>(cell(ball.y, field.halfWidth(), heatRows) * heatColumns +
+                                  cell(ball.x, field.halfLength(), heatColumns));
+}
+
+double meanOf(const std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+Thought::Thought(rollout::Belief belief, const Candidates& candidates, std::uint64_t seed,
+                 int rollouts, double horizon)
+    : m_belief(std::move(belief)),
+      m_candidates(candidates),
+      m_seed(seed),
+      m_budget(rollouts),
+      m_horizon(horizon) {
+  for (std::size_t i = 1; i < m_candidates.size(); ++i) m_alive.push_back(i);
+  for (std::size_t left = m_alive.size(); left > 2; left = (left + 1) / 2) ++m_rounds;
+  planRound();
+}
+
+/// Every candidate that is left plays as often.
+void Thought::planRound() {
+  const std::size_t players = m_alive.size() + 1;
+  const auto share = static_cast<std::size_t>(std::max(1, m_budget / m_rounds)) / players;
+  const std::size_t first = m_of[0].values.size(), count = std::max<std::size_t>(2, share);
+  m_queue.clear();
+  for (std::size_t seed = first + count; seed-- > first;) {
+    for (const std::size_t candidate : m_alive) m_queue.push_back({candidate, seed});
+    m_queue.push_back({0, seed});
+  }
+}
+
+void Thought::halve() {
+  std::ranges::stable_sort(
+      m_alive, [this](std::size_t a, std::size_t b) { return valueOf(a) > valueOf(b); });
+  m_alive.resize(std::max<std::size_t>(1, (m_alive.size() + 1) / 2));
+}
+
+void Thought::playOne(rollout::Rollouts& rollouts, const sim::FieldSpec& field) {
+  const Next next = m_queue.back();
+  m_queue.pop_back();
+  rollout::PlayOptions options;
+  options.seconds = m_horizon;
+  options.look = 5.0;
+  options.advice = m_candidates[next.candidate];
+  options.advised = ownPlayer;
+  Row row{};
+  const std::uint64_t seed = m_seed + next.seed;
+  Of& of = m_of[next.candidate];
+  double value = 0.0;
+  if (rollouts.play(m_belief, {&seed, 1}, options, row)) {
+    value = valueOfRow(row, field);
+    of.goals += in(row, Column::GoalsLeft) > 0.0;
+    of.goalsAgainst += in(row, Column::GoalsRight) > 0.0;
+    ++of.heat[heatCell({in(row, Column::LookX), in(row, Column::LookY)}, field)];
+  }
+  of.values.push_back(value);
+  ++m_played;
+  if (!m_queue.empty() || ++m_round >= m_rounds) return;
+  halve();
+  planRound();
+}
+
+double Thought::valueOf(std::size_t candidate) const {
+  return meanOf(m_of[candidate].values);
+}
+
+/// The best is suggested only where the paired interval says that it gains.
+ThoughtResult Thought::result() const {
+  ThoughtResult out;
+  std::size_t best = 0;
+  for (const std::size_t one : m_alive) {
+    if (best == 0 || valueOf(one) > valueOf(best)) best = one;
+  }
+  const std::vector<double>& own = m_of[0].values;
+  if (best != 0) {
+    const std::vector<double>& values = m_of[best].values;
+    const std::size_t n = std::min(values.size(), own.size());
+    std::vector<double> gains(n);
+    for (std::size_t i = 0; i < n; ++i) gains[i] = values[i] - own[i];
+    const double mean = meanOf(gains);
+    double squares = 0.0;
+    for (const double gain : gains) squares += (gain - mean) * (gain - mean);
+    const double count = static_cast<double>(n);
+    const double error = n > 1 ? std::sqrt(squares / (count * (count - 1.0))) : 1.0;
+    constexpr double quantile = 2.0;  // of t, 95 % on both sides, for the usual numbers
+    constexpr double worthIt = 0.01;  // goals
+    const double low = mean - quantile * error;
+    if (low > 0.0 && mean > worthIt) {
+      out.best = best;
+      out.gain = mean;
+      out.gainLow = low;
+    }
+  }
+  const Of& of = m_of[out.best];
+  const double count = std::max<double>(1.0, static_cast<double>(of.values.size()));
+  out.value = valueOf(out.best);
+  out.goal = of.goals / count;
+  out.goalAgainst = of.goalsAgainst / count;
+  return out;
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// One decision that is being thought about: candidates against each other by sequential halving,
+// rollout j of each with the same random numbers. A plain value: a copy goes on as the original
+// does. Metres, seconds; one thread.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <robotlink/rollout/rollouts.h>
+
+#include "candidates.h"
+
+namespace pitchboard::link {
+
+/// What came out.
+struct ThoughtResult {
+  std::size_t best = 0;  ///< candidate that is suggested; 0: as the behaviour would
+  double value = 0.0;    ///< expected goal difference of it
+  double gain = 0.0, gainLow = 0.0;
+  double goal = 0.0, goalAgainst = 0.0;  ///< shares of its rollouts
+};
+
+class Thought {
+ public:
+  using Heat = std::array<int, static_cast<std::size_t>(heatColumns* heatRows)>;
+
+  Thought(rollout::Belief belief, const Candidates& candidates, std::uint64_t seed, int rollouts,
+          double horizon);
+
+  bool isDone() const { return m_queue.empty(); }
+  int played() const { return m_played; }
+  /// Plays one more rollout; not when it is done.
+  void playOne(rollout::Rollouts& rollouts, const sim::FieldSpec& field);
+
+  const Candidates& candidates() const { return m_candidates; }
+  /// Mean value of a candidate so far.
+  double valueOf(std::size_t candidate) const;
+  ThoughtResult result() const;
+  /// Rollouts of a candidate with the ball in a cell after PlayOptions::look.
+  const Heat& heat(std::size_t candidate) const { return m_of[candidate].heat; }
+
+ private:
+  struct Of {
+    std::vector<double> values;  ///< of seed j
+    int goals = 0, goalsAgainst = 0;
+    Heat heat{};
+  };
+  struct Next {
+    std::size_t candidate = 0, seed = 0;
+  };
+  void planRound();
+  void halve();
+
+  rollout::Belief m_belief;
+  Candidates m_candidates;
+  std::array<Of, mostCandidates> m_of;
+  std::uint64_t m_seed = 1;
+  int m_budget = 0, m_played = 0, m_rounds = 1, m_round = 0;
+  double m_horizon = 5.0;
+  std::vector<std::size_t> m_alive;  ///< without the first, which always plays
+  std::vector<Next> m_queue;         ///< of this round, the next at the back
+};
+
+}  // namespace pitchboard::link
