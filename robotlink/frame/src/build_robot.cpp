@@ -88,8 +88,8 @@ void LampMemory::saw(std::size_t lamp, double time) {
   m_seen[lamp] = std::max(m_seen[lamp], time);
 }
 
-void buildRobot(const RobotReader& reader, const sim::FieldSpec& field, bool truthKnown,
-                RobotFrame& robot) {
+void buildRobot(const RobotReader& reader, const AdviceReader& advice, const sim::FieldSpec& field,
+                bool truthKnown, RobotFrame& robot) {
   constexpr std::size_t vision = 1, localization = 2;
   const auto works = [&robot](std::size_t lamp) {
     return robot.lamps[lamp].state == HeartbeatState::Working;
@@ -115,6 +115,7 @@ void buildRobot(const RobotReader& reader, const sim::FieldSpec& field, bool tru
   if (action) robot.decided = static_cast<int>(std::clamp(*action, -most, most));
   const double volts = reader(FieldMeaning::Voltage).value_or(0.0) / perVolt;
   robot.battery.reset();
+  robot.advice = robot.timedOut() ? nullptr : readAdvice(advice, field);
   if (volts > 0.0) robot.battery = telemetry::batteryAt(volts, telemetry::usualBattery);
 }
 

@@ -62,6 +62,7 @@ void join(RobotFrame& robot, RobotFrame& board, const Teams& teams) {
   robot.sigma = board.sigma;
   robot.ball = board.ball;
   robot.decided = board.decided;
+  robot.advice = board.advice;
   robot.action = board.action;
   robot.lamps = board.lamps;
   robot.board = std::move(board.board);

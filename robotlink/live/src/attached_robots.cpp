@@ -79,7 +79,7 @@ class AttachedRobots::Reader {
     robot.link = boardLink(std::max(0.0, m_seconds() - m_newest.time), m_board.rate, gone);
     robot.link->messages = m_status.samples;
     if (!gone) robot.lamps = m_lamps;
-    buildRobot(m_meanings.reader(m_newest), field, false, robot);
+    buildRobot(m_meanings.reader(m_newest), m_meanings.adviceReader(m_newest), field, false, robot);
     robot.action = robot.decided.value_or(0);
     robot.board = m_meanings.contents(m_newest);
     robot.name = m_group.name;

@@ -297,7 +297,8 @@ std::vector<RobotFrame> SentBoards::robots(WallTime now, const sim::FieldSpec& f
     out.identity.number = robot->number;
     out.link = linkOf(*robot, now);
     if (!out.timedOut()) out.lamps = robot->lamps;
-    buildRobot(robot->meanings.reader(robot->row), field, false, out);
+    buildRobot(robot->meanings.reader(robot->row), robot->meanings.adviceReader(robot->row), field,
+               false, out);
     out.action = out.decided.value_or(0);
     out.board = robot->meanings.contents(robot->row);
   }

@@ -23,6 +23,13 @@ bool communicationRuns(const RobotFrame& robot) {
   });
 }
 
+std::optional<double> valueOf(const Variable* variable, const Blackboard& board) {
+  if (variable == nullptr) return std::nullopt;
+  return variable->type == VariableType::Int
+             ? board.read(IntVar{variable->index})
+             : static_cast<double>(board.read(FloatVar{variable->index}));
+}
+
 }  // namespace
 
 void FrameBuilder::addBusy(std::chrono::steady_clock::duration busy, std::uint64_t ticks) {
@@ -126,21 +133,23 @@ void FrameBuilder::fillRobot(const SimulatedMatch& match, RobotFrame& out) {
       const std::string_view name = telemetry::meaningTable[i].variable;
       m_variables[i] = name.empty() ? nullptr : m_catalog->find(name);
     }
+    for (std::size_t i = 0; i < m_advice.size(); ++i) {
+      m_advice[i] = m_catalog->find(adviceVariables()[i]);
+    }
   }
   const RobotReader reader = [&](FieldMeaning meaning) -> std::optional<double> {
     // Communication sets no flag on its blackboard: its process tells.
     if (meaning == FieldMeaning::Control) return communicationRuns(out) ? 1.0 : 0.0;
-    const Variable* variable = m_variables[static_cast<std::size_t>(meaning)];
-    if (variable == nullptr) return std::nullopt;
-    const double value = variable->type == VariableType::Int
-                             ? board->read(IntVar{variable->index})
-                             : static_cast<double>(board->read(FloatVar{variable->index}));
-    return meantBy(meaning, value);
+    const auto value = valueOf(m_variables[static_cast<std::size_t>(meaning)], *board);
+    return value ? std::optional(meantBy(meaning, *value)) : std::nullopt;
+  };
+  const AdviceReader advice = [&](std::size_t variable) {
+    return valueOf(m_advice[variable], *board);
   };
   out.boardKey = board->key();
   out.behaviour = match.robots().find(out.slot())->behaviour;
   out.lamps = m_lamps[out.slot()].note(reader, m_playing);
-  buildRobot(reader, match.simulation().state().settings.field, true, out);
+  buildRobot(reader, advice, match.simulation().state().settings.field, true, out);
 }
 
 void FrameBuilder::fillSpeed(const SimulatedMatch& match, Time now, bool still, MatchFrame& out) {

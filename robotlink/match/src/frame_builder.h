@@ -43,6 +43,7 @@ class FrameBuilder {
   double m_busy = 0.0;
   std::map<RobotId, LampMemory> m_lamps;
   std::array<const Variable*, telemetry::fieldMeaningCount> m_variables{};  // of m_catalog
+  std::array<const Variable*, adviceVariableCount> m_advice{};
   const VariableCatalog* m_catalog = nullptr;
   Time m_last{};
   double m_playing = 0.0;  // s in which the match did not stand still

@@ -251,7 +251,11 @@ RobotFrame RecordedFrames::robotOf(std::size_t group, double time, LampMemory& l
     return std::isfinite(value) ? std::optional(meantBy(meaning, value)) : std::nullopt;
   };
   if (!robot.timedOut()) robot.lamps = lamps.note(reader, time);
-  buildRobot(reader, frame.settings->field, truth, robot);
+  const AdviceReader advice = [&](std::size_t variable) -> std::optional<double> {
+    return l.advice[variable].present() ? std::optional(l.advice[variable].read(row))
+                                        : std::nullopt;
+  };
+  buildRobot(reader, advice, frame.settings->field, truth, robot);
   if (l.isBoard()) {
     robot.action = robot.decided.value_or(0);
     robot.board.names = l.boardNames;

@@ -74,6 +74,9 @@ struct RecordedFrames::Layout {
       const std::string_view name = telemetry::meaningTable[i].variable;
       if (!name.empty()) variables[i] = findSlot(group, {name});
     }
+    for (std::size_t i = 0; i < advice.size(); ++i) {
+      advice[i] = findSlot(group, {adviceVariables()[i]});
+    }
   }
 
   const RowSlot& of(FieldMeaning meaning) const {
@@ -93,8 +96,9 @@ struct RecordedFrames::Layout {
   RowSlot trueX, trueY, trueYaw, headYaw, vx, vy, action, fallen, distance, kicks, falls,
       unknownActions, lastUnknown;
   std::array<RowSlot, telemetry::fieldMeaningCount> variables;  // of the blackboard
-  std::optional<GameSlots> game;                                // of the match
-  std::optional<PlayerSlots> player;                            // of a robot
+  std::array<RowSlot, adviceVariableCount> advice;
+  std::optional<GameSlots> game;      // of the match
+  std::optional<PlayerSlots> player;  // of a robot
 };
 
 }  // namespace pitchboard::link

@@ -34,6 +34,26 @@ using namespace pitchboard;
 using namespace pitchboard::ui;
 using namespace made_frames;
 
+namespace {
+
+/// The advisor of this robot would kick from the ball to the right, or walk to (0, -2); the ball
+/// will be in the cell in the upper left corner.
+void advise(link::RobotFrame& robot) {
+  auto advice = std::make_shared<link::AdviceView>();
+  advice->isThinking = true;
+  advice->choice = 1;
+  advice->value = 0.08;
+  advice->rollouts = 72;
+  advice->candidates = {
+      {0, {}, 0.01, false}, {1, {3.0, 0.0}, 0.08, true}, {6, {0, -2}, 0.02, false}};
+  auto heat = std::make_shared<link::BallHeat>(link::BallHeat{16, 10, std::vector<float>(160)});
+  heat->cells[144] = 1.0F;
+  advice->heat = heat;
+  robot.advice = advice;
+}
+
+}  // namespace
+
 class TestFieldLook : public QObject {
   Q_OBJECT
 
@@ -112,6 +132,8 @@ class TestFieldLook : public QObject {
     frame->robots[2].link->age = std::chrono::seconds(12345);
     frame->robots[3].penalty = link::Penalty{"pushing", 20};
     believe(*frame, frame->robots[4], {{2.5, 2.0}, 1.0});
+    advise(frame->robots[5]);
+    advise(frame->robots[0]);
     frame->teamBalls = {{TeamColor::Blue, {1.0, -1.0}, 0.2, 2, 3},
                         {TeamColor::Red, {-2.0, 1.0}, 0.4, 4, 4}};
     telemetry::DrawingStore store;
@@ -269,6 +291,67 @@ class TestFieldLook : public QObject {
       before = covers;
     }
     QVERIFY(before <= 12.0);
+  }
+
+  void advisorsAreDrawnInTheirLayers() {
+    auto frame = frameOf(2);
+    frame->ballKnown = true;
+    frame->snapshot.ball = {1.0, 0.0};
+    frame->robots[0].pose = {{-1.0, -2.0}, 0.0};
+    advise(frame->robots[0]);
+    for (QAction* layer : m_view->actions().layers) layer->setChecked(false);
+    m_view->showFrame(frame);
+    const QSize size(1040, 740);  // 100 pixels a metre, the centre mark in the middle
+    const QImage without = m_view->picture(size);
+    const auto differs = [&](const QImage& now, double x, double y) {
+      const QPoint pixel(520 + qRound(100 * x), 370 - qRound(100 * y));
+      return now.pixel(pixel) != without.pixel(pixel);
+    };
+    QAction* candidates = m_view->actions().layers[std::size_t(FieldLayer::AdvisorCandidates)];
+    candidates->setChecked(true);
+    QImage now = m_view->picture(size);
+    QVERIFY(differs(now, 2.0, 0.0));    // the kick starts at the ball
+    QVERIFY(differs(now, -0.5, -2.0));  // the walk starts at the robot
+    QVERIFY(!differs(now, -2.0, 0.5));
+    m_view->select({red(1)});  // only of selected robots, and this one has no advisor
+    QVERIFY(!differs(m_view->picture(size), 2.0, 0.0));
+    m_view->select({});
+    candidates->setChecked(false);
+    m_view->actions().layers[std::size_t(FieldLayer::AdvisorHeat)]->setChecked(true);
+    now = m_view->picture(size);
+    QVERIFY(differs(now, -4.2, 2.7));
+    QVERIFY(!differs(now, 4.2, -2.7) && !differs(now, 2.0, 0.0));
+    QVERIFY(hoverText(*frame, blue(1)).contains(QStringLiteral("Advisor: strong kick")));
+    // Old advice is not drawn.
+    auto old = std::make_shared<link::AdviceView>(*frame->robots[0].advice);
+    old->isThinking = false;
+    frame = std::make_shared<link::MatchFrame>(*frame);
+    frame->robots[0].advice = old;
+    m_view->showFrame(frame);
+    QCOMPARE(m_view->picture(size), without);
+  }
+
+  void aForecastIsDrawnUntilItIsTakenAway() {
+    auto frame = frameOf(1);
+    for (QAction* layer : m_view->actions().layers) layer->setChecked(false);
+    m_view->showFrame(frame);
+    const QSize size(1040, 740);
+    const QImage without = m_view->picture(size);
+    auto forecast = std::make_shared<Forecast>();
+    auto heat = std::make_shared<link::BallHeat>(link::BallHeat{36, 24, std::vector<float>(864)});
+    heat->cells[12 * 36 + 27] = 0.5F;  // x 2.25 to 2.5 m, y 0 to 0.25 m
+    forecast->heat = heat;
+    forecast->best = ForecastAction{{0, -2}, Point{2, -2}, QStringLiteral("Kicks now"), false};
+    m_view->showForecast(forecast);
+    QCOMPARE(m_view->picture(size), without);  // its layer is off
+    m_view->actions().layers[std::size_t(FieldLayer::Exploration)]->setChecked(true);
+    const QImage now = m_view->picture(size);
+    const QColor warm(now.pixel(520 + 237, 370 - 12)), grass(without.pixel(520 + 237, 370 - 12));
+    QVERIFY(warm.red() > grass.red() + 60 && warm.green() > grass.green() + 30);
+    QVERIFY(now.copy(540, 565, 160, 10) != without.copy(540, 565, 160, 10));
+    QCOMPARE(leftBehind(), QString());
+    m_view->showForecast(nullptr);
+    QCOMPARE(m_view->picture(size), without);
   }
 
   void aFarGhostIsJoinedToItsRobot() {

@@ -47,6 +47,23 @@ class TestCardState : public QObject {
     QCOMPARE(cards[0].lamps[2].state, LampState::Unknown);
   }
 
+  void adviceStandsBehindTheAction() {
+    link::MatchFrame frame = frameOf(1);
+    auto advice = std::make_shared<link::AdviceView>();
+    advice->isThinking = true;
+    advice->choice = 1;
+    advice->value = 0.08;
+    advice->gain = 0.05;
+    advice->rollouts = 96;
+    frame.robots[0].advice = advice;
+    const CardState card = CardTracker().update(frame, 0)[0];
+    QCOMPARE(card.action, QStringLiteral("walk forward, slow → strong kick +0.08"));
+    QVERIFY(card.detailTip.contains(QStringLiteral("+0.05 more than its behaviour")));
+    QVERIFY(card.detailTip.contains(QStringLiteral("96 rollouts")));
+    advice->isThinking = false;  // old advice is not shown
+    QCOMPARE(CardTracker().update(frame, 0)[0].action, QStringLiteral("walk forward, slow"));
+  }
+
   void aProcessThatStopsIsSilentAndSaysSinceWhen() {
     CardTracker tracker;
     link::MatchFrame frame = frameOf(1);

@@ -45,6 +45,40 @@ enum Height {
 
 constexpr double hitMargin_px = 3.0;
 
+QString signedValue(double value) {
+  return (value < 0.0 ? QString() : QStringLiteral("+")) + fieldNumber(value, 2);
+}
+
+/// The chosen one last and opaque. Kicks start at the ball where the robot sees it.
+std::vector<DrawnAction> drawnCandidates(const link::RobotFrame& robot,
+                                         const link::MatchFrame& frame) {
+  std::vector<DrawnAction> drawn;
+  const QPointF body = toScene(robot.pose.position);
+  const QPointF ball = robot.ball        ? toScene(robot.ball->place)
+                       : frame.ballKnown ? toScene(frame.snapshot.ball)
+                                         : body;
+  for (const link::AdviceCandidate& one : robot.advice->candidates) {
+    // What the behaviour would do has no place of its own, and neither has leaving the ball.
+    constexpr int leaveBall = 5;
+    const bool hasPlace = one.choice != 0 && one.choice != leaveBall;
+    if (!hasPlace && !one.isChosen) continue;
+    DrawnAction& action = drawn.emplace_back();
+    action.from = link::isAdviceForBall(one.choice) ? ball : body;
+    if (hasPlace) action.to = toScene(one.place);
+    action.text = signedValue(one.value);
+    if (one.isChosen) {
+      action.text = QString::fromUtf8(link::adviceText(one.choice).data(),
+                                      qsizetype(link::adviceText(one.choice).size())) +
+                    QStringLiteral("  ") + action.text;
+    }
+    action.color = theme().team(robot.identity.team);
+    action.width = one.isChosen ? 4.0 : 2.0;
+    action.opacity = one.isChosen ? 1.0 : 0.45;
+  }
+  std::ranges::stable_partition(drawn, [](const DrawnAction& one) { return one.opacity < 1.0; });
+  return drawn;
+}
+
 /// Stands out from the grass of both themes, and is no team's.
 QColor explorationColor() {
   return {255, 214, 64};
@@ -60,11 +94,13 @@ struct FieldScene::Robot {
         wedge(&scene->m_style),
         other(&scene->m_style),
         particles(&scene->m_style),
-        path(&scene->m_style) {
+        path(&scene->m_style),
+        heat(&scene->m_style),
+        candidates(&scene->m_style) {
     const std::pair<QGraphicsItem*, Height> items[] = {
         {&body, robotHeight},  {&belief, beliefHeight}, {&trail, trailHeight},
         {&wedge, wedgeHeight}, {&other, beliefHeight},  {&particles, particleHeight},
-        {&path, pathHeight}};
+        {&path, pathHeight},   {&heat, heatHeight},     {&candidates, adviceHeight}};
     for (const auto& [item, height] : items) {
       item->setZValue(height);
       scene->addItem(item);
@@ -78,6 +114,8 @@ struct FieldScene::Robot {
   OtherPoseItem other;
   ParticlesItem particles;
   PlannedPathItem path;
+  HeatItem heat;
+  ActionArrowsItem candidates;
 };
 
 FieldScene::FieldScene(QObject* parent)
@@ -174,6 +212,13 @@ void FieldScene::showDebugOverlay() {
     robot->path.setVisible(any && m_style.shows(FieldLayer::PlannedPath));
     if (robot->particles.isVisible()) robot->particles.setCloud(now->cognitionDebug->cloud, team);
     if (robot->path.isVisible()) robot->path.setPath(now->cognitionDebug->path, team);
+    const bool advised = chosen && now != nullptr && now->advice && now->advice->isThinking;
+    const bool heat = advised && now->advice->heat && m_style.shows(FieldLayer::AdvisorHeat);
+    const bool candidates = advised && m_style.shows(FieldLayer::AdvisorCandidates);
+    robot->heat.setVisible(heat);
+    robot->candidates.setVisible(candidates);
+    if (heat) robot->heat.setHeat(now->advice->heat, theme().team(team));
+    if (candidates) robot->candidates.setActions(drawnCandidates(*now, *m_frame));
   }
 }
 

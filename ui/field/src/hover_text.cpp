@@ -51,6 +51,14 @@ QString hoverText(const link::MatchFrame& frame, RobotKey id) {
   }
   lines << head;
   lines << QStringLiteral("Action: %1").arg(actionText(robot->decided.value_or(robot->action)));
+  if (robot->advice && robot->advice->isThinking) {
+    const link::AdviceView& advice = *robot->advice;
+    const std::string_view choice = link::adviceText(advice.choice);
+    lines << QStringLiteral("Advisor: %1, expected goal difference %2 (%3 rollouts)")
+                 .arg(QString::fromUtf8(choice.data(), static_cast<qsizetype>(choice.size())),
+                      fieldNumber(advice.value, 2))
+                 .arg(advice.rollouts);
+  }
   if (robot->cognitionDebug && robot->cognitionDebug->path &&
       !robot->cognitionDebug->path->points.empty()) {
     const link::PlannedPath& path = *robot->cognitionDebug->path;

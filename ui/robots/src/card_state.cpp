@@ -121,6 +121,28 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
   }
 }
 
+QString signedText(double value) {
+  return (value < 0.0 ? QString() : QStringLiteral("+")) + numberText(value, 2);
+}
+
+/// "strong kick +0.08"; empty while no advisor thinks for it.
+QString adviceOf(const link::RobotFrame& robot) {
+  if (!robot.advice || !robot.advice->isThinking) return {};
+  const std::string_view choice = link::adviceText(robot.advice->choice);
+  return QStringLiteral("%1 %2").arg(
+      QString::fromUtf8(choice.data(), static_cast<qsizetype>(choice.size())),
+      signedText(robot.advice->value));
+}
+
+/// A line of its own.
+QString adviceTip(const link::AdviceView& advice) {
+  return QStringLiteral(
+             "\nAdvisor: expected goal difference %1, %2 more than its behaviour, from %3 "
+             "rollouts")
+      .arg(signedText(advice.value), signedText(advice.gain))
+      .arg(advice.rollouts);
+}
+
 /// Under the names of the blackboard's variables; a dash for what the robot does not know.
 std::vector<CardValue> boardValues(const link::RobotFrame& robot, const sim::FieldSpec& field) {
   std::vector<CardValue> values;
@@ -197,6 +219,8 @@ CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
   if (card.timedOut && !card.action.isEmpty()) {
     card.action = QStringLiteral("last: %1").arg(card.action);
   }
+  const QString advice = adviceOf(robot);
+  if (!advice.isEmpty()) card.action += QStringLiteral(" \u2192 ") + advice;
   if (robot.link) {
     card.detail = linkText(*robot.link);
     card.detailTip = linkTip(robot);
@@ -210,6 +234,7 @@ CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
     card.detailTip = QStringLiteral("Age of the tick shown; distance walked") + runsText(robot);
     card.values = boardValues(robot, field);
   }
+  if (!advice.isEmpty()) card.detailTip += adviceTip(*robot.advice);
   chooseTag(card, robot);
   return card;
 }

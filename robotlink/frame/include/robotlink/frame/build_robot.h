@@ -51,10 +51,10 @@ class LampMemory {
   Lamps m_lamps{};
 };
 
-/// Belief, ball, decided action and battery. `robot` has its lamps, link and, where the truth is
-/// known, its pose; else the pose becomes what it believes.
-void buildRobot(const RobotReader& reader, const sim::FieldSpec& field, bool truthKnown,
-                RobotFrame& robot);
+/// Belief, ball, decided action, battery and advice. `robot` has its lamps, link and, where the
+/// truth is known, its pose; else the pose becomes what it believes. `advice` may be empty.
+void buildRobot(const RobotReader& reader, const AdviceReader& advice, const sim::FieldSpec& field,
+                bool truthKnown, RobotFrame& robot);
 
 /// Where the robots of each team agree that the ball is; teams of which no two do are left out.
 std::vector<TeamBall> agreedBalls(std::span<const RobotFrame> robots);

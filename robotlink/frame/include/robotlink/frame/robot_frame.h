@@ -15,6 +15,7 @@
 
 #include <base/robot_key.h>
 #include <robotlink/cognition/cognition_debug.h>
+#include <robotlink/frame/advice_view.h>
 #include <robotlink/frame/live_values.h>
 #include <robotlink/processes/process_state.h>
 #include <simcore/world/snapshot.h>
@@ -63,6 +64,7 @@ struct RobotView {
   std::optional<double> sigma;                ///< m, uncertainty of the belief
   std::optional<SeenBall> ball;               ///< nothing while the robot is offline
   std::optional<int> decided;                 ///< DECISION_ACTION_A
+  std::shared_ptr<const AdviceView> advice;   ///< of its advisor; null if it has none
   std::optional<telemetry::Battery> battery;  ///< nothing if it sends no voltage
   /// Communication (of a simulated robot) or control, vision, localization, decision, IMU.
   std::array<telemetry::ProcessHeartbeat, telemetry::processCount> lamps{};
