@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers typed with a decimal comma or a point, in any locale, by keys.
 #include <QLineEdit>
+#include <QToolTip>
 #include <QtTest>
 
 #include <ui/base/number_box.h>
@@ -68,6 +69,34 @@ class TestNumberBox : public QObject {
     QTest::keyClicks(&box, QStringLiteral("x7y,z5"));
     QTest::keyClick(&box, Qt::Key_Return);
     QCOMPARE(box.value(), 7.5);
+  }
+
+  void tooMuchIsSaid_data() {
+    QTest::addColumn<QString>("typed");
+    QTest::addColumn<double>("value");
+    QTest::addColumn<QString>("said");
+    QTest::newRow("too large") << "5000" << 50.0 << "50.0 cm is the largest value.";
+    QTest::newRow("too small") << "1" << 2.0 << "2.0 cm is the smallest value.";
+    QTest::newRow("within") << "7,5" << 7.5 << QString();
+  }
+  void tooMuchIsSaid() {
+    QFETCH(QString, typed);
+    QFETCH(double, value);
+    QFETCH(QString, said);
+    QToolTip::hideText();
+    QTRY_VERIFY(!QToolTip::isVisible());
+    NumberBox box;
+    box.setRange(2, 50);
+    box.setDecimals(1);
+    box.setSuffix(QStringLiteral(" cm"));
+    box.setValue(20);
+    box.show();
+    box.selectAll();
+    QTest::keyClicks(&box, typed);
+    QTest::keyClick(&box, Qt::Key_Return);
+    QCOMPARE(box.value(), value);
+    QCOMPARE(QToolTip::isVisible(), !said.isEmpty());
+    if (!said.isEmpty()) QCOMPARE(QToolTip::text(), said);
   }
 
   void textIsANumberOrNot() {

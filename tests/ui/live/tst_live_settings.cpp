@@ -105,6 +105,11 @@ class TestLiveSettings : public QObject {
     const auto groups = tabs->widget(0)->findChildren<QGroupBox*>();
     QCOMPARE(groups.size(), 4);
     for (const QGroupBox* group : groups) lowest = std::max(lowest, group->geometry().bottom());
+    // Nor is a sentence cut.
+    for (const auto* label : tabs->widget(0)->findChildren<QLabel*>()) {
+      if (!label->wordWrap()) continue;
+      QVERIFY2(label->height() >= label->heightForWidth(label->width()), qPrintable(label->text()));
+    }
     const int page = tabs->widget(0)->height();
     QVERIFY2(page - lowest < scaled(nullptr, 60),
              qPrintable(QStringLiteral("%1 of %2").arg(lowest).arg(page)));

@@ -2,6 +2,7 @@
 // The plots' dock with real drops, wheels and drags, against values computed here.
 
 #include <QMimeData>
+#include <QScreen>
 #include <QtTest>
 
 #include <simcore/world/action_codes.h>
@@ -89,6 +90,31 @@ class TestPlots : public QObject {
     // A window by hand; following goes on.
     s.time.setWindow(5.0);
     QCOMPARE(s.time.range().begin, 35.0);
+  }
+
+  /// Numbers of the axis leave nothing behind where they were.
+  void numbersOfOldLimitsAreGone() {
+    Shown s(5.0);
+    auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
+    QVERIFY(QTest::qWaitForWindowExposed(s.dock.get()));
+    const telemetry::GroupId group = *s.source.store->findGroup("B1");
+    const auto isClean = [&] {
+      QWidget* at = chart->surface();
+      const int wide = static_cast<int>(chart->timeAxis().left) - 2;
+      const QRect place(at->mapTo(s.dock.get(), QPoint()), QSize(wide, at->height()));
+      const QImage screen = s.dock->screen()->grabWindow(s.dock->winId()).toImage();
+      const QImage fresh = at->grab(QRect(QPoint(), place.size())).toImage();
+      return screen.copy(place).convertToFormat(QImage::Format_RGB32) ==
+             fresh.convertToFormat(QImage::Format_RGB32);
+    };
+    QTRY_VERIFY(isClean());
+    for (int i = 1; i < 8; ++i) {
+      s.source.append(group, 5.0 + i, 1, 100.0 + 37.0 * i);
+      const ValueScale before = chart->valueScale();
+      QTRY_VERIFY(chart->valueScale().limits.high != before.limits.high ||
+                  s.time.data()->end == 5.0 + i);
+      QTRY_VERIFY2(isClean(), qPrintable(QString::number(i)));
+    }
   }
 
   void theWheelZoomsAtTheCursor() {

@@ -42,12 +42,12 @@ class TestRefereeModel : public QObject {
     v.secondaryTime = 23;
     v.countdown = "ready";
     QCOMPARE(refereeSetPlayText(v),
-             QStringLiteral("corner kick for team 5, prepare, ready in 23 s"));
+             QStringLiteral("corner kick for RED, prepare, ready in 23 s"));
     v = view();
     v.kickOffTeam = 12;
     v.secondaryTime = 8;
     v.countdown = "ball free";
-    QCOMPARE(refereeSetPlayText(v), QStringLiteral("kick-off for team 12, ball free in 8 s"));
+    QCOMPARE(refereeSetPlayText(v), QStringLiteral("kick-off for BLUE, ball free in 8 s"));
     v.truth.emplace();
     v.truth->state = "PLAYING";
     v.truth->secondsLeft = -7;

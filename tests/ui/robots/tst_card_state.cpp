@@ -179,6 +179,37 @@ class TestCardState : public QObject {
   }
 
   /// However narrow the card: words are cut, not how long it has been.
+  void aLongNameLeavesTheVoltsAlone() {
+    CardState state = CardTracker().update(frameOf(1), 0)[0];
+    state.battery = telemetry::batteryAt(18.9, telemetry::usualBattery);
+    const auto volts = [&state](const QString& name, int width) {
+      state.name = name;
+      RobotCard card;
+      card.setState(state);
+      card.resize(width, card.sizeHint().height());
+      // From where the volts begin, in the first row.
+      const int left = width * 2 / 3;
+      return card.grab(QRect(left, 0, width - left, 24)).toImage();
+    };
+    for (const int width : {190, 240}) {
+      QCOMPARE(volts(QStringLiteral("Robot 1"), width), volts(QStringLiteral("B1"), width));
+      QCOMPARE(volts(QStringLiteral("Robot 1 of the guests"), width),
+               volts(QStringLiteral("B1"), width));
+    }
+  }
+  void aTagFitsInANarrowCard() {
+    CardState state = CardTracker().update(frameOf(1), 0)[0];
+    state.tagKind = TagKind::Error;
+    const auto picture = [&state](const char* tag) {
+      state.tag = QString::fromUtf8(tag);
+      RobotCard card;
+      card.setState(state);
+      card.resize(190, card.sizeHint().height());
+      return card.grab().toImage();
+    };
+    // Whole words: another one in the same place is seen.
+    QVERIFY(picture("battery low") != picture("battery lot"));
+  }
   void theTimeInATagIsSeen() {
     CardState state = CardTracker().update(frameOf(1), 0)[0];
     state.tagKind = TagKind::Error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A match that goes on from an earlier moment leaves a future behind: a pale branch.
+// A match that goes on from an earlier moment leaves a future behind: a dashed branch.
 
 #include <QGraphicsView>
 #include <QMenu>
@@ -123,6 +123,44 @@ class TestBranch : public QObject {
     QVERIFY(!plots->feed()->hasCompared());
     QVERIFY(!s.action("dropFuture")->isVisible());
     QVERIFY(s.find<TimelineStrip>("timelineStrip")->branchRect().isEmpty());
+  }
+
+  void itsCurvesAreDashedAndNamed() {
+    Studio s({1280, 800});
+    s.controller.open(link::loadScenario("kick-off").value(), true);
+    s.playTo(600);
+    auto* plots = s.window.findChild<PlotsDock*>();
+    PaneSpec one;
+    one.curves << variableCurve("match/SCORE_LEFT");
+    plots->setLayoutSpec({{PageSpec{"one", {one}}}, 0});
+    s.leaveAt(4.0);
+    plots->time()->setRange({0.0, 10.0});
+    auto* pane = plots->findChild<ChartPane*>();
+    QTRY_COMPARE(pane->captions(), QStringList(QStringLiteral("dashed: abandoned at 00:04")));
+    // Strokes of the curve's hue along the line that says 0, which both futures have.
+    const auto strokes = [pane](double from, double until) {
+      const QImage picture = pane->surface()->grab().toImage();
+      const auto x = [&](double time) {
+        return qRound(pane->timeAxis().pixel(time) * picture.devicePixelRatio());
+      };
+      int most = 0;
+      for (int y = 0; y < picture.height(); ++y) {
+        int runs = 0;
+        bool before = false;
+        for (int at = x(from); at < x(until); ++at) {
+          const QColor color = picture.pixelColor(at, y);
+          const bool inked = color.blue() - color.red() > 25;
+          if (inked && !before) ++runs;
+          before = inked;
+        }
+        most = std::max(most, runs);
+      }
+      return most;
+    };
+    QTRY_VERIFY(strokes(4.5, 9.5) > 10);
+    // The strip writes it, too.
+    const auto* strip = s.find<TimelineStrip>("timelineStrip");
+    QVERIFY(strip->branchRect().height() >= strip->fontMetrics().ascent());
   }
 
   void theSecondOneReplacesTheFirst() {

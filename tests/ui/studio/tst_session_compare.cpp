@@ -383,8 +383,6 @@ class TestSessionCompare : public QObject {
       return QPoint(qRound(strip->axis().pixel(time)), strip->height() - 4);
     };
     timeline->seek(11.0);
-    // A trail is what was seen moving: it is there after playing, and after steps, only.
-    s.action("layer.trails")->setChecked(false);
     s.window.activateWindow();
     s.window.field()->setFocus();
     if (way == "click") {

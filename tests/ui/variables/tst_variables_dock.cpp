@@ -210,6 +210,21 @@ class TestVariablesDock : public QObject {
     QCOMPARE(filter->variableCount(), 8);
   }
 
+  void anAttachedBlackboardIsFoundByItsKey() {
+    Bench bench;
+    auto store = twoRobots();
+    telemetry::GroupInfo attached = robotGroup("B7", 7);
+    attached.attributes = {{"key", "700"}, {"attached", "1"}, {"number", "7"}};
+    append(*store, store->addGroup(attached), 1.0, 0, 0, 50.0F, 0.0);
+    bench.hand.take(store, SourceKind::Simulate);
+    auto* box = bench.dock->findChild<QLineEdit*>(QStringLiteral("variablesFilter"));
+    box->setFocus();
+    QTest::keyClicks(box, QStringLiteral("700"));
+    auto* filter = qobject_cast<VariablesFilter*>(bench.view->model());
+    QCOMPARE(filter->variableCount(), 4);
+    QCOMPARE(filter->index(0, 0).data().toString(), QStringLiteral("B7 (key 700)"));
+  }
+
   void favouritesByKeyAreKept() {
     QTemporaryDir folder;
     const QString file = folder.filePath(QStringLiteral("settings.ini"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/base/number_box.h>
 
+#include <QToolTip>
 #include <cmath>
 
 namespace pitchboard::ui {
@@ -31,9 +32,35 @@ QString NumberBox::withPoint(QString text) const {
   return plain(text.chopped(unit)) + text.right(unit);
 }
 
+/// A number in full that only the range refuses.
+std::optional<double> NumberBox::beyondRange(const QString& input) const {
+  QString number = withPoint(input);
+  if (number.endsWith(suffix())) number.chop(suffix().size());
+  constexpr qsizetype most = 12;
+  const qsizetype point = number.indexOf(QLatin1Char('.'));
+  const auto value = numberFromText(number);
+  const bool fine = point < 0 || number.size() - point - 1 <= decimals();
+  const bool beyond = value && (*value > maximum() || *value < minimum());
+  return beyond && fine && number.size() <= most && !number.contains(QLatin1Char('e'))
+             ? value
+             : std::nullopt;
+}
+
 QValidator::State NumberBox::validate(QString& input, int& position) const {
   input = withPoint(input);
-  return QDoubleSpinBox::validate(input, position);
+  const QValidator::State state = QDoubleSpinBox::validate(input, position);
+  return state == QValidator::Invalid && beyondRange(input) ? QValidator::Intermediate : state;
+}
+
+void NumberBox::fixup(QString& input) const {
+  const auto value = beyondRange(input);
+  if (!value) return QDoubleSpinBox::fixup(input);
+  const bool tooMuch = *value > maximum();
+  input = textFromValue(tooMuch ? maximum() : minimum()) + suffix();
+  QToolTip::showText(mapToGlobal(rect().bottomLeft()),
+                     (tooMuch ? QStringLiteral("%1 is the largest value.")
+                              : QStringLiteral("%1 is the smallest value."))
+                         .arg(input));
 }
 
 double NumberBox::valueFromText(const QString& text) const {

@@ -15,6 +15,16 @@ QString text(const std::string& words) {
   return QString::fromStdString(words);
 }
 
+/// "BLUE", or the team's own name.
+QString teamOf(const link::RefereeView& view, int number) {
+  for (const link::RefereeTeamView& team : view.teams) {
+    if (team.number != number) continue;
+    if (!team.name.empty()) return text(team.name);
+    if (!team.colour.empty()) return text(team.colour).toUpper();
+  }
+  return QStringLiteral("team %1").arg(number);
+}
+
 }  // namespace
 
 QString refereeClockText(int seconds) {
@@ -35,12 +45,11 @@ QString refereeStateText(const link::RefereeView& view) {
 QString refereeSetPlayText(const link::RefereeView& view) {
   QStringList parts;
   if (!view.setPlay.empty()) {
-    parts
-        << (view.performingTeam
-                ? QStringLiteral("%1 for team %2").arg(text(view.setPlay)).arg(*view.performingTeam)
-                : text(view.setPlay));
+    parts << (view.performingTeam ? QStringLiteral("%1 for %2")
+                                        .arg(text(view.setPlay), teamOf(view, *view.performingTeam))
+                                  : text(view.setPlay));
   } else if (view.kickOffTeam && !view.countdown.empty() && view.state != "FINISHED") {
-    parts << QStringLiteral("kick-off for team %1").arg(*view.kickOffTeam);
+    parts << QStringLiteral("kick-off for %1").arg(teamOf(view, *view.kickOffTeam));
   }
   if (!view.setPlayStep.empty()) parts << text(view.setPlayStep);
   if (!view.countdown.empty()) {

@@ -21,6 +21,7 @@
 #include "robot_item.h"
 #include "sector_items.h"
 #include "trail_item.h"
+#include "trail_rows.h"
 #include "view_wedge_item.h"
 
 namespace pitchboard::ui {
@@ -271,14 +272,7 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
   robot.body.setLook(look);
   robot.body.setVisible(now.poseKnown());
 
-  // Who goes to another moment of a recording has not seen the way there.
-  constexpr double longestGap = 1.0;  // s; less than a step of the fastest replay
-  if (m_frame->origin == link::FrameOrigin::Recorded &&
-      m_frame->snapshot.time - robot.trail.now() > longestGap) {
-    robot.trail.clear();
-  }
-  robot.trail.append(now.pose.position, m_frame->snapshot.time);
-  robot.trail.setVisible(now.poseKnown() && m_style.shows(FieldLayer::Trails) && isTrailShown(id));
+  showTrail(robot, now);
   // Where a robot that is heard looks, it does not say.
   robot.wedge.setVisible(!now.link && m_style.shows(FieldLayer::FieldOfView) &&
                          (look.selected || m_style.wedgeForAll));
@@ -287,6 +281,26 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
   robot.belief.setVisible(now.boardKey || now.belief);
   robot.belief.setLook(beliefOf(now, m_style.field));
   showOtherPose(robot, now);
+}
+
+// Rows know the way to any moment. What frames have shown is the way only while they go on.
+void FieldScene::showTrail(Robot& robot, const link::RobotFrame& now) {
+  const bool shown = now.poseKnown() && m_style.shows(FieldLayer::Trails) && isTrailShown(now.key);
+  robot.trail.setVisible(shown);
+  const double time = m_frame->snapshot.time, passed = time - robot.trail.now();
+  constexpr double longestGap = 1.0;  // s; less than a step of the fastest replay
+  const bool recorded = m_frame->origin == link::FrameOrigin::Recorded;
+  const bool goesOn = passed >= 0.0 && passed <= longestGap;
+  if (recorded || !goesOn) {
+    const auto rows = shown && m_rows ? m_rows() : nullptr;
+    const auto places = rows ? trailOf(*rows, now, time) : std::vector<TrailItem::Place>();
+    if (!places.empty()) {
+      robot.trail.set(places);
+    } else if (!goesOn && recorded) {
+      robot.trail.clear();
+    }
+  }
+  robot.trail.append(now.pose.position, time);
 }
 
 void FieldScene::showOther(const FramePtr& frame) {

@@ -5,6 +5,7 @@
 // them. A frame moves items; nothing is built anew unless robots come or go.
 
 #include <QGraphicsScene>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -59,6 +60,13 @@ class FieldScene : public QGraphicsScene {
   /// Before the first frame says so.
   void setField(const sim::FieldSpec& field);
   const FramePtr& frame() const { return m_frame; }
+  /// Rows of what is shown, from which trails are made; nothing: trails grow with the frames.
+  using Rows = std::function<std::shared_ptr<const telemetry::SeriesStore>()>;
+  void setRows(Rows rows) { m_rows = std::move(rows); }
+  /// More rows are there: the same moment may look different.
+  void rowsCame() {
+    if (m_frame) showFrame(m_frame);
+  }
   /// Another source's view of the same robots, drawn beside this one's; null: none.
   void showOther(const FramePtr& frame);
   /// A moment of another session, drawn over this one; null: none.
@@ -101,6 +109,7 @@ class FieldScene : public QGraphicsScene {
   void styleChanged();
   void matchRobots();
   void showRobot(const link::RobotFrame& now);
+  void showTrail(Robot& robot, const link::RobotFrame& now);
   void showOtherPose(Robot& robot, const link::RobotFrame& now);
   void showNames();
   void showDebugOverlay();
@@ -109,6 +118,7 @@ class FieldScene : public QGraphicsScene {
   void setSelection(std::vector<RobotKey> ids);
 
   FieldStyle m_style;
+  Rows m_rows;
   FramePtr m_frame;
   FramePtr m_other;
   std::map<RobotKey, std::unique_ptr<Robot>> m_robots;

@@ -201,6 +201,8 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
   connect(d->pointer, &FieldPointer::poseRequested, this,
           [this](RobotKey id) { d->openPoseEditor(id); });
   if (!source) return;
+  d->scene->setRows([source] { return source->series(); });
+  connect(source, &FrameSource::rowsCame, d->scene, &FieldScene::rowsCame);
   connect(source, &FrameSource::robotsRenamed, d->scene, &FieldScene::rename);
   connect(source, &FrameSource::frameReceived, this, [this, source](const FramePtr& frame) {
     // The past cannot be moved by hand.

@@ -58,6 +58,11 @@ void TrailItem::append(const Point& position, double time) {
   }
 }
 
+void TrailItem::set(std::span<const Place> places) {
+  clear();
+  for (const Place& place : places) append(place.at, place.time);
+}
+
 void TrailItem::dropOld() {
   while (m_count > 0 && m_now - mark(0).time > seconds) {
     m_first = (m_first + 1) % capacity;

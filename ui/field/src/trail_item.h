@@ -4,6 +4,7 @@
 // Where a robot has been: a line that fades with age. Bounded in time and in points.
 
 #include <array>
+#include <span>
 
 #include "field_item.h"
 
@@ -17,9 +18,16 @@ class TrailItem : public FieldItem {
 
   using FieldItem::FieldItem;
 
+  struct Place {
+    Point at;
+    double time = 0.0;  ///< s
+  };
+
   double now() const { return m_now; }  ///< of its end, s
   /// `time` in simulated seconds; going back in time or jumping starts the trail anew.
   void append(const Point& position, double time);
+  /// The trail is this one now, in order of time.
+  void set(std::span<const Place> places);
   void clear();
 
   QRectF boundingRect() const override;

@@ -31,6 +31,18 @@
 namespace pitchboard::ui {
 namespace {
 
+/// As high as its sentences need at its width: a page of tabs asks for less.
+class WholePage : public QWidget {
+ public:
+  using QWidget::QWidget;
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QWidget::resizeEvent(event);
+    setMinimumHeight(layout()->heightForWidth(width()));
+  }
+};
+
 QFormLayout* formOf(QGroupBox* group) {
   auto* form = new QFormLayout(group);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
@@ -70,7 +82,7 @@ LiveSettingsDialog::LiveSettingsDialog(LiveController* live, QSettings* settings
   column->addWidget(pages, 1);
   column->addWidget(m_problem);
   column->addWidget(buttons);
-  resize(dialogSize(this, 760, 500));
+  resize(dialogSize(this, 760, 560));
   adopt();
 }
 
@@ -100,7 +112,7 @@ NumberBox* LiveSettingsDialog::addReal(QFormLayout* form, const char* name, cons
 
 // Two columns of about the same height.
 QWidget* LiveSettingsDialog::makeGeneral() {
-  auto* widget = new QWidget(this);
+  auto* widget = new WholePage(this);
   auto* columns = new QHBoxLayout(widget);
   const auto add = [columns](QWidget* upper, QWidget* lower) {
     auto* column = new QVBoxLayout;

@@ -223,6 +223,11 @@ void ChartPane::shape() {
     other.look.color =
         mixedColor(m_shapes[i].look.color, palette().color(QPalette::Base), comparedPaleness);
     other.look.width = m_shapes[i].look.width * comparedWidth;
+    if (m_feed->comparesFuture()) {
+      // Never taken for the present, where they lie close together.
+      other.look.dash = futureDash;
+      other.look.width = m_shapes[i].look.width;
+    }
     other.lines = polylines(m_comparedTraces[i], m_shapedFor, values(i),
                             other.look.style == CurveStyle::Steps);
   }
@@ -241,7 +246,8 @@ QStringList ChartPane::captions() const {
   }
   const auto isDrawn = [](const CurveTrace& trace) { return trace.any; };
   if (std::ranges::any_of(m_comparedTraces, isDrawn)) {
-    all << QStringLiteral("thin: ") + m_feed->comparedCaption();
+    all << (m_feed->comparesFuture() ? QStringLiteral("dashed: ") : QStringLiteral("thin: ")) +
+               m_feed->comparedCaption();
   }
   return all;
 }

@@ -71,6 +71,8 @@ inline constexpr int curveColors = 8;
 /// Of the curves that have a colour for the second time and more: 0 is a whole line. There are
 /// four.
 int curveDash(int number);
+/// The dash of an abandoned future, which no curve has.
+inline constexpr int futureDash = 4;
 /// The parts of the line of neighbouring points that its dash leaves, for QPainter::drawLines().
 /// They depend on x only, counted from `origin`: a curve that scrolls takes its dashes along.
 /// `pixel`: of the mock.

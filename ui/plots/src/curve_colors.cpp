@@ -48,12 +48,13 @@ QColor curveColor(int number) {
 
 namespace {
 // Line, gap, line, gap, px of the mock.
-constexpr std::array<std::array<double, 4>, 4> dashes{
-    {{1, 0, 1, 0}, {6, 3, 6, 3}, {2, 2, 2, 2}, {8, 3, 2, 3}}};
+constexpr std::array<std::array<double, 4>, 5> dashes{
+    {{1, 0, 1, 0}, {6, 3, 6, 3}, {2, 2, 2, 2}, {8, 3, 2, 3}, {4, 4, 4, 4}}};
+static_assert(dashes.size() == futureDash + 1);
 }  // namespace
 
 int curveDash(int number) {
-  return number / curveColors % static_cast<int>(dashes.size());
+  return number / curveColors % futureDash;
 }
 
 QList<QLineF> dashedLine(std::span<const QPointF> line, int dash, double pixel, double origin) {

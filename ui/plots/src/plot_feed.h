@@ -83,6 +83,8 @@ class PlotFeed : public QObject {
   double comparedOffset() const { return m_comparedOffset; }
   double comparedFrom() const { return m_comparedFrom; }
   const QString& comparedCaption() const { return m_comparedCaption; }
+  /// They are a future of the same match, which it has left.
+  bool comparesFuture() const { return m_comparedFrom > -std::numeric_limits<double>::infinity(); }
 
   /// Refreshes by itself while on; plots that cannot be seen cost nothing.
   void setRunning(bool on);

@@ -229,6 +229,8 @@ void ValueChart::put(QValueAxis* axis, ValueLimits& now, const ValueLimits& to, 
   }
   now = to;
   step = toStep;
+  // Numbers that are elsewhere now would leave parts of themselves.
+  viewport()->update();
 }
 
 void ValueChart::setRightAxis(ValueLimits limits, double step) {
@@ -306,7 +308,7 @@ void ValueChart::setCurvePainter(Painter painter, Painting painting) {
 
 void ValueChart::redraw() {
   m_layer->stale = true;
-  // Axes tell by themselves when they change.
+  // Axes: see put().
   viewport()->update(m_area.toAlignedRect().adjusted(-1, -1, 1, 1));
 }
 

@@ -186,14 +186,14 @@ QLineSeries* XyPane::nextLine(std::size_t& used) {
 }
 
 void XyPane::showCurve(const CurveSpec& spec, const QColor& color, double width,
-                       const std::vector<QPointF>& points, std::size_t& used) {
+                       const std::vector<QPointF>& points, std::size_t& used, Qt::PenStyle pen) {
   const auto stretches =
       spec.style == CurveStyle::Points ? std::nullopt : stretchesOf(points, mostStretches);
   if (stretches) {
-    const QPen pen(color, points.size() > manyPoints ? 0.0 : width);
+    const QPen stroke(color, points.size() > manyPoints ? 0.0 : width, pen);
     for (const QList<QPointF>& stretch : *stretches) {
       QLineSeries* line = nextLine(used);
-      line->setPen(pen);
+      line->setPen(stroke);
       line->setPointsVisible(false);
       line->setLightMarker({});
       line->replace(stretch);
@@ -221,11 +221,13 @@ void XyPane::showCurves() {
     const CurveSpec& spec = m_curves[i].spec();
     const QColor color =
         mixedColor(m_curves[i].color(), palette().color(QPalette::Base), comparedPaleness);
-    showCurve(spec, color, widthOf(spec) * comparedWidth, m_comparedPoints[i], used);
+    const bool future = m_feed->comparesFuture();
+    const double width = widthOf(spec) * (future ? 1.0 : comparedWidth);
+    showCurve(spec, color, width, m_comparedPoints[i], used, future ? Qt::DashLine : Qt::SolidLine);
   }
   for (std::size_t i = 0; i < m_curves.size(); ++i) {
     const CurveSpec& spec = m_curves[i].spec();
-    showCurve(spec, m_curves[i].color(), widthOf(spec), m_points[i], used);
+    showCurve(spec, m_curves[i].color(), widthOf(spec), m_points[i], used, Qt::SolidLine);
   }
   for (std::size_t i = 0; i < m_lines.size(); ++i) m_lines[i]->setVisible(i < used);
 }

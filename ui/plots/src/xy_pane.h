@@ -46,7 +46,7 @@ class XyPane : public PlotPane {
  private:
   void showCurves();
   void showCurve(const CurveSpec& spec, const QColor& color, double width,
-                 const std::vector<QPointF>& points, std::size_t& used);
+                 const std::vector<QPointF>& points, std::size_t& used, Qt::PenStyle pen);
   QLineSeries* nextLine(std::size_t& used);
   void showMarkers();
   void removeMarkers();

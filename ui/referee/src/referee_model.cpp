@@ -33,7 +33,9 @@ RefereeModel::Row RefereeModel::rowOf(const link::RefereePlayerView& player,
   row.number = player.number;
   row.penalised = !player.penalty.empty();
   row.texts[Player] = QString::number(player.number);
-  if (player.goalkeeper) row.texts[Player] += QStringLiteral(" (goal)");
+  if (player.goalkeeper) {
+    row.texts[Player] += m_compact ? QStringLiteral(" GK") : QStringLiteral(" (goal)");
+  }
   row.texts[State] =
       row.penalised ? QString::fromStdString(player.penalty) : QStringLiteral("plays");
   if (row.penalised) row.texts[Left] = durationText(player.secondsLeft);

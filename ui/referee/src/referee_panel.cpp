@@ -253,10 +253,10 @@ class RefereePanel : public QScrollArea {
     });
     addForChosen("Pardon", "Ctrl+Alt+E", "The chosen robots may play again",
                  [] { return RefereeCall{.kind = CallKind::Pardon}; });
-    m_card = new QToolButton(m_penalties);
+    m_card = new QPushButton(m_penalties);
     m_card->setObjectName(QStringLiteral("refereeCard"));
     m_card->setText(QStringLiteral("Card"));
-    m_card->setPopupMode(QToolButton::InstantPopup);
+    m_card->setMinimumWidth(scaled(this, 40));
     auto* menu = new QMenu(m_card);
     const std::array<std::pair<const char*, const char*>, 3> cards{
         {{"Warning", "Ctrl+Alt+W"}, {"Yellow card", "Ctrl+Alt+Y"}, {"Red card", "Ctrl+Alt+Z"}}};
@@ -503,8 +503,7 @@ class RefereePanel : public QScrollArea {
   std::array<TeamColumn*, 2> m_columns{};
   std::vector<ForChosen> m_forChosen;
   QComboBox *m_kind = nullptr, *m_for = nullptr, *m_play = nullptr;
-  QToolButton* m_card = nullptr;
-  QPushButton* m_give = nullptr;
+  QPushButton *m_card = nullptr, *m_give = nullptr;
   RefereeLog* m_log = nullptr;
   RulesFold* m_rules = nullptr;
   std::unique_ptr<Beat::Part> m_later;

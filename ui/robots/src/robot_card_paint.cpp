@@ -41,6 +41,11 @@ int RobotCard::rowHeight(int row) const {
   return 16;
 }
 
+/// Lamps and battery make room for words and volts.
+bool RobotCard::isNarrow() const {
+  return width() < scaled(this, 232);
+}
+
 QRect RobotCard::lampRect(int lamp) const {
   if (m_collapsed) {
     const QRect row = rowRect(0);
@@ -48,7 +53,8 @@ QRect RobotCard::lampRect(int lamp) const {
             scaled(this, 10)};
   }
   const QRect row = rowRect(1);
-  return {row.left() + scaled(this, lamp * 24), row.top(), scaled(this, 20), row.height()};
+  const int step = isNarrow() ? 18 : 24, wide = isNarrow() ? 16 : 20;
+  return {row.left() + scaled(this, lamp * step), row.top(), scaled(this, wide), row.height()};
 }
 
 QRect RobotCard::chevronRect() const {
@@ -57,8 +63,7 @@ QRect RobotCard::chevronRect() const {
 }
 
 QRect RobotCard::batteryRect() const {
-  // In a narrow panel it makes room for the volts.
-  const int wide = scaled(this, m_collapsed && width() < scaled(this, 232) ? 18 : 36);
+  const int wide = scaled(this, isNarrow() ? 18 : 36);
   return {chevronRect().left() - scaled(this, 4) - wide, rowRect(0).center().y() - scaled(this, 4),
           wide, scaled(this, 10)};
 }
@@ -142,15 +147,18 @@ void RobotCard::paintHead(QPainter& painter) const {
   painter.setPen(Qt::white);
   drawWords(painter, badge, Qt::AlignCenter, QString::number(m_state.number));
   painter.setPen(theme().text);
-  const QRect name = row.adjusted(row.height() + scaled(this, 8), 0, 0, 0);
-  drawWords(painter, name, Qt::AlignLeft | Qt::AlignVCenter, m_state.name);
+  int end = chevronRect().left();
+  if (m_collapsed) {
+    end = lampRect(0).left();
+  } else if (m_state.battery && m_parts.battery) {
+    const QFontMetrics volts(themeFont(TypeRole::Body, m_state.batteryLow()));
+    end = voltsRect().right() - volts.horizontalAdvance(voltsText(*m_state.battery));
+  }
+  QRect name = row.adjusted(row.height() + scaled(this, 8), 0, 0, 0);
+  name.setRight(end - scaled(this, 4));
+  drawWords(painter, name, Qt::AlignLeft | Qt::AlignVCenter, m_state.name, Qt::ElideRight);
   if (!m_collapsed && !m_state.subtitle.isEmpty()) {
     const int taken = painter.fontMetrics().horizontalAdvance(m_state.name) + scaled(this, 8);
-    int end = chevronRect().left();
-    if (m_state.battery && m_parts.battery) {
-      const QFontMetrics volts(themeFont(TypeRole::Body, m_state.batteryLow()));
-      end = voltsRect().right() - volts.horizontalAdvance(voltsText(*m_state.battery));
-    }
     const QRect room(name.left() + taken, name.top(), end - name.left() - taken, name.height());
     painter.setFont(themeFont(TypeRole::Secondary));
     painter.setPen(theme().secondaryText);

@@ -329,7 +329,9 @@ void ReplayController::load() {
         if (mine != m_loading) return;
         m_loaded = part;
         emit loadedChanged(part);
-        if (part >= 1.0) noteWhatDoesNotFit();
+        if (part < 1.0) return;
+        noteWhatDoesNotFit();
+        emit rowsCame();
       });
     };
     const QStringList damage = readRows(path, *rows, file->whole, [this, mine, &tell](double part) {

@@ -60,28 +60,42 @@ void TimelineStrip::paintBand(QPainter& painter) const {
                theme().innerLine);
 }
 
-// Where the match has been and is not any more: no label, no shape that could be taken for its own.
+// Where the match has been and is not any more: dashed, as in the plots, and named.
 void TimelineStrip::paintBranch(QPainter& painter) const {
   const QRectF row = branchRect();
   if (row.isEmpty()) return;
   const QRect band = bandRect();
-  QColor pale = theme().secondaryText;
-  pale.setAlphaF(0.35F);
+  QColor line = theme().secondaryText, ground = line;
+  line.setAlphaF(0.7F);
+  ground.setAlphaF(0.12F);
+  const QPen dashed(line, 1.0, Qt::DashLine);
   const double fork = m_axis.pixel(m_future->begin());
   if (fork >= band.left()) {
-    painter.setPen(QPen(pale, 2.0, Qt::SolidLine, Qt::RoundCap));
-    painter.drawLine(QPointF(fork, band.top()),
-                     QPointF(fork + band.top() - row.center().y(), row.center().y()));
+    painter.setPen(QPen(line, 1.4));
+    painter.drawLine(QPointF(fork, band.top()), QPointF(fork, row.top()));
   }
-  drawRoundBox(painter, row, 2, pale);
+  painter.setPen(dashed);
+  painter.setBrush(ground);
+  painter.drawRoundedRect(row.adjusted(0.5, 0.5, -0.5, -0.5), 2, 2);
   painter.setOpacity(0.5);
   for (const link::MatchEvent& event : m_future->events().events()) {
     if (!m_timeline->eventFilter().shows(event)) continue;
     const double x = m_axis.pixel(event.time);
     if (x < row.left() || x > row.right()) continue;
-    stem(painter, x, row.top(), row.bottom(), markColor(link::info(event.kind).shape), 1.4);
+    stem(painter, x, row.top() + 2, row.bottom() - 2, markColor(link::info(event.kind).shape), 1.4);
   }
   painter.setOpacity(1.0);
+  painter.setFont(themeFont(TypeRole::Small));
+  const QString name = m_future->caption();
+  const double pad = scaled(this, 5),
+               wide = painter.fontMetrics().horizontalAdvance(name) + 2 * pad;
+  QRectF place(row.left() + pad, row.top() + 1, wide, row.height() - 2);
+  // Where the branch is too short for it, beside it.
+  if (wide + pad > row.width()) place.moveLeft(row.right() + pad);
+  if (place.right() > width()) return;
+  painter.fillRect(place, theme().window);
+  painter.setPen(theme().secondaryText);
+  painter.drawText(place, Qt::AlignCenter, name);
 }
 
 void TimelineStrip::paintWindow(QPainter& painter) const {

@@ -110,7 +110,7 @@ QSize TimelineStrip::sizeHint() const {
 }
 
 int TimelineStrip::branchHeight() const {
-  return m_future != nullptr && m_future->isOn() ? scaled(this, 9) : 0;
+  return m_future != nullptr && m_future->isOn() ? scaled(this, 16) : 0;
 }
 
 QRect TimelineStrip::branchRect() const {
@@ -118,7 +118,7 @@ QRect TimelineStrip::branchRect() const {
   const QRect band = bandRect();
   const int left = std::max(qRound(m_axis.pixel(m_future->begin())), band.left());
   const int right = std::min(qRound(m_axis.pixel(m_future->end())), band.right());
-  return {left, band.top() - branchHeight(), std::max(right - left, 0), scaled(this, 6)};
+  return {left, band.top() - branchHeight(), std::max(right - left, 0), scaled(this, 13)};
 }
 
 QSize TimelineStrip::minimumSizeHint() const {

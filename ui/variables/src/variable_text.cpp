@@ -89,6 +89,12 @@ QString ageText(double seconds) {
   return durationText(seconds, 1);
 }
 
+QString attachedKey(const telemetry::GroupInfo& group) {
+  const auto key = group.attributes.find("key");
+  const bool attached = group.attributes.contains("attached") && key != group.attributes.end();
+  return attached ? QStringLiteral("key ") + QString::fromStdString(key->second) : QString();
+}
+
 QString wordsOf(const ColumnInfo& column, double value) {
   const bool hasWords = column.kind == ColumnKind::Enumeration || column.kind == ColumnKind::Text;
   if (!hasWords || !std::isfinite(value)) return {};

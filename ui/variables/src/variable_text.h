@@ -20,6 +20,8 @@ QString exactText(const telemetry::ColumnInfo& column, double value);
 QString rateText(const telemetry::ColumnInfo& column, double perSecond);
 /// "12 ms", "3.4 s", "5 min": a time that passed.
 QString ageText(double seconds);
+/// "key 700" of an attached blackboard; empty for other groups.
+QString attachedKey(const telemetry::GroupInfo& group);
 /// What a code means; empty without words for it.
 QString wordsOf(const telemetry::ColumnInfo& column, double value);
 

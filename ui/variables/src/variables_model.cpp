@@ -9,6 +9,7 @@
 #include <ui/base/robot_words.h>
 
 #include "variable_node.h"
+#include "variable_text.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -85,6 +86,8 @@ std::unique_ptr<VariableNode> VariablesModel::makeGroup(
     group->children.push_back(std::move(category));
     return group->children.back().get();
   };
+  // An attached blackboard is known by its key.
+  const QString key = attachedKey(info);
   std::uint32_t column = 0;
   for (const telemetry::ColumnInfo& columnInfo : info.columns) {
     VariableNode* category = categoryOf(columnInfo.category);
@@ -98,7 +101,7 @@ std::unique_ptr<VariableNode> VariablesModel::makeGroup(
     variable->info = columnInfo;
     variable->searchText =
         (group->name + QLatin1Char('\n') + category->name + QLatin1Char('\n') + variable->name +
-         QLatin1Char('\n') + QString::fromStdString(columnInfo.unit))
+         QLatin1Char('\n') + QString::fromStdString(columnInfo.unit) + QLatin1Char('\n') + key)
             .toLower();
     category->children.push_back(std::move(variable));
   }

@@ -26,8 +26,12 @@ double VariablesModel::rateOf(const VariableNode& group) const {
 QVariant VariablesModel::display(const VariableNode& row, int column) const {
   if (row.kind == Kind::Rest) return column == Name ? restText(row) : QString();
   if (column == Name) {
-    const QString note = row.kind == Kind::Group ? m_notes.value(row.name).trouble : QString();
-    return note.isEmpty() ? row.name : row.name + QStringLiteral(" · ") + note;
+    if (row.kind != Kind::Group) return row.name;
+    QString name = row.name;
+    const QString key = attachedKey(row.view->info());
+    if (!key.isEmpty() && !name.contains(key)) name += QStringLiteral(" (%1)").arg(key);
+    const QString note = m_notes.value(row.name).trouble;
+    return note.isEmpty() ? name : name + QStringLiteral(" · ") + note;
   }
   if (row.kind == Kind::Group) {
     const double rate = rateOf(row);

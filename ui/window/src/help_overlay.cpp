@@ -33,7 +33,13 @@ Columns inColumns(const std::vector<KeyLine>& lines, int mostRows) {
   QString group;
   for (const KeyLine& line : lines) {
     const bool isNew = line.group != group;
-    const int needed = isNew ? (row > 0 ? 3 : 2) : 1;
+    int needed = isNew ? (row > 0 ? 3 : 2) : 1;
+    if (isNew) {
+      // A short group stays whole.
+      constexpr int isShort = 12;
+      const auto size = static_cast<int>(std::ranges::count(lines, line.group, &KeyLine::group));
+      if (size <= isShort) needed += size - 1;
+    }
     if (row > 0 && row + needed > mostRows) {
       ++made.count;
       row = 0;

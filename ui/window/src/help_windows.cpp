@@ -11,6 +11,7 @@
 #include <QTableView>
 #include <QVBoxLayout>
 
+#include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 #include <ui/base/words_filter.h>
 
@@ -43,13 +44,9 @@ void showShortcuts(QWidget* parent, const KeyMap& keys) {
   QObject::connect(words, &QLineEdit::textChanged, filter, &WordsFilter::setWords);
   auto* table = new QTableView(dialog);
   table->setModel(filter);
-  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table->setShowGrid(false);
-  table->setWordWrap(false);
-  table->verticalHeader()->hide();
-  table->verticalHeader()->setDefaultSectionSize(scaled(parent, 22));
+  styleTable(table);
   table->resizeColumnsToContents();
+  table->horizontalHeader()->setStretchLastSection(false);
   table->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
   auto* column = new QVBoxLayout(dialog);
   column->addWidget(words);

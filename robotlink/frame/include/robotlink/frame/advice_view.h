@@ -1,23 +1,69 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the screen shows of a robot's advisor, read from the ADVISOR_ variables of its blackboard,
-// for every source. Plain values in metres and seconds, in the studio's frame; any thread.
+// What a robot's advisor thinks, as it is shown: read from the ADVISOR_ variables of its blackboard
+// (docs/blackboard.md), whatever the source. Plain values in metres, in the studio's frame; any
+// thread.
 
-#include <cstdint>
+#include <array>
+#include <cstddef>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include <base/geometry.h>
+#include <simcore/world/field.h>
 
 namespace pitchboard::link {
 
-/// Where the ball may be: shares of all rollouts (or of the largest cell) in cells of the field.
+/// Where the ball may be, in cells of the field. Only the ratios of the numbers count.
 struct BallHeat {
   int columns = 0, rows = 0;
   std::vector<float> cells;  ///< rows from below, cells from left to right
   bool operator==(const BallHeat&) const = default;
 };
+
+/// Something that the advisor has considered.
+struct AdviceCandidate {
+  int choice = 0;      ///< as ADVISOR_CHOICE; 0: what the behaviour would do
+  Point place;         ///< where the ball or the robot is to go
+  double value = 0.0;  ///< expected goal difference
+  bool isChosen = false;
+  bool operator==(const AdviceCandidate&) const = default;
+};
+
+struct AdviceView {
+  bool isThinking = false;  ///< false: the advice below is old, and nothing depends on it now
+  int choice = 0;           ///< ADVISOR_CHOICE; 0: the behaviour decides
+  double value = 0.0;       ///< expected goal difference of the choice
+  double gain = 0.0;        ///< over what the behaviour would reach by itself
+  double goal = 0.0, goalAgainst = 0.0;  ///< shares of the rollouts
+  int rollouts = 0;
+  std::vector<AdviceCandidate> candidates;
+  std::shared_ptr<const BallHeat> heat;  ///< of the ball in 5 s; null: none
+};
+
+/// Returns the text of an ADVISOR_CHOICE for people, "strong kick"; empty if it is unknown.
+std::string_view adviceText(int choice);
+/// The ball's target is its place, and not the robot's.
+constexpr bool isAdviceForBall(int choice) {
+  return choice >= 1 && choice <= 3;
+}
+
+inline constexpr std::size_t adviceCandidates = 6, adviceHeatWords = 20;
+inline constexpr std::size_t adviceVariableCount = 9 + 2 * adviceCandidates + adviceHeatWords;
+/// The variables that readAdvice() needs. Sources look up their places once.
+const std::array<std::string_view, adviceVariableCount>& adviceVariables();
+
+/// Returns the value of a variable by its index in adviceVariables(); nothing if the source does
+/// not have it.
+using AdviceReader = std::function<std::optional<double>(std::size_t variable)>;
+
+/// Returns null if there is no advisor, or it has not thought yet. Numbers that make no sense are
+/// left out.
+std::shared_ptr<const AdviceView> readAdvice(const AdviceReader& reader,
+                                             const sim::FieldSpec& field);
 
 }  // namespace pitchboard::link

@@ -18,11 +18,15 @@ class NumberBox : public QDoubleSpinBox {
  public:
   explicit NumberBox(QWidget* parent = nullptr);
 
+  /// A number beyond the range can be typed; when it is entered, the nearest one is taken and a
+  /// tooltip says so.
   QValidator::State validate(QString& input, int& position) const override;
+  void fixup(QString& input) const override;
   double valueFromText(const QString& text) const override;
 
  private:
   QString withPoint(QString text) const;
+  std::optional<double> beyondRange(const QString& input) const;
 };
 
 }  // namespace pitchboard::ui

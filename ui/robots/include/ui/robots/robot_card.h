@@ -58,6 +58,7 @@ class RobotCard : public QFrame {
   int rowHeight(int row) const;  // mock pixels, 0 when not shown
   const CardValue* value(const QString& name) const;
   QRect lampRect(int lamp) const;
+  bool isNarrow() const;
   QRect chevronRect() const;
   void paintFrame(QPainter& painter) const;
   void paintHead(QPainter& painter) const;

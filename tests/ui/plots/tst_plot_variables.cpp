@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which variables a curve shows: of every robot, of the first one, of other curves, in expressions
+// that somebody types. Values are computed here.
+#include <QCompleter>
+#include <QDialogButtonBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QtTest>
+
+#include <ui/base/theme.h>
+
+#include "curve_dialog.h"
+#include "curve_template.h"
+#include "derived_series.h"
+#include "plot_page.h"
+#include "plot_rig.h"
+#include "plot_source.h"
+
+namespace tst_plot_variables {
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+using namespace plot_rig;
+
+class TestPlotVariables : public QObject {
+  Q_OBJECT
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void oneDescriptionForEveryRobot() {
+    Bench b;
+    PlotPane* pane = b.show(variableCurve(QStringLiteral("each/DIST")));
+    QCOMPARE(namesOf(pane), QStringList({QStringLiteral("DIST B1"), QStringLiteral("DIST B2")}));
+    QVERIFY(pane->curves()[0].color() != pane->curves()[1].color());
+    // A robot that comes later has its curve; what is kept is the description.
+    b.source.fill("B3", 10.0);
+    b.dock->feed()->refresh();
+    QTRY_COMPARE(pane->curves().size(), std::size_t(3));
+    QCOMPARE(pane->spec().curves.size(), 1);
+    QCOMPARE(pane->spec().curves[0].inputs, QStringList(QStringLiteral("each/DIST")));
+    // The same in a source with other robots, or none.
+    b.source.restart();
+    b.source.fill("Robot 7", 10.0);
+    b.dock->feed()->refresh();
+    QTRY_COMPARE(namesOf(pane), QStringList(QStringLiteral("DIST Robot 7")));
+    QCOMPARE(pane->curves()[0].valueAt({}), std::optional(PlotSource::distanceAt(10.0)));
+    b.source.restart();
+    b.dock->feed()->refresh();
+    QTRY_VERIFY(pane->curves().size() == 1 && pane->curves()[0].isWaiting());
+  }
+
+  void expressionsForEveryRobotAndTheFirst() {
+    Bench b({QStringLiteral("Robot 1"), QStringLiteral("B2")});
+    PlotPane* pane = b.show(expression(QStringLiteral("each.DIST * 2 + each.ANGLE")));
+    QCOMPARE(namesOf(pane), QStringList({QStringLiteral("DIST * 2 + ANGLE Robot 1"),
+                                         QStringLiteral("DIST * 2 + ANGLE B2")}));
+    const double expected = PlotSource::distanceAt(10.0) * 2 + 900.0;
+    QTRY_VERIFY(pane->curves()[0].valueAt({}) && pane->curves()[1].valueAt({}));
+    QTRY_COMPARE(pane->curves()[0].valueAt(10.0), std::optional(expected));
+    PlotPane* first = b.show(variableCurve(QStringLiteral("first/DIST")));
+    QCOMPARE(namesOf(first), QStringList(QStringLiteral("DIST Robot 1")));
+    // From a plain curve by the menu's way.
+    QCOMPARE(forEachGroup(variableCurve(QStringLiteral("B2/DIST"))).inputs,
+             QStringList(QStringLiteral("each/DIST")));
+  }
+
+  void curvesAreMadeOfCurves() {
+    Bench b;
+    CurveSpec near = expression(QStringLiteral("B1.DIST / 100"));
+    near.title = QStringLiteral("near");
+    b.show(near);
+    PlotPane* pane = b.show(expression(QStringLiteral("{curve/near} + B1.ANGLE")));
+    const double expected = PlotSource::distanceAt(10.0) / 100 + 900.0;
+    // Two computations, one after the other, each by a worker between two looks of the plots: a
+    // busy computer takes its time.
+    const auto says = [pane](double value) {
+      const auto at = pane->curves()[0].valueAt(10.0);
+      return at && std::abs(*at - value) < 1e-9;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(says(expected), 60'000);
+    // What it is made of changes: so does it.
+    PlotPane* source = b.dock->currentPage()->panes()[1];
+    near.expression = QStringLiteral("B1.DIST / 10");
+    source->setCurve(0, near);
+    const double now = PlotSource::distanceAt(10.0) / 10 + 900.0;
+    QTRY_VERIFY_WITH_TIMEOUT(says(now), 60'000);
+    // A curve that is made of itself waits for ever and harms nobody.
+    CurveSpec circle = expression(QStringLiteral("{curve/circle} + B1.DIST"));
+    circle.title = QStringLiteral("circle");
+    PlotPane* endless = b.show(circle);
+    b.dock->feed()->refresh();
+    QVERIFY(endless->curves()[0].isWaiting());
+  }
+
+  /// What was computed is not computed again: rows that came before are not looked at any more.
+  void onlyWhatIsNewIsComputed() {
+    PlotSource first, other;
+    first.fill("B1", 10.0);
+    // The same near 10 s and behind it, another one before: who computes that anew gives it away.
+    constexpr double changed = 8.0, elsewhere = -1e6;
+    const auto group = other.addRobot("B1");
+    for (int i = 0; i <= 900; ++i) {
+      const double time = i / 60.0;
+      other.append(group, time, 0, time < changed ? elsewhere : PlotSource::distanceAt(time));
+    }
+    DerivedSeries series(expression(QStringLiteral("B1.DIST * 2")));
+    const PlotSource* source = &first;
+    const auto find = [&source](const QString&) { return ColumnView{source->store->view(0), 1}; };
+    const auto finish = [&](quint64 generation) {
+      series.update(find, generation, {0.0, 15.0});
+      return !series.isWorking();
+    };
+    const auto values = [&series] {
+      std::vector<telemetry::Sample> samples;
+      const ColumnView view = series.view();
+      if (view) view.group->samples(view.column, {-1.0, 100.0}, samples);
+      return samples;
+    };
+    QTRY_VERIFY(finish(1));
+    QCOMPARE(values().size(), std::size_t(601));
+    source = &other;
+    QTRY_VERIFY(finish(1));
+    QCOMPARE(values().size(), std::size_t(901));
+    for (const telemetry::Sample& sample : values()) {
+      QCOMPARE(sample.value, 2 * PlotSource::distanceAt(sample.time));
+    }
+    // Of another match nothing holds.
+    QTRY_VERIFY(finish(2));
+    QCOMPARE(values().size(), std::size_t(901));
+    for (const telemetry::Sample& sample : values()) {
+      QCOMPARE(sample.value,
+               2 * (sample.time < changed ? elsewhere : PlotSource::distanceAt(sample.time)));
+    }
+  }
+
+  /// A plot of "Robot 1" shows B1 once the colour is known, and the other way round.
+  void aRobotIsFoundByItsOtherName() {
+    Bench b({QStringLiteral("B1"), QStringLiteral("Robot 2"), QStringLiteral("R3"),
+             QStringLiteral("B3")});
+    const PlotPane* pane = b.show(variableCurve(QStringLiteral("Robot 1/DIST")));
+    QCOMPARE(namesOf(pane), QStringList(QStringLiteral("DIST B1")));
+    QTRY_COMPARE(pane->curves()[0].valueAt(10.0), std::optional(PlotSource::distanceAt(10.0)));
+    QCOMPARE(namesOf(b.show(variableCurve(QStringLiteral("R2/DIST")))),
+             QStringList(QStringLiteral("DIST Robot 2")));
+    // Nobody knows which of two it was.
+    QCOMPARE(namesOf(b.show(variableCurve(QStringLiteral("Robot 3/DIST")))),
+             QStringList(QStringLiteral("DIST Robot 3")));
+    QCOMPARE(namesOf(b.show(variableCurve(QStringLiteral("R1/DIST")))),
+             QStringList(QStringLiteral("DIST R1")));
+  }
+
+  void theFirstRobotIsOneThatMoves() {
+    PlotBench bench;
+    const auto still = bench.source.addRobot("B1"), moving = bench.source.addRobot("B2");
+    PlotsDock dock(bench.context(), nullptr);
+    dock.resize(800, 300);
+    dock.show();
+    PaneSpec chart, lane;
+    chart.curves << variableCurve(QStringLiteral("first/DIST"));
+    lane.kind = PaneKind::Lane;
+    lane.curves << variableCurve(QStringLiteral("first/ACTION"));
+    dock.setLayoutSpec({{{QStringLiteral("one"), {chart, lane}}}, 0});
+    const auto shown = [&] {
+      QStringList names;
+      for (const PlotPane* pane : dock.currentPage()->panes()) names << namesOf(pane);
+      return names;
+    };
+    const auto play = [&](double from, double to, bool moves) {
+      for (double time = from; time < to; time += 0.1) {
+        bench.source.append(still, time, 0, 7.0);
+        bench.source.append(moving, time, 0, moves ? 100.0 + time : 5.0);
+      }
+    };
+    play(0.0, 10.0, false);
+    QTRY_COMPARE(shown(), QStringList({QStringLiteral("DIST B1"), QStringLiteral("ACTION B1")}));
+    play(10.0, 11.0, true);
+    QTRY_COMPARE(shown(), QStringList({QStringLiteral("DIST B2"), QStringLiteral("ACTION B2")}));
+    // It stays that one, though it rests and the other begins.
+    for (double time = 11.0; time < 30.0; time += 0.1) {
+      bench.source.append(still, time, 0, time);
+      bench.source.append(moving, time, 0, 3.0);
+    }
+    QTRY_COMPARE(dock.time()->data()->end, bench.source.store->range()->end);
+    dock.feed()->refresh();
+    QCOMPARE(shown().front(), QStringLiteral("DIST B2"));
+  }
+
+  void namesAreCompletedInExpressions() {
+    Bench b({QStringLiteral("B1"), QStringLiteral("Robot 7")});
+    CurveDialog dialog(b.dock->feed(), expression({}), nullptr);
+    dialog.show();
+    auto* line = dialog.findChild<QLineEdit*>(QStringLiteral("expression"));
+    auto* completer = line->findChild<QCompleter*>(QStringLiteral("expressionCompleter"));
+    line->setFocus();
+    QTest::keyClicks(line, QStringLiteral("2 * angl"));
+    QCOMPARE(completer->completionCount(), 4);  // of both robots, each and first
+    emit completer->activated(completer->currentCompletion());
+    QCOMPARE(line->text(), QStringLiteral("2 * B1.ANGLE"));
+    QVERIFY2(dialog.problem().isEmpty(), qPrintable(dialog.problem()));
+    QTest::keyClicks(line, QStringLiteral(" + dist"));
+    completer->setCurrentRow(1);
+    emit completer->activated(completer->currentCompletion());
+    QCOMPARE(line->text(), QStringLiteral("2 * B1.ANGLE + {Robot 7/DIST}"));
+    QVERIFY2(dialog.problem().isEmpty(), qPrintable(dialog.problem()));
+  }
+
+  void eachAndFirstAreCompleted() {
+    Bench b({QStringLiteral("B1"), QStringLiteral("B2")});
+    b.source.store->addGroup(
+        {"B3", {{"ALONE", telemetry::ColumnType::Float64, "", "", {}, {}}}, {}});
+    b.dock->feed()->refresh();
+    CurveDialog dialog(b.dock->feed(), expression({}), nullptr);
+    dialog.show();
+    auto* line = dialog.findChild<QLineEdit*>(QStringLiteral("expression"));
+    auto* completer = line->findChild<QCompleter*>(QStringLiteral("expressionCompleter"));
+    const auto offered = [&](const QString& word) {
+      line->clear();
+      line->setFocus();
+      QTest::keyClicks(line, word);
+      QStringList all;
+      for (int i = 0; i < completer->completionModel()->rowCount(); ++i) {
+        all << completer->completionModel()->index(i, 0).data().toString();
+      }
+      return all;
+    };
+    QVERIFY(offered(QStringLiteral("each.di")).contains(QStringLiteral("each.DIST")));
+    QVERIFY(offered(QStringLiteral("first.di")).contains(QStringLiteral("first.DIST")));
+    // One robot has it: "each" would be that one.
+    QCOMPARE(offered(QStringLiteral("alone")),
+             QStringList({QStringLiteral("B3.ALONE"), QStringLiteral("first.ALONE")}));
+  }
+
+  void anUnknownVariableIsNamed() {
+    Bench b;
+    CurveDialog dialog(b.dock->feed(), expression({}), nullptr);
+    auto* line = dialog.findChild<QLineEdit*>(QStringLiteral("expression"));
+    auto* problem = dialog.findChild<QLabel*>(QStringLiteral("problem"));
+    auto* ok = dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
+    line->setText(QStringLiteral("B1.DISTANCE * 2"));
+    QCOMPARE(problem->text(), QStringLiteral("B1 has no variable DISTANCE. Did you mean DIST?"));
+    QVERIFY(ok->isEnabled());  // it may come
+    line->setText(QStringLiteral("B1.XYZQVW * 2"));
+    QCOMPARE(problem->text(), QStringLiteral("B1 has no variable XYZQVW."));
+    line->setText(QStringLiteral("B7.DIST"));
+    QCOMPARE(problem->text(), QStringLiteral("There is no B7. Did you mean B1?"));
+    line->setText(QStringLiteral("each.DIST + first.ANGLE - t"));
+    QCOMPARE(problem->text(), QString());
+  }
+};
+
+PITCHBOARD_GUI_TEST(TestPlotVariables)
+
+}  // namespace tst_plot_variables
+
+#include "tst_plot_variables.moc"
