@@ -95,18 +95,18 @@ void addReplay(CLI::App& parent, int& exitCode) {
     settings.program = programName;
     const std::string path =
         chosen.output.empty() ? link::sessionPath(chosen.folder, chosen.run) : chosen.output;
+    const auto before = TRY(link::resultOf(chosen.folder, experiment, chosen.run));
+    const char* doubt = before.match.repeatable ? "" : "; the run is not repeatable";
     if (!std::filesystem::exists(path) || !chosen.output.empty()) {
-      const auto before = TRY(link::resultOf(chosen.folder, experiment, chosen.run));
       const auto result =
           TRY(link::recordAgain(chosen.folder, experiment, chosen.run, path, settings));
-      std::printf("%s: run %zu, seed %" PRIu64 ", %s, state hash 0x%016" PRIx64 ", %s\n",
-                  path.c_str(), result.number, result.seed,
-                  link::endWords(result.match.endedBy).c_str(), result.hash,
-                  result.hash == before.hash
-                      ? "as in the results"
-                      : "which is not that of the results: the run is not repeatable");
+      std::printf(
+          "%s: run %zu, seed %" PRIu64 ", %s, state hash 0x%016" PRIx64 ", %s%s\n", path.c_str(),
+          result.number, result.seed, link::endWords(result.match.endedBy).c_str(), result.hash,
+          result.hash == before.hash ? "as in the results" : "which is not that of the results",
+          doubt);
     } else {
-      std::printf("%s: already there\n", path.c_str());
+      std::printf("%s: already there%s\n", path.c_str(), doubt);
     }
     if (!chosen.open) return 0;
     const std::string studio = link::besideTeamProgram("pitchboard");

@@ -62,7 +62,9 @@ const char* reasonText(const std::string& finishedBy) {
 }  // namespace
 
 void printResult(const link::SimulatedMatch& match, const Outcome& outcome) {
-  std::printf("%s; %s\n", resultText(match.result()).c_str(), reasonText(outcome.finishedBy));
+  const link::MatchResult result = match.result();
+  std::printf("%s; %s%s\n", resultText(result).c_str(), reasonText(outcome.finishedBy),
+              result.repeatable ? "" : "; not repeatable");
 }
 
 std::string noiseName(const sim::NoiseParameters& noise) {
@@ -84,6 +86,9 @@ void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
   std::printf("  Time       %.2f s simulated in %.2f s, %" PRIu64 " ticks, %.1f x real time\n",
               outcome.simulatedSeconds, outcome.wallSeconds, outcome.ticks, speedOf(outcome));
   std::printf("  State hash %s\n", hashText(match.simulation().hash()).c_str());
+  if (!match.isRepeatable()) {
+    std::printf("  Repeatable no: a program decided that the match did not wait for\n");
+  }
   for (const link::ProcessStatus& one : teamPrograms(match)) {
     if (one.missedCycles == 0) continue;
     std::printf("  Missed     %" PRIu64 " of %" PRIu64

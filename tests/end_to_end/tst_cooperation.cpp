@@ -78,6 +78,31 @@ class TestCooperation : public QObject {
     QCOMPARE(hashes.size(), 1);
   }
 
+  // For people, too: what was printed, and what recorded.
+  void whatDoesNotRepeatIsSaid_data() {
+    QTest::addColumn<bool>("cooperates");
+    QTest::newRow("cooperates") << true;
+    QTest::newRow("does not") << false;
+  }
+  void whatDoesNotRepeatIsSaid() {
+    QFETCH(bool, cooperates);
+    const QString profile =
+        profileOf({"python3", PITCHBOARD_SOURCE_DIR "/tests/end_to_end/cycle_robot.py", "${key}"},
+                  cooperates);
+    const QStringList match{"--scenario", "one-robot", "--cognition", "external",
+                            "--runtime",  profile,     "--speed",     "8",
+                            "--duration", "2",         "--key-base",  QString::number(m_base)};
+    const ProgramRun played = runProgram("pitchboard-cli", QStringList{"simulate"} + match);
+    QVERIFY2(played.exitCode == 0, played.err.constData());
+    QCOMPARE(played.out.contains("  Repeatable no: a program decided"), !cooperates);
+    const ProgramRun recorded =
+        runProgram("pitchboard-cli",
+                   QStringList{"record"} + match +
+                       QStringList{"-o", m_folder.filePath(cooperates ? "a.mcap" : "b.mcap")});
+    QVERIFY2(recorded.exitCode == 0, recorded.err.constData());
+    QCOMPARE(recorded.out.contains("; not repeatable\n"), !cooperates);
+  }
+
   // A segment that was there, with the last word of another match.
   void whatAnEarlierProgramLeftIsForgotten() {
     auto board = SystemVSegments::open(m_base + 100, AttachMode::AttachOrCreate).value();

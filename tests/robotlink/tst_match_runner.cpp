@@ -357,6 +357,38 @@ class TestMatchRunner : public QObject {
     QVERIFY2(std::abs(program - match) < 0.05 * match,
              qPrintable(QStringLiteral("%1 s, its clock %2 s").arg(match).arg(program)));
   }
+
+  // A match waits for a program that cooperates, at ×1; the clocks of programs follow it at once
+  // when it begins.
+  void clocksFollowFromTheFirstTickOn() {
+    constexpr double speed = 8.0;
+    const QTemporaryDir folder;
+    QFile file(folder.filePath("team.json"));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(R"({"version": 1, "name": "team", "cycle": "MATCH_CYCLE", "processes": [{"name":
+      "decision", "command": ["/bin/sleep", "600"], "silent_after": 0.2}]})");
+    file.close();
+    Scenario scenario = builtIn("one-robot");
+    scenario.robots[0].runtime.profile = file.fileName().toStdString();
+    MatchOptions options;
+    options.keyBase = testKeyBase();
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    options.speed = speed;
+    auto made = SimulatedMatch::create(scenario, options);
+    QVERIFY2(made, made ? "" : made.error().text().c_str());
+    MatchPlayer player(std::move(*made));
+    const auto now = std::chrono::steady_clock::now();
+    player.match().pace().setPlaying(speed, false, now);
+    player.setSpeed(speed, now);
+    const auto clockSpeed = [&player] {
+      return player.match().robots().processes().statuses().front().speed;
+    };
+    QCOMPARE(player.play(now).ticks, std::uint64_t{0});
+    QCOMPARE(clockSpeed(), 1.0);
+    player.match().blackboard(RobotId{1})->write(IntVar{447}, -1);  // it is there
+    QVERIFY(player.play(now + 20ms, player.currentTick() + 1).next > now);
+    QCOMPARE(clockSpeed(), speed);
+  }
 };
 
 PITCHBOARD_TEST(TestMatchRunner)

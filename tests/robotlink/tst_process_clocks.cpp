@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The clocks and waits of real programs follow the match, and who cannot follow is named.
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <QTemporaryDir>
 #include <QtTest>
 #include <ctime>
@@ -10,6 +7,9 @@
 #include <map>
 
 #include <robotlink/processes/process_manager.h>
+
+#include "../support/setuid_program.h"
+#include "time_page.h"
 
 namespace tst_process_clocks {
 
@@ -364,6 +364,54 @@ for seconds in (5.5, 0.1, 2.5):
     QCOMPARE(ProgramClock::rateFor(100.0, 8.0), 16.0);
   }
 
+  // A match is late now and then, and never early: a correction that ended halfway would leave its
+  // programs ahead of it for good, at a high speed by several of their cycles.
+  void aCorrectionGoesAllTheWay_data() {
+    QTest::addColumn<double>("speed");
+    QTest::addColumn<double>("late");
+    QTest::newRow("x1") << 1.0 << 0.05;
+    QTest::newRow("x8") << 8.0 << 0.3;
+    QTest::newRow("x8, early") << 8.0 << -0.3;
+    QTest::newRow("x50") << 50.0 << 2.0;
+  }
+  void aCorrectionGoesAllTheWay() {
+    QFETCH(double, speed);
+    QFETCH(double, late);
+    m_manager->setTime(0.0, speed, SteadyClock::now());
+    const int id = add(python({"-c", "import time\ntime.sleep(600)\n"}));
+    const auto page = [&]() -> std::optional<pitchboard_time_page> {
+      QFile environment(QStringLiteral("/proc/%1/environ").arg(status(id).pid));
+      if (!environment.open(QIODevice::ReadOnly)) return {};
+      for (const QByteArray& one : environment.readAll().split('\0')) {
+        if (!one.startsWith(PITCHBOARD_TIME_VARIABLE "=")) continue;
+        QFile file(QString::fromUtf8(one.mid(one.indexOf('=') + 1)));
+        if (!file.open(QIODevice::ReadOnly)) return {};
+        pitchboard_time_page read{};
+        if (file.read(reinterpret_cast<char*>(&read), sizeof read) == sizeof read) return read;
+      }
+      return {};
+    };
+    QTRY_VERIFY((look(), page().has_value()));
+    // The times are made up: nobody waits.
+    const auto begin = SteadyClock::now();
+    const auto ahead = [&](SteadyClock::time_point now) {  // of the computer's clock, s
+      const pitchboard_time_page read = *page();
+      const auto since = double(now.time_since_epoch().count() - read.since);
+      return (double(read.offset) + since * (read.rate - 1.0)) * 1e-9;
+    };
+    double first = 0.0, behind = 0.0;
+    for (int i = 0; i <= 400; ++i) {
+      const double passed = 0.05 * i;
+      const auto now = begin + std::chrono::duration_cast<SteadyClock::duration>(
+                                   std::chrono::duration<double>(passed));
+      const double match = speed * passed - (passed > 1.0 ? late : 0.0);
+      m_manager->setTime(match, speed, now);
+      if (i == 0) first = ahead(now);
+      behind = match - (passed + ahead(now) - first);
+    }
+    QVERIFY2(std::abs(behind) < 0.004 * speed, qPrintable(QString::number(behind)));
+  }
+
   // Nothing can be loaded into it.
   void aStaticProgramIsNamedWithTheReason() {
     ManagedProcess process = python({});
@@ -379,14 +427,9 @@ for seconds in (5.5, 0.1, 2.5):
 
   // The dynamic linker loads nothing of ours into a program that runs with other rights.
   void aSetuidProgramIsNamedWithTheReason() {
-    if (::geteuid() != 0) QSKIP("only root can make a program of another user");
     const QTemporaryDir dir;
-    const QByteArray program = dir.filePath("sleep").toUtf8();
-    QVERIFY(QFile::copy("/bin/sleep", QString::fromUtf8(program)));
-    constexpr uid_t nobody = 65534;
-    QVERIFY(::chmod(qPrintable(dir.path()), 0755) == 0);
-    QVERIFY(::chown(program.constData(), nobody, nobody) == 0);
-    QVERIFY(::chmod(program.constData(), 04755) == 0);
+    const QString program = setuidSleep(dir);
+    if (program.isEmpty()) QSKIP("only root can make a program of another user");
     ManagedProcess process = python({});
     process.spec.command = {program.toStdString(), "600"};
     m_manager->setTime(0.0, 8.0, SteadyClock::now());

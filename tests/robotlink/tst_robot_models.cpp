@@ -6,6 +6,8 @@
 #include <QJsonObject>
 #include <QTemporaryDir>
 #include <QtTest>
+#include <array>
+#include <numbers>
 
 #include <base/angles.h>
 #include <resources/resources.h>
@@ -72,9 +74,13 @@ double rollOf(const QJsonObject& kick) {
   return std::hypot(now.ball.x - scenario.ball.x, now.ball.y - scenario.ball.y);
 }
 
-/// How often a kid-size robot falls that stands while another one walks into it, and how near they
-/// came, m.
-std::pair<unsigned, double> walkInto(int action) {
+struct Meeting {
+  std::array<unsigned, 2> falls{};
+  double gap = 9.0;  ///< between their centres at least, m
+};
+
+/// Two kid-size robots face each other and do these actions; both slowly where there is a choice.
+Meeting meet(int action, int othersAction) {
   Scenario scenario = loadScenario("one-robot").value();
   scenario.settings.field = sim::fieldByName("kid-2020").value();
   scenario.settings.noise = {};
@@ -86,17 +92,21 @@ std::pair<unsigned, double> walkInto(int action) {
   scenario.robots.push_back(scenario.robots[0]);
   scenario.robots[1].identity.id = RobotId{2};
   scenario.robots[1].identity.number = 2;
-  scenario.robots[1].pose = {{0.0, 0.0}, 1.5};
+  scenario.robots[1].pose = {{0.0, 0.0}, std::numbers::pi};
   auto match = SimulatedMatch::create(scenario, {}).value();
-  match.blackboard(RobotId{1})->write(match.variables().decisionActionB, 10);
-  match.blackboard(RobotId{1})->write(match.variables().decisionActionA, action);
-  double gap = 9.0;
+  for (const int id : {1, 2}) {
+    match.blackboard(RobotId{id})->write(match.variables().decisionActionB, 10);
+    match.blackboard(RobotId{id})
+        ->write(match.variables().decisionActionA, id == 1 ? action : othersAction);
+  }
+  Meeting meeting;
   for (int i = 0; i < 15 * 60; ++i) {
     match.tick();
     const auto robots = match.simulation().snapshot().robots;
-    gap = std::min(gap, distance(robots[0].pose.position, robots[1].pose.position));
+    meeting.gap = std::min(meeting.gap, distance(robots[0].pose.position, robots[1].pose.position));
+    for (const std::size_t one : {0, 1}) meeting.falls[one] = robots[one].statistics.falls;
   }
-  return {match.simulation().state().statistics[1].falls, gap};
+  return meeting;
 }
 
 }  // namespace
@@ -195,14 +205,41 @@ class TestRobotModels : public QObject {
     QCOMPARE(text.mid(begin, end - begin).split('\n'), table.split('\n'));
   }
 
-  // Whoever walks into it at full speed throws it down, who brushes it does not.
+  // Head-on at full speed both fall. Who is run into while it stands, or is met slowly, is pushed.
+  void kidSizeRobotsFallWhenPushedHard_data() {
+    QTest::addColumn<int>("action");
+    QTest::addColumn<int>("othersAction");
+    QTest::addColumn<bool>("fall");
+    constexpr int stands = 0, fast = 1, slow = 8;
+    QTest::newRow("head-on") << fast << fast << true;
+    QTest::newRow("head-on, slowly") << slow << slow << false;
+    QTest::newRow("into one that stands") << fast << stands << false;
+    QTest::newRow("by one that walks") << stands << fast << false;
+  }
   void kidSizeRobotsFallWhenPushedHard() {
-    constexpr int forwardFast = 1, forwardSlow = 8;
-    for (const int action : {forwardFast, forwardSlow}) {
-      const auto [falls, gap] = walkInto(action);
-      QVERIFY2(gap < 0.45, qPrintable(QString::number(gap)));  // it has reached it
-      QCOMPARE(falls > 0, action == forwardFast);
+    QFETCH(int, action);
+    QFETCH(int, othersAction);
+    QFETCH(bool, fall);
+    const Meeting meeting = meet(action, othersAction);
+    QVERIFY2(meeting.gap < 0.45, qPrintable(QString::number(meeting.gap)));
+    for (const unsigned falls : meeting.falls) QCOMPARE(falls > 0, fall);
+  }
+
+  // Two to twenty falls are what is seen in a match of kid-size robots.
+  void aMatchHasAFewFalls() {
+    constexpr int matches = 3;
+    unsigned falls = 0;
+    for (int seed = 1; seed <= matches; ++seed) {
+      Scenario scenario = loadScenario("match").value();
+      scenario.settings.rigidBody.falls = true;
+      scenario.settings.seed = static_cast<std::uint64_t>(seed);
+      auto match = SimulatedMatch::create(scenario, {}).value();
+      while (!match.finished()) match.tick();
+      for (const sim::RobotStatistics& one : match.simulation().state().statistics) {
+        falls += one.falls;
+      }
     }
+    QVERIFY2(falls >= 2 * matches && falls <= 20 * matches, qPrintable(QString::number(falls)));
   }
 
   void thePublishedForceOnlyPushes() {

@@ -139,6 +139,88 @@ class TestRigidBodyFalls : public QObject {
     for (std::size_t i = 0; i < 3; ++i) QCOMPARE(r.robot(i).posture, Posture::Upright);
   }
 
+  // Two robots that meet push each other alike: 0.68 · 2 kg · 0.36 m/s = 0.49 N·s head-on at full
+  // speed, half of that if one of them stands. It does not matter where they come from, which of
+  // them is the first in the list, or how the places of both are rounded.
+  void whoMeetsPushesAlike_data() {
+    QTest::addColumn<double>("gap");
+    QTest::addColumn<double>("turned");
+    for (const double gap : {0.2, 0.23, 0.5, 1.0, 1.001, 1.37}) {
+      for (const double turned : {0.0, 0.5, 1.0, pi / 2}) {
+        QTest::addRow("%g m, %g rad", gap, turned) << gap << turned;
+      }
+    }
+  }
+  void whoMeetsPushesAlike() {
+    QFETCH(double, gap);
+    QFETCH(double, turned);
+    const auto meet = [&](double fallImpulse, bool bothWalk) {
+      Rig r(falling());
+      const double away = r.simulation.state().settings.field.robotRadius + gap / 2;
+      for (const double side : {-1.0, 1.0}) {
+        const double yaw = side < 0 ? turned : turned + pi;
+        r.add({{side * away * std::cos(turned), side * away * std::sin(turned)}, yaw});
+        RobotModel model;
+        model.fallImpulse = fallImpulse;
+        (void)r.simulation.setRobotModel({side < 0 ? 1 : 2}, model);
+      }
+      r.placeBall(3, -2);
+      r.commands[0].actionA = 1;
+      r.commands[1].actionA = bothWalk ? 1 : 0;
+      int fallen = 0;
+      for (int i = 0; i < 600 && fallen == 0; ++i) {
+        r.step();
+        fallen = count(r, EventKind::Fall);
+      }
+      return fallen;
+    };
+    QCOMPARE(meet(0.47, true), 2);
+    QCOMPARE(meet(0.51, true), 0);
+    QCOMPARE(meet(0.23, false), 2);
+    QCOMPARE(meet(0.26, false), 0);
+  }
+
+  // Pressing is no push, however long it takes.
+  void pressingDoesNotThrowDown_data() {
+    QTest::addColumn<double>("turned");
+    for (const double turned : {0.0, 0.3, 1.0, pi / 2}) {
+      QTest::addRow("%g rad", turned) << turned;
+    }
+  }
+  void pressingDoesNotThrowDown() {
+    QFETCH(double, turned);
+    Rig r(falling());
+    const double away = r.simulation.state().settings.field.robotRadius;
+    RobotModel weak;
+    weak.fallImpulse = 0.15;
+    for (const double side : {-1.0, 1.0}) {
+      r.add({{side * away * std::cos(turned), side * away * std::sin(turned)},
+             side < 0 ? turned : turned + pi});
+      (void)r.simulation.setRobotModel({side < 0 ? 1 : 2}, weak);
+    }
+    r.placeBall(3, -2);
+    for (RobotCommand& command : r.commands) command.actionA = 1;
+    r.run(20.0);
+    QCOMPARE(r.robot(0).posture, Posture::Upright);
+    QCOMPARE(r.robot(1).posture, Posture::Upright);
+  }
+
+  // A post does not give way: 0.68 · 4 kg · 0.18 m/s = 0.49 N·s.
+  void aPostThrowsDown() {
+    for (const double fallImpulse : {0.47, 0.51}) {
+      Rig r(falling());
+      const FieldSpec& field = r.simulation.state().settings.field;
+      r.add({{field.halfLength() - 1.0, field.goalWidth / 2}, 0});
+      RobotModel model;
+      model.fallImpulse = fallImpulse;
+      (void)r.simulation.setRobotModel({1}, model);
+      r.placeBall(-2, -2);
+      r.commands[0].actionA = 1;
+      r.run(6.0);
+      QCOMPARE(r.simulation.state().statistics[0].falls > 0, fallImpulse < 0.49);
+    }
+  }
+
   void aFallenRobotDoesNotKick() {
     Rig r = hit(falling(), true);
     while (r.robot().posture == Posture::Upright) r.step();

@@ -86,6 +86,7 @@ bool MatchPlayer::awaitPrograms(Clock::time_point now) {
 bool MatchPlayer::await(ProcessPace::Await whom, Clock::time_point now) {
   const bool awaits = m_match.pace().awaitsPrograms(whom, now);
   if (awaits && !m_awaits) tick();
+  if (!awaits && m_awaits) m_match.pace().slowTo(m_speed, now);  // their clocks ran at ×1 meanwhile
   m_awaits = awaits;
   return awaits;
 }

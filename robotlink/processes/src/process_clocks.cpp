@@ -102,10 +102,13 @@ void ProcessManager::setTime(double matchSeconds, double speed, Time now) {
 }
 
 /// Lets its clock go at the match's speed, and a little faster or slower where it is not at the
-/// match's time. A new rate disturbs the waits of the program, so it is set only when it matters.
+/// match's time. A new rate disturbs the waits of the program, so it is set only when it matters,
+/// and then stays until the program is at the match's time: a match is late now and then and never
+/// early, so that half a correction would leave its programs ahead of it for good.
 void ProcessManager::steer(Entry& entry, Time now) const {
   constexpr double longestWay = 1.0;  // s at ×1: farther off, the match stood or jumped
   constexpr double alike = 0.01;
+  constexpr double mostKept = 0.1;  // of a correction; more is the rate of another speed
   const double own = entry.clock->seconds(now);
   double behind = m_matchSeconds - entry.matchStart.value_or(m_matchSeconds - own) - own;
   if (!entry.matchStart || std::abs(behind) > longestWay * std::max(1.0, m_speed)) {
@@ -114,6 +117,8 @@ void ProcessManager::steer(Entry& entry, Time now) const {
   }
   const double rate = ProgramClock::rateFor(behind, m_speed);
   const double before = entry.clock->rate();
+  const double corrects = before - m_speed;
+  if (rate == m_speed && corrects * behind > 0.0 && std::abs(corrects) < mostKept * m_speed) return;
   const bool worthIt = rate == m_speed || std::abs(rate - before) > alike * m_speed;
   if (rate != before && worthIt) entry.clock->setRate(rate, now);
 }

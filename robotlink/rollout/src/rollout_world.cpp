@@ -27,8 +27,6 @@ constexpr double cycleTime = SoccerPlayer::period;
 constexpr double lyingTime = 0.5;  // s until control notices, as in the rigid-body model
 constexpr int getUpFromFront = 15, getUpFromBack = 16;
 constexpr double pointingTolerance = pi / 180.0;
-// A contact in which less is lost does not bounce: Box2D's threshold for units of 0.1 m.
-constexpr double bouncesFrom = 0.1;  // m/s
 constexpr double pushesPerSecond = 60.0;
 constexpr double partingSpeed = 0.5;  // m/s at which things placed onto each other part
 constexpr int reminders = 9;          // cycles until a mind has looked for opponents
@@ -455,7 +453,7 @@ void RolloutWorld::tick() {
         sim::afterContact(body.left, body.cos * body.pushed.y - body.sin * body.pushed.x, grip);
     if (m_constants->setup.body.falls && !body.isDown()) {
       const sim::RobotModel& model = *of(i).model;
-      const double hit = model.mass * approached(body.pushed.x, body.pushed.y);
+      const double hit = sim::tippingShare * model.mass * approached(body.pushed.x, body.pushed.y);
       if (hit > model.fallImpulse) {
         const double along = body.pushed.x * body.cos + body.pushed.y * body.sin;
         body.posture = along > 0.0 ? sim::Posture::OnFront : sim::Posture::OnBack;
@@ -678,7 +676,7 @@ void RolloutWorld::bounce(const Point& at, const Velocity& moving, double robotM
   const Point away = way > 0.0 ? Point{dx / way, dy / way} : Point{1.0, 0.0};
   const double into = (moving.x - velocity.x) * away.x + (moving.y - velocity.y) * away.y;  // m/s
   if (into <= 0.0) return;
-  const double kept = into > bouncesFrom ? 1.0 + restitution : 1.0;
+  const double kept = into > sim::bouncesFrom ? 1.0 + restitution : 1.0;
   const double share = robotMass / (robotMass + m_constants->setup.body.ballMass);
   velocity.x += away.x * into * kept * share;
   velocity.y += away.y * into * kept * share;

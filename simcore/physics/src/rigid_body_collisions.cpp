@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <base/repeatable_math.h>
 #include <simcore/world/gait_step.h>
@@ -17,6 +18,26 @@ constexpr double partingSpeed = 0.5;  // m/s at which things dragged onto each o
 bool isBeside(const Obstacle& o, const Point& place, double distance) {
   return place.x - o.last.x >= distance || o.first.x - place.x >= distance ||
          place.y - o.last.y >= distance || o.first.y - place.y >= distance;
+}
+
+/// The direction from one round thing to another as they meet within `dt`, a unit vector. `apart`
+/// leads from the one to the other, `moving` is the other's velocity as the one sees it.
+std::optional<Point> meeting(const Point& apart, const Velocity& moving, double touching,
+                             double dt) {
+  const double towards = apart.x * moving.x + apart.y * moving.y;
+  if (towards >= 0.0) return {};
+  const double gap = apart.x * apart.x + apart.y * apart.y - touching * touching;
+  double when = 0.0;
+  if (gap > 0.0) {
+    const double speed2 = moving.x * moving.x + moving.y * moving.y;
+    const double root = towards * towards - speed2 * gap;
+    if (root < 0.0) return {};
+    when = (-towards - std::sqrt(root)) / speed2;
+    if (when > dt) return {};
+  }
+  const Point there{apart.x + moving.x * when, apart.y + moving.y * when};
+  const double away = length(there.x, there.y);
+  return Point{there.x / away, there.y / away};
 }
 
 }  // namespace
@@ -132,6 +153,52 @@ void Collisions::findNeighbours(const Tick& tick) {
   }
 }
 
+/// What robots fall by: the momentum that each two exchange when they meet, the same for both, as
+/// if nobody else touched them. Box2D's own impulses are no measure of it: whether it sees a
+/// contact that separate() has resolved depends on its rounding.
+void Collisions::addPushes(Tick& tick) const {
+  const std::size_t ball = tick.state.robots.size();
+  const auto massOf = [&](std::size_t body) {
+    return body == ball ? tick.settings().rigidBody.ballMass : tick.model(body).mass;
+  };
+  const auto radiusOf = [&](std::size_t body) {
+    return body == ball ? tick.settings().field.ballRadius : m_radius[body];
+  };
+  const auto push = [&](std::size_t body, const Point& direction, double impulse, double share) {
+    if (body == ball) return;
+    Motion& motion = tick.motions[body];
+    motion.push.x += direction.x * impulse * share;
+    motion.push.y += direction.y * impulse * share;
+    motion.stopped.x += direction.x * impulse / massOf(body);
+    motion.stopped.y += direction.y * impulse / massOf(body);
+  };
+  for (const NearPair& pair : m_pairs) {
+    const MovingBody& one = m_bodies[pair.first];
+    if (pair.obstacle) {
+      const Obstacle& obstacle = m_solver.obstacles()[pair.second];
+      const Clearance clear = clearance(m_solver.obstacles(), pair.second, one.position);
+      const double gap = clear.distance - obstacle.radius - radiusOf(one.body);
+      const double into =
+          -(one.velocity.x * clear.direction.x + one.velocity.y * clear.direction.y);
+      if (into <= 0.0 || gap > into * tick.dt) continue;
+      push(one.body, clear.direction, massOf(one.body) * into, tippingShare);
+      continue;
+    }
+    const MovingBody& other = m_bodies[pair.second];
+    const Velocity moving{other.velocity.x - one.velocity.x, other.velocity.y - one.velocity.y};
+    const auto way = meeting({other.position.x - one.position.x, other.position.y - one.position.y},
+                             moving, radiusOf(one.body) + radiusOf(other.body), tick.dt);
+    if (!way) continue;
+    const double into = -(moving.x * way->x + moving.y * way->y);
+    const double mass =
+        massOf(one.body) * massOf(other.body) / (massOf(one.body) + massOf(other.body));
+    const double impulse = mass * into * (into > bouncesFrom ? 1.0 + pair.restitution : 1.0);
+    const double share = other.body == ball ? 1.0 : tippingShare;
+    push(one.body, {-way->x, -way->y}, impulse, share);
+    push(other.body, *way, impulse, share);
+  }
+}
+
 void Collisions::separate(const Tick& tick) {
   const std::size_t ball = tick.state.robots.size();
   const double parting = partingSpeed * tick.dt;
@@ -154,12 +221,15 @@ void Collisions::writeBack(Tick& tick) {
     }
     RigidRobot& robot = tick.state.robots[moving.body];
     Motion& motion = tick.motions[moving.body];
-    motion.impulse = moving.impulse;
-    if (moving.deflected) {
+    // With falls, what it runs into stops its gait even when Box2D has not seen it.
+    const bool stopped = motion.stopped.x != 0.0 || motion.stopped.y != 0.0;
+    if (moving.deflected || stopped) {
       const double c = motion.heading.cos();
       const double s = motion.heading.sin();
-      const double dvx = moving.velocity.x - motion.velocity.x;
-      const double dvy = moving.velocity.y - motion.velocity.y;
+      const double dvx =
+          moving.deflected ? moving.velocity.x - motion.velocity.x : motion.stopped.x;
+      const double dvy =
+          moving.deflected ? moving.velocity.y - motion.velocity.y : motion.stopped.y;
       const double grip = feetGrip * tick.dt;
       robot.forwardSpeed = afterContact(robot.forwardSpeed, c * dvx + s * dvy, grip);
       robot.sidewaysSpeed = afterContact(robot.sidewaysSpeed, c * dvy - s * dvx, grip);
@@ -192,7 +262,8 @@ void Collisions::advance(Tick& tick) {
       {ball.position.x + m_ballVelocity.x * tick.dt, ball.position.y + m_ballVelocity.y * tick.dt}};
   findNeighbours(tick);
   if (!m_pairs.empty()) {
-    m_solver.solve(m_bodies, m_pairs, tick.dt, settings.rigidBody.falls);
+    if (settings.rigidBody.falls) addPushes(tick);
+    m_solver.solve(m_bodies, m_pairs, tick.dt);
     // Noise is no push: it displaces the robot as far as there is room.
     for (MovingBody& moving : m_bodies) {
       if (moving.body == robots) continue;

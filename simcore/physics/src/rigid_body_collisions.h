@@ -19,13 +19,14 @@ namespace pitchboard::sim::rigid {
 class Collisions {
  public:
   /// Reads Motion::velocity and noise of every robot and writes positions, the velocities that came
-  /// out, the gait's speeds of robots that were stopped or pushed, and Motion::impulse.
+  /// out, the gait's speeds of robots that were stopped or pushed, and Motion::push and stopped.
   void advance(Tick& tick);
 
  private:
   void updateRolling(double share, double dt);
   void findNeighbours(const Tick& tick);
   std::size_t addBody(const Tick& tick, std::size_t body);
+  void addPushes(Tick& tick) const;
   void separate(const Tick& tick);
   void writeBack(Tick& tick);
 

@@ -29,21 +29,6 @@ class ProxyCollector {
 
 }  // namespace
 
-void ImpulseSum::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
-  float sum = 0.0F;
-  for (int i = 0; i < impulse->count; ++i) sum += impulse->normalImpulses[i];
-  if (sum == 0.0F) return;
-  b2WorldManifold manifold;
-  contact->GetWorldManifold(&manifold);
-  add(contact->GetFixtureA(), -sum * manifold.normal);
-  add(contact->GetFixtureB(), sum * manifold.normal);
-}
-
-void ImpulseSum::add(b2Fixture* fixture, const b2Vec2& impulse) {
-  const std::uintptr_t body = fixture->GetUserData().pointer;
-  if (body < sums.size()) sums[body] += impulse;
-}
-
 ContactWorld::Ground ContactWorld::groundOf(const SimulationSettings& settings) {
   const FieldSpec& f = settings.field;
   return {f.length,    f.width,          f.border,     f.goalWidth,
@@ -70,7 +55,6 @@ ContactWorld::ContactWorld(const WorldState& state)
   m_world.SetContactFilter(&m_filter);
   m_world.SetWarmStarting(false);
   m_world.SetAutoClearForces(false);  // there are none
-  m_impulses.sums.resize(m_robots + 1);
   for (std::size_t i = 0; i <= m_robots; ++i) addBody(i);
   addObstacles();
   findProxies();
@@ -180,7 +164,6 @@ void ContactWorld::place(const MovingBody& moving) {
   one.SetTransform(units(moving.position.x, moving.position.y), 0.0F);
   one.SetAwake(true);
   one.SetLinearVelocity(units(moving.velocity.x, moving.velocity.y));
-  m_impulses.sums[moving.body].SetZero();
 }
 
 void ContactWorld::list(std::span<const MovingBody> moving, std::span<const NearPair> pairs,
@@ -217,10 +200,6 @@ void ContactWorld::spreadBox(const MovingBody& moving) {
 void ContactWorld::step(float dt, bool impacts) {
   m_world.SetContinuousPhysics(impacts);
   m_world.Step(dt, velocityIterations, positionIterations);
-}
-
-void ContactWorld::sumImpulses(bool on) {
-  m_world.SetContactListener(on ? &m_impulses : nullptr);
 }
 
 }  // namespace pitchboard::sim::rigid

@@ -33,17 +33,6 @@ class OnlyListedContacts final : public b2ContactFilter {
   bool open = false;
 };
 
-/// Adds up the impulses of each body's contacts.
-class ImpulseSum final : public b2ContactListener {
- public:
-  void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
-
-  std::vector<b2Vec2> sums;  // by body
-
- private:
-  void add(b2Fixture* fixture, const b2Vec2& impulse);
-};
-
 class ContactWorld {
  public:
   explicit ContactWorld(const WorldState& state);
@@ -64,9 +53,6 @@ class ContactWorld {
   /// A contact lives while its boxes overlap: makes that of a body cover all that it can reach.
   void spreadBox(const MovingBody& moving);
   void step(float dt, bool impacts);
-  void sumImpulses(bool on);
-  /// Since it was placed, while impulses are summed.
-  const b2Vec2& impulseOf(const MovingBody& moving) const { return m_impulses.sums[moving.body]; }
 
  private:
   using Proxies = std::pair<b2FixtureProxy*, b2FixtureProxy*>;
@@ -93,7 +79,6 @@ class ContactWorld {
   Proxies proxiesOf(std::span<const MovingBody> moving, const NearPair& pair) const;
 
   OnlyListedContacts m_filter;
-  ImpulseSum m_impulses;
   b2World m_world{b2Vec2{0.0F, 0.0F}};
   Ground m_ground;
   Obstacles m_obstacles;

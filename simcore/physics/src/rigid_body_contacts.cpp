@@ -176,10 +176,9 @@ const Obstacles& ContactSolver::obstacles() const {
   return m_worlds.front()->obstacles();
 }
 
-void ContactSolver::solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs, double dt,
-                          bool impulses) {
+void ContactSolver::solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs,
+                          double dt) {
   World& w = *m_worlds.front();
-  w.sumImpulses(impulses);
   double longest = 0.0;
   for (const MovingBody& moving : bodies) longest = std::max(longest, moving.reach);
   const double steps = std::ceil(std::max({1.0, dt / longestStep - 1e-6, longest / longestWay}));
@@ -209,12 +208,7 @@ void ContactSolver::solve(std::span<MovingBody> bodies, std::span<const NearPair
       moving.position.x += moving.velocity.x * dt;
       moving.position.y += moving.velocity.y * dt;
     }
-    moving.impulse = {};
-    if (!w.inside[i]) continue;
-    const b2Vec2& sum = w.impulseOf(moving);
-    moving.impulse = {static_cast<double>(sum.x) / unitsPerMetre,
-                      static_cast<double>(sum.y) / unitsPerMetre};
-    body.SetAwake(false);
+    if (w.inside[i]) body.SetAwake(false);
   }
 }
 

@@ -37,7 +37,6 @@ struct MovingBody {
   std::size_t body = 0;    ///< index of the robot, or the number of robots for the ball
   Point position;          ///< m; moved by solve()
   Velocity velocity;       ///< m/s, constant over the tick but for contacts; changed by solve()
-  Velocity impulse;        ///< N·s, set by solve() when asked for
   double reach = 0.0;      ///< m that it can move in this tick
   bool deflected = false;  ///< set by solve(): contacts changed its motion
 };
@@ -67,10 +66,8 @@ class ContactSolver {
   /// Of the field that was prepared last.
   const Obstacles& obstacles() const;
 
-  /// Moves the bodies through `dt` seconds. Pairs that are not listed do not touch. Impulses cost
-  /// something and are added up only when asked for.
-  void solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs, double dt,
-             bool impulses);
+  /// Moves the bodies through `dt` seconds. Pairs that are not listed do not touch.
+  void solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs, double dt);
 
  private:
   struct World;

@@ -163,7 +163,7 @@ void setMotion(Tick& tick, std::size_t index) {
   motion.velocity = {c * robot.forwardSpeed - s * robot.sidewaysSpeed,
                      s * robot.forwardSpeed + c * robot.sidewaysSpeed};
   motion.noise = {c * noise.forward - s * noise.sideways, s * noise.forward + c * noise.sideways};
-  motion.impulse = {};
+  motion.push = motion.stopped = {};
 }
 
 }  // namespace
@@ -198,7 +198,7 @@ void applyFall(Tick& tick, std::size_t index) {
   RigidRobot& robot = tick.state.robots[index];
   if (isDown(robot)) return;
   const Motion& motion = tick.motions[index];
-  const Velocity& hit = motion.impulse;
+  const Velocity& hit = motion.push;
   const double most = tick.model(index).fallImpulse;
   if (hit.x * hit.x + hit.y * hit.y <= most * most) return;
   const double along = hit.x * motion.heading.cos() + hit.y * motion.heading.sin();

@@ -49,7 +49,9 @@ struct Motion {
   double turned = 0.0;    ///< rad turned in this tick, noise included
   Velocity velocity;      ///< m/s that the gait asks for, in the field's frame
   Point noise;            ///< m by which noise displaces the robot in this tick
-  Velocity impulse;       ///< N·s received from contacts in this tick; 0 where robots cannot fall
+  // Of what it runs into in this tick; 0 where robots cannot fall.
+  Velocity push;     ///< N·s that tip it over
+  Velocity stopped;  ///< m/s that it loses, or gains
 };
 
 /// What noise all robots have in this tick, stream by stream; made where the stream is used first.

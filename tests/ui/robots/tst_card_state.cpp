@@ -3,6 +3,7 @@
 #include <QSignalSpy>
 #include <QtTest>
 
+#include <robotlink/processes/process_manager.h>
 #include <ui/base/theme.h>
 #include <ui/robots/card_state.h>
 #include <ui/robots/robot_card.h>
@@ -91,16 +92,35 @@ class TestCardState : public QObject {
     process.foreign = true;
     process.whyRealTime =
         "the clock of the match cannot be loaded into it (static or setuid program)";
-    process.speed = 8.0;
-    process.achieved = 1.0;
-    frame.robots[0].processList =
-        std::make_shared<const std::vector<link::ProcessSummary>>(1, process);
-    const CardState card = tracker.update(frame, 0)[0];
-    QCOMPARE(card.tag, QStringLiteral("decision reaches \u00d71.0"));
-    QCOMPARE(card.tagTip,
-             QStringLiteral("R2 decision keeps real time: the clock of the match cannot be loaded "
-                            "into it (static or setuid program)"));
-    QCOMPARE(card.tagKind, TagKind::Warning);
+    for (const double speed : {8.0, 1.0, 0.1}) {
+      process.speed = speed;
+      process.achieved = speed > 1.0 ? 1.0 : 0.0;
+      frame.robots[0].processList =
+          std::make_shared<const std::vector<link::ProcessSummary>>(1, process);
+      const CardState card = tracker.update(frame, 0)[0];
+      QCOMPARE(card.tag, QStringLiteral("decision keeps real time"));
+      QCOMPARE(card.tagTip,
+               QStringLiteral("R2 decision keeps real time: the clock of the match cannot be "
+                              "loaded into it (static or setuid program)"));
+      QCOMPARE(card.tagKind, TagKind::Warning);
+    }
+  }
+
+  // At ×1 it is where the match is; slower than that, it is ahead of it.
+  void aProgramThatIsToKeepRealTimeIsNamedAtOtherSpeeds() {
+    link::MatchFrame frame = frameOf(1);
+    link::ProcessSummary process;
+    process.name = "decision";
+    process.state = link::ProcessState::Running;
+    process.foreign = true;
+    process.whyRealTime = link::whyRealTime(link::ProcessClock::Real);
+    for (const double speed : {8.0, 1.0, 0.1}) {
+      process.speed = speed;
+      frame.robots[0].processList =
+          std::make_shared<const std::vector<link::ProcessSummary>>(1, process);
+      QCOMPARE(CardTracker().update(frame, 0)[0].tag,
+               speed == 1.0 ? QString() : QStringLiteral("decision keeps real time"));
+    }
   }
 
   void aProgramThatCannotKeepUpSaysWhatItMissed() {

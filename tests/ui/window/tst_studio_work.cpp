@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
+#include <QHelpEvent>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QLabel>
@@ -16,12 +17,14 @@
 #include <QSignalSpy>
 #include <QTableView>
 #include <QTemporaryDir>
+#include <QToolTip>
 #include <QtTest>
 
 #include <robotlink/blackboard/system_v.h>
 #include <ui/base/notice_bar.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
+#include <ui/robots/robot_card.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/window/main_window.h>
@@ -29,6 +32,7 @@
 #include "../support/menu_entry.h"
 #include "../support/real_time_robot.h"
 #include "../support/segment_keys.h"
+#include "../support/setuid_program.h"
 #include "studio_rig.h"
 
 namespace tst_studio_work {
@@ -304,6 +308,40 @@ class TestStudioWork : public QObject {
     QTRY_VERIFY(s.child(1, "decision").pid != 0 && s.child(1, "decision").pid != first);
     QCOMPARE(s.controller.speed(), link::MatchRunner::unlimitedSpeed);
     QCOMPARE(s.child(1, "decision").whyRealTime, std::string());
+  }
+
+  // The match's clock cannot be loaded into it: its card says so, with the reason.
+  void aProgramThatCannotFollowIsNamedOnItsCard_data() {
+    QTest::addColumn<bool>("isSetuid");
+    QTest::newRow("static") << false;
+    QTest::newRow("setuid") << true;
+  }
+  void aProgramThatCannotFollowIsNamedOnItsCard() {
+    QFETCH(bool, isSetuid);
+    Studio s(options(link::Cognition::Inline));
+    const QString program = isSetuid ? setuidSleep(s.folder)
+                                     : QCoreApplication::applicationDirPath() + "/static_sleeper";
+    if (program.isEmpty()) QSKIP("only root can make a program of another user");
+    auto scenario = link::loadScenario("one-robot").value();
+    scenario.robots[0].runtime.profile = profileOfOne(s.folder, program, "match").toStdString();
+    s.controller.open(scenario);
+    QTRY_VERIFY(s.child(1, "decision").pid != 0);
+    s.controller.setSpeed(8.0);
+    const auto card = [&s] { return s.window.findChild<RobotCard*>(); };
+    QTRY_VERIFY(card() != nullptr);
+    QTRY_VERIFY2_WITH_TIMEOUT(card()->accessibleDescription().endsWith("decision keeps real time"),
+                              qPrintable(card()->accessibleDescription()), 30'000);
+    QSet<QString> tips;
+    for (int x = 0; x < card()->width(); x += 10) {
+      for (int y = 0; y < card()->height(); y += 5) {
+        QHelpEvent help(QEvent::ToolTip, {x, y}, card()->mapToGlobal(QPoint(x, y)));
+        QCoreApplication::sendEvent(card(), &help);
+        tips << QToolTip::text();
+      }
+    }
+    QVERIFY2(tips.contains("B1 decision keeps real time: the clock of the match cannot be loaded "
+                           "into it (static or setuid program)"),
+             qPrintable(tips.values().join('\n')));
   }
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <base/angles.h>
+#include <robotlink/processes/process_manager.h>
 #include <robotlink/scenario/scenario.h>
 #include <simcore/world/published_frame.h>
 #include <ui/base/robot_words.h>
@@ -23,6 +24,14 @@ QString runsText(const link::RobotFrame& robot) {
                          : QStringLiteral("\nRuns: ") + names.join(QStringLiteral(", "));
 }
 
+/// Its clocks do not go with the match. A program that was meant to keep real time is in nobody's
+/// way at ×1; one that the match's clock cannot be loaded into is named at once, as the match may
+/// have slowed down to it.
+bool keepsRealTime(const link::ProcessSummary& program) {
+  const bool meant = program.whyRealTime == link::whyRealTime(link::ProcessClock::Real);
+  return program.foreign && !program.whyRealTime.empty() && (!meant || program.speed != 1.0);
+}
+
 /// What is wrong with the separate processes of the robot; the least of it is one that is slow.
 void tagProcesses(CardState& card, const link::RobotFrame& robot) {
   for (const link::ProcessSummary& one : robot.processes()) {
@@ -35,18 +44,18 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
     if (one.state == link::ProcessState::Silent) {
       card.tagKind = TagKind::Warning;
       card.tag = QStringLiteral("%1 silent").arg(name);
+    } else if (card.tag.isEmpty() && keepsRealTime(one)) {
+      card.tagKind = TagKind::Warning;
+      card.tag = QStringLiteral("%1 keeps real time").arg(name);
+      card.tagTip = QStringLiteral("%1 %2 keeps real time: %3")
+                        .arg(card.name, name, QString::fromStdString(one.whyRealTime));
     } else if (card.tag.isEmpty() && one.foreign && one.achieved > 0.0 &&
                one.achieved < 0.95 * one.speed) {
       card.tagKind = TagKind::Warning;
       card.tag = QStringLiteral("%1 reaches ×%2").arg(name).arg(one.achieved, 0, 'f', 1);
-      const QString why = QString::fromStdString(one.whyRealTime);
-      if (!why.isEmpty()) {
-        card.tagTip = QStringLiteral("%1 %2 keeps real time: %3").arg(card.name, name, why);
-      } else {
-        card.tagTip =
-            QStringLiteral("%1 %2 cannot keep up with ×%3 and has missed %4 cycles")
-                .arg(card.name, name, numberText(one.speed, 1), countText(one.missedCycles));
-      }
+      card.tagTip =
+          QStringLiteral("%1 %2 cannot keep up with ×%3 and has missed %4 cycles")
+              .arg(card.name, name, numberText(one.speed, 1), countText(one.missedCycles));
     }
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How the speed of a gait changes within a tick, which the rigid-body model and rollouts have in
-// common. m/s or rad/s; pure functions, any thread.
+// How the speed of a gait changes within a tick, and what counts as a bounce and as a push, which
+// the rigid-body model and rollouts have in common. m/s or rad/s; pure functions, any thread.
 
 #include <algorithm>
 #include <cmath>
@@ -24,5 +24,11 @@ inline double afterContact(double gait, double change, double grip) {
 }
 
 inline constexpr double feetGrip = 4.0;  ///< m/s², friction of about 0.4
+/// Things that meet more slowly do not bounce: Box2D's threshold for units of 0.1 m. m/s.
+inline constexpr double bouncesFrom = 0.1;
+/// Share of its mass with which a robot pushes, and is pushed, at the height at which robots touch
+/// each other: it tips about its feet instead of moving as a block. Of a uniform body touched at
+/// 0.7 of its height h: (m·h²/3) / (0.7·h)². A ball touches it at its feet, with all of its mass.
+inline constexpr double tippingShare = 0.68;
 
 }  // namespace pitchboard::sim
