@@ -81,7 +81,7 @@ class TestCardState : public QObject {
     const CardState card = tracker.update(frame, 0)[0];
     QCOMPARE(card.tag, QStringLiteral("decision reaches \u00d71.0"));
     QCOMPARE(card.tagTip,
-             QStringLiteral("R2 decision keeps real time: the clock of the match cannot be loaded "
+             QStringLiteral("R2 decision uses real time: the clock of the match cannot be loaded "
                             "into it (static or setuid program)"));
     QCOMPARE(card.tagKind, TagKind::Warning);
   }

@@ -41,7 +41,7 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
       card.tag = QStringLiteral("%1 reaches ×%2").arg(name).arg(one.achieved, 0, 'f', 1);
       const QString why = QString::fromStdString(one.whyRealTime);
       if (!why.isEmpty()) {
-        card.tagTip = QStringLiteral("%1 %2 keeps real time: %3").arg(card.name, name, why);
+        card.tagTip = QStringLiteral("%1 %2 uses real time: %3").arg(card.name, name, why);
       } else {
         card.tagTip =
             QStringLiteral("%1 %2 cannot keep up with ×%3 and has missed %4 cycles")
