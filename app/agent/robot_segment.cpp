@@ -17,7 +17,7 @@ std::string RobotSegment::look(std::chrono::microseconds now) {
     text = m_view ? name + " was created again; reading the new one" : "reading " + name;
     m_view = *std::move(view);
   } else if (m_view && m_view->isShared()) {
-    text = name + " was removed, but the robot's programs still use it; reading goes on";
+    text = name + " was removed, but the robot's programs still use it; still reading it";
   } else {
     m_view.reset();
     text = view.error().code == ErrorCode::NotFound ? "waiting for " + name : view.error().text();

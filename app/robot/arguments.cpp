@@ -63,8 +63,9 @@ void addCommunicationOptions(CLI::App& command, Arguments& a) {
                   "Team messages go to this + 1, 2, 3 and 4; default: the match's, 1230 of match 0")
       ->type_name("PORT");
   command
-      .add_option("--team", a.process.team,
-                  "Robots with the same number hear each other, on UDP port 10000 + this (match 0)")
+      .add_option(
+          "--team", a.process.team,
+          "Robots with the same number exchange messages on UDP port 10000 + this (match 0)")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(0, 99));
@@ -75,8 +76,8 @@ void addCommunicationOptions(CLI::App& command, Arguments& a) {
       ->type_name("N")
       ->check(CLI::Range(0, 255));
   command.add_flag("--set-play", a.process.tellSetPlay,
-                   "Communication also writes which set play the referee gives (COM_SET_PLAY), "
-                   "for a decision process of ours; management adds it by itself");
+                   "Communication: also write the current set play (COM_SET_PLAY) for our decision "
+                   "process; management adds this by itself");
   command
       .add_option("--shirt", a.process.shirt,
                   "Number in the GameController; the robot's number if not given")
@@ -146,7 +147,7 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->capture_default_str();
   command
       .add_option("--match", a.match,
-                  "Number of the match on this computer: keys and ports follow from it")
+                  "Number of the match on this computer; sets blackboard keys and ports")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(0, link::MatchNumber::most));
@@ -175,8 +176,7 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->type_name("SIDE")
       ->check(CLI::IsMember({"left", "right"}));
   command
-      .add_option("--field", a.field,
-                  "Sizes of the field: a built-in name, or an object as in scenario files")
+      .add_option("--field", a.field, "Field: a built-in name, or an object as in scenario files")
       ->type_name("NAME|{...}")
       ->capture_default_str()
       ->check(checkField);
@@ -192,7 +192,7 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
-  command.add_option("--seed", a.process.seed, "Localization: of its particles")
+  command.add_option("--seed", a.process.seed, "Localization: seed of its random numbers")
       ->type_name("N")
       ->capture_default_str();
   command.add_flag("--published-localization", a.process.publishedLocalization,

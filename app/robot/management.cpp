@@ -49,7 +49,7 @@ std::string wordsOf(const link::ProcessNews& news) {
     case Kind::GivenUp:
       return "is no longer restarted: " + news.detail;
     case Kind::RealTime:
-      return "keeps real time: " + news.detail;
+      return "uses real time: " + news.detail;
   }
   return {};
 }

@@ -223,7 +223,7 @@ class TestCliSessions : public QObject {
     QVERIFY2(look.out.contains("pitchboard-cli repair"), look.out.constData());
     const Run run = cli({"repair", broken, whole});
     QVERIFY2(run.exitCode == 1, run.err.constData());  // its end is missing
-    QVERIFY2(run.err.contains("broke off") && run.err.contains("lost, "), run.err.constData());
+    QVERIFY2(run.err.contains("cut off") && run.err.contains("lost, "), run.err.constData());
     QCOMPARE(contents(broken).size(), size);
     QCOMPARE(cli({"inspect", whole}).exitCode, 0);
     // The last tick may lie in two chunks.
@@ -311,7 +311,8 @@ class TestCliSessions : public QObject {
         << QStringList{"export", there,     "--to", "report", "--from",
                        "6",      "--until", "3",    "-o",     fresh}
         << "before";
-    QTest::newRow("export: no form") << QStringList{"export", there, "--to", "xls"} << "xls";
+    QTest::newRow("export: no form")
+        << QStringList{"export", there, "--to", "xls"} << "report, svg, png";
     QTest::newRow("export: clip to nowhere")
         << QStringList{"export", there, "--to", "mcap"} << "-o FILE";
   }

@@ -266,10 +266,10 @@ class TestUnchangedProcess : public QObject {
     }
   }
 
-  // Who keeps real time has nothing loaded, and is named as soon as the match does not.
+  // Who uses real time has nothing loaded, and is named as soon as the match does not.
   void whoKeepsRealTimeIsNamed() {
     const QString sentence =
-        R"(B1 decision keeps real time: its runtime profile says "clock": "real")";
+        R"(B1 decision uses real time: its runtime profile says "clock": "real")";
     const auto runner =
         startWith(profileOf({"/bin/sleep", "600"}, R"(, "clock": "real")"), false, 8.0, {}, false);
     QTRY_VERIFY(firstProgram(*runner).pid != 0);

@@ -205,8 +205,9 @@ class TestChildProcess : public QObject {
     };
     expect({"/no/such/program"}, ErrorCode::NotFound, "No such file or directory");
     expect({"no-such-program-at-all"}, ErrorCode::NotFound, "no such program");
-    expect({plain}, ErrorCode::SystemError, "Permission denied");
-    expect({bad}, ErrorCode::SystemError, "Exec format error");
+    expect({plain}, ErrorCode::SystemError,
+           "Permission denied; make the file executable (chmod +x)");
+    expect({bad}, ErrorCode::SystemError, "Exec format error; a script needs a first line");
     expect({folder.path().toStdString()}, ErrorCode::SystemError, "Is a directory");
     expect({}, ErrorCode::InvalidArgument, "no program");
   }

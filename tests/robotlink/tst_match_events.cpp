@@ -235,7 +235,7 @@ class TestMatchEvents : public QObject {
     QVERIFY(run("echo ouch; exit 2", Kind::ProcessDied));
     QCOMPARE(events[0].kind, Kind::ProcessRestarted);
     QCOMPARE(find(events, Kind::ProcessDied)->detail,
-             std::string("exit code 2; its last words: ouch"));
+             std::string("exit code 2; last output: ouch"));
 
     QVERIFY(run("exec sleep 600", Kind::ProcessRestarted));
     match.robots().processes().stop(last);

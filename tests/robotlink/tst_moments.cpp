@@ -391,7 +391,7 @@ class TestMoments : public QObject {
     const auto match = SimulatedMatch::create(made.scenario, {});
     QVERIFY2(match, match ? "" : match.error().text().c_str());
     QCOMPARE(QString::fromStdString(made.notes.empty() ? "" : made.notes.back()),
-             QString("The game goes on from the referee's packet: PLAYING with 452 s left."));
+             QString("The game continues from the referee's packet: PLAYING with 452 s left."));
     const sim::WorldState& world = match->simulation().state();
     QCOMPARE(world.game->state, sim::PlayState::Playing);
     QCOMPARE(world.game->half, 2);

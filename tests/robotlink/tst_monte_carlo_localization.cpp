@@ -255,17 +255,17 @@ class TestMonteCarloLocalization : public QObject {
     QVERIFY(std::abs(filter.belief().sigma - 0.1 * std::sqrt(2.0)) < 0.01);
   }
 
-  void widerRegistersGiveTheSameBits_data() {
-    QTest::addColumn<int>("width");
-    QTest::newRow("wide") << static_cast<int>(RegisterWidth::Wide);
-    QTest::newRow("widest") << static_cast<int>(RegisterWidth::Widest);
+  void everySimdLevelGivesTheSameBits_data() {
+    QTest::addColumn<int>("level");
+    QTest::newRow("avx2") << static_cast<int>(SimdLevel::Avx2);
+    QTest::newRow("avx512") << static_cast<int>(SimdLevel::Avx512);
   }
-  void widerRegistersGiveTheSameBits() {
-    QFETCH(int, width);
-    const particles::Kernels* wide = particles::kernelsOf(static_cast<RegisterWidth>(width));
-    if (!wide) QSKIP("this processor or compiler has no wider registers");
+  void everySimdLevelGivesTheSameBits() {
+    QFETCH(int, level);
+    const particles::Kernels* wide = particles::kernelsOf(static_cast<SimdLevel>(level));
+    if (!wide) QSKIP("this processor or compiler lacks this SIMD level");
     for (const int n : {1, 7, 8, 16, 203, 500}) {
-      QCOMPARE(all(*wide, n), all(*particles::kernelsOf(RegisterWidth::Narrow), n));
+      QCOMPARE(all(*wide, n), all(*particles::kernelsOf(SimdLevel::Baseline), n));
     }
   }
 

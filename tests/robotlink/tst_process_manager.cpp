@@ -93,7 +93,7 @@ class TestProcessManager : public QObject {
     const auto died = std::find_if(m_news.begin(), m_news.end(),
                                    [](const auto& one) { return one.kind == Kind::Died; });
     QCOMPARE(died->detail, std::string("killed by signal 11 (Segmentation fault)"));
-    QCOMPARE(died->lastWords, std::string("ouch"));
+    QCOMPARE(died->lastOutput, std::string("ouch"));
     QCOMPARE(died->restartIn, 0.02);
     QVERIFY(status(id).restarts >= 1);
   }

@@ -106,16 +106,16 @@ class TestRandom : public QObject {
     }
   }
 
-  void widerRegistersGiveTheSameBits_data() {
-    QTest::addColumn<int>("width");
-    QTest::newRow("wide") << static_cast<int>(RegisterWidth::Wide);
-    QTest::newRow("widest") << static_cast<int>(RegisterWidth::Widest);
+  void everySimdLevelGivesTheSameBits_data() {
+    QTest::addColumn<int>("level");
+    QTest::newRow("avx2") << static_cast<int>(SimdLevel::Avx2);
+    QTest::newRow("avx512") << static_cast<int>(SimdLevel::Avx512);
   }
-  void widerRegistersGiveTheSameBits() {
-    QFETCH(int, width);
-    const draws::Loops* wide = draws::loopsOf(static_cast<RegisterWidth>(width));
-    if (!wide) QSKIP("this processor or compiler has no wider registers");
-    const draws::Loops& narrow = *draws::loopsOf(RegisterWidth::Narrow);
+  void everySimdLevelGivesTheSameBits() {
+    QFETCH(int, level);
+    const draws::Loops* wide = draws::loopsOf(static_cast<SimdLevel>(level));
+    if (!wide) QSKIP("this processor or compiler lacks this SIMD level");
+    const draws::Loops& narrow = *draws::loopsOf(SimdLevel::Baseline);
     constexpr std::size_t counters = 101;
     std::vector<std::uint32_t> high(counters), robot(counters);
     for (std::size_t i = 0; i < counters; ++i) {

@@ -69,7 +69,7 @@ class TestPb2 : public QObject {
     row("time of 65 bits", "PB2 1 1 18446744073709551616 OUT", "byte 8: the time");
     row("no end", "PB2 1 1 1 A=1", "OUT is missing");
     row("end in a word", "PB2 1 1 1 A=1OUT", "byte 10");
-    row("two messages", "PB2 1 1 1 OUT PB2 1 2 1 OUT", "byte 14: there is text behind OUT");
+    row("two messages", "PB2 1 1 1 OUT PB2 1 2 1 OUT", "byte 14: there is text after OUT");
     row("no value", "PB2 1 1 1 A= OUT", "byte 10: the value of \"A\"");
     row("no name", "PB2 1 1 1 =1 OUT", "byte 10: \"\" is not a name");
     row("no equals", "PB2 1 1 1 A OUT", "byte 10: expected NAME=VALUE");

@@ -82,7 +82,7 @@ class TestRecordingHealth : public QObject {
     QVERIFY(says(of, "7 rows and messages are missing"));
     of.owedSeconds = 0.0;
     QCOMPARE(troubleOf(of), RecordingTrouble::Dropped);
-    QVERIFY(says(of, "The disk did not keep up: 7 rows"));
+    QVERIFY(says(of, "The disk could not keep up: 7 rows"));
   }
 
   void aRecordingKnowsItsDisk() {

@@ -148,7 +148,7 @@ pb_status withWorlds(const pb_worlds* handle, const Use& use) {
     const auto found = worldHandles().find(handle);
     if (!found) {
       return told(PB_STALE_HANDLE,
-                  "these worlds are not there: they were destroyed, or never created");
+                  "these worlds do not exist: they were destroyed or never created");
     }
     const std::lock_guard lock(found->mutex);
     return told(use(found->worlds));
@@ -163,7 +163,7 @@ pb_status withRollouts(const pb_rollouts* handle, const Use& use) {
     const auto found = rolloutHandles().find(handle);
     if (!found) {
       return told(PB_STALE_HANDLE,
-                  "these rollouts are not there: they were destroyed, or never created");
+                  "these rollouts do not exist: they were destroyed or never created");
     }
     const std::lock_guard lock(found->mutex);
     return told(use(*found));
@@ -196,8 +196,9 @@ std::span<const WorldColumn> columns(std::int32_t array) {
 
 Result<Scenario> scenarioOf(const char* name, const char* json, const char* usual) {
   if (name && json) {
-    return failure(ErrorCode::InvalidArgument,
-                   "a scenario has a name or a text; set the other of the two to null");
+    return failure(
+        ErrorCode::InvalidArgument,
+        "the scenario can be given as a name or as text, not both; set one of them to null");
   }
   return json ? scenarioFromJson(json, "scenario") : loadScenario(name ? name : usual);
 }
@@ -429,7 +430,8 @@ pb_status pb_restore(pb_worlds* worlds, std::int32_t world, const pb_snapshot* s
   return guarded([&] {
     if (snapshot == nullptr) return missing("snapshot");
     const auto found = snapshotHandles().find(snapshot);
-    if (!found) return told(PB_STALE_HANDLE, "this snapshot was destroyed, or never taken");
+    if (!found)
+      return told(PB_STALE_HANDLE, "this snapshot does not exist: it was destroyed or never taken");
     return withWorlds(worlds, [&](Worlds& w) { return w.restore(world, *found); });
   });
 }
@@ -452,7 +454,8 @@ pb_status pb_restore_seeded(pb_worlds* worlds, const std::int32_t* which,
   return guarded([&] {
     if (snapshot == nullptr) return missing("snapshot");
     const auto found = snapshotHandles().find(snapshot);
-    if (!found) return told(PB_STALE_HANDLE, "this snapshot was destroyed, or never taken");
+    if (!found)
+      return told(PB_STALE_HANDLE, "this snapshot does not exist: it was destroyed or never taken");
     return withWorlds(worlds, [&](Worlds& w) {
       return w.restore(spanOf(which, count), spanOf(seeds, count), *found);
     });

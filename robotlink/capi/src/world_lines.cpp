@@ -302,7 +302,7 @@ void WorldRequest::flatten(const JsonNode& node, const std::string& path,
   if (shape.empty()) {
     if (node.kind == JsonNode::Kind::Null) return out.push_back(absent);
     if (node.kind != JsonNode::Kind::Number) {
-      return m_report.fail(1, path, "must be a number, or null to leave what stands there");
+      return m_report.fail(1, path, "must be a number, or null to keep the current value");
     }
     if constexpr (std::is_integral_v<Value>) {
       if (!(node.number > static_cast<double>(absent) && node.number <= 2147483647.0 &&

@@ -42,10 +42,9 @@ Result<void> keepInside(RuntimeChoice& choice) {
   const auto runtime = TRY(loadRuntime(choice));
   const auto& all = runtime.processes;
   if (std::ranges::any_of(all, [](const auto& p) { return !p.isReference(); })) {
-    return failure(
-        ErrorCode::Unsupported,
-        "worlds run no programs of a team; take \"runtime\" out of the scenario, or give "
-        "the robot the behaviour \"none\" and decide for it");
+    return failure(ErrorCode::Unsupported,
+                   "separate programs cannot play in worlds; remove \"runtime\" from the scenario, "
+                   "or set the robot's behaviour to \"none\" and control it yourself");
   }
   if (all.empty()) choice = {};
   return {};

@@ -28,7 +28,7 @@ Result<void> TeamPrograms::missing() const {
         index ? match.simulation().state().robots[*index].name() : std::string();
     return failure(ErrorCode::NotFound,
                    robot + ' ' + one.name + " does not run: " + one.detail +
-                       (one.lastLines.empty() ? "" : "; its last words: " + one.lastLines.back()));
+                       (one.lastLines.empty() ? "" : "; last output: " + one.lastLines.back()));
   }
   return {};
 }
@@ -43,7 +43,7 @@ Result<void> TeamPrograms::begin(const std::atomic<bool>* cancelled) {
   }
   TRY(missing());
   m_looked = m_followed = Clock::now();
-  setSpeed(match.pace().ownPace(m_speed, m_speed), m_looked);
+  setSpeed(match.pace().teamProgramPace(m_speed, m_speed), m_looked);
   return {};
 }
 
@@ -61,9 +61,9 @@ void TeamPrograms::look(Clock::time_point now) {
   const auto slowest = match.pace().slowestTeamProgram();
   m_kept += slowest ? std::min(1.0, *slowest / m_now) : 1.0;
   m_looks += 1.0;
-  if (now - m_followed < ProcessPace::ownPaceInterval) return;
+  if (now - m_followed < ProcessPace::paceInterval) return;
   m_followed = now;
-  const double speed = match.pace().ownPace(m_speed, m_now);
+  const double speed = match.pace().teamProgramPace(m_speed, m_now);
   if (speed != m_now) setSpeed(speed, now);
 }
 

@@ -77,7 +77,7 @@ void MatchEvents::takeNews(const sim::WorldState& state, const std::vector<Proce
         isFirst ? MatchEventKind::ProcessStarted : kindOfNews[static_cast<std::size_t>(one.kind)];
     MatchEvent event = ofProcess(kind, state, one.robot, one.process);
     event.detail = one.detail;
-    if (!one.lastWords.empty()) event.detail += "; its last words: " + one.lastWords;
+    if (!one.lastOutput.empty()) event.detail += "; last output: " + one.lastOutput;
     if (one.detail.empty()) event.value = static_cast<int>(one.pid);
     add(std::move(event));
   }

@@ -38,9 +38,9 @@ void MatchPlayer::setPace(double timesRealTime, Clock::time_point now) {
 void MatchPlayer::followPrograms(Clock::time_point now) {
   constexpr std::chrono::seconds searchInterval{1};
   const bool unlimited = m_wanted == unlimitedSpeed;
-  if (now - m_followed < (unlimited ? searchInterval : ProcessPace::ownPaceInterval)) return;
+  if (now - m_followed < (unlimited ? searchInterval : ProcessPace::paceInterval)) return;
   m_followed = now;
-  const double pace = m_match.pace().ownPace(m_wanted, m_speed);
+  const double pace = m_match.pace().teamProgramPace(m_wanted, m_speed);
   if (pace == m_speed) return;
   setPace(pace, now);
   m_match.pace().slowTo(pace, now);

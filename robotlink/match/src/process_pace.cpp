@@ -71,7 +71,7 @@ void ProcessPace::slowTo(double speed, Time now) {
   tellTime(now);
 }
 
-double ProcessPace::ownPace(double wanted, double now) {
+double ProcessPace::teamProgramPace(double wanted, double now) {
   constexpr double search = 2.0, faster = 1.25, least = 0.1, fastest = 1000.0;
   if (!waitForTeamPrograms) return wanted;
   const bool unlimited = wanted == 0.0;

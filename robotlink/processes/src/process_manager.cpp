@@ -317,7 +317,7 @@ void ProcessManager::ended(Entry& entry, Time now, bool died, const std::string&
   ProcessStatus& status = entry.status;
   ProcessNews news{died ? ProcessNewsKind::Died : ProcessNewsKind::Ended, status.robot, status.name,
                    status.pid, detail};
-  if (died && !status.lastLines.empty()) news.lastWords = status.lastLines.back();
+  if (died && !status.lastLines.empty()) news.lastOutput = status.lastLines.back();
   status.pid = 0;
   status.cpu = 0.0;
   status.memoryBytes = 0;

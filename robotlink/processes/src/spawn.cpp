@@ -145,7 +145,12 @@ int readReport(int fd) {
 
 tl::unexpected<Error> cannotStart(const std::string& program, int error) {
   const ErrorCode code = error == ENOENT ? ErrorCode::NotFound : ErrorCode::SystemError;
-  return failure(code, "cannot start '" + program + "': " + systemReason(error));
+  const char* const advice =
+      error == EACCES ? "; make the file executable (chmod +x)"
+      : error == ENOEXEC
+          ? "; a script needs a first line that names its interpreter, #!/usr/bin/env python3"
+          : "";
+  return failure(code, "cannot start '" + program + "': " + systemReason(error) + advice);
 }
 
 std::vector<std::string> environmentOf(const SpawnRequest& request) {
@@ -180,7 +185,8 @@ Result<std::string> pathOf(const SpawnRequest& request) {
   const std::string path = inPath(program);
   if (path.empty()) {
     return failure(ErrorCode::NotFound, "cannot start '" + program +
-                                            "': there is no such program in the folders of PATH");
+                                            "': there is no such program in the folders of PATH; "
+                                            "write ./ before the name of a file in this folder");
   }
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) {

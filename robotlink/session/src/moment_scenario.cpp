@@ -359,7 +359,7 @@ class Maker {
       note("The referee's game was left out: " + taken.error().text());
       return false;
     }
-    note("The game goes on from the referee's packet: " + referee.state + " with " +
+    note("The game continues from the referee's packet: " + referee.state + " with " +
          std::to_string(referee.secondsLeft) + " s left.");
     return true;
   }

@@ -35,8 +35,7 @@ Result<StateSegment> checkpointFromJson(std::string_view json) {
       if (bytes) return StateSegment::decode(*bytes);
     }
   }
-  return failure(ErrorCode::ParseError, "a recorded piece of the match cannot be read",
-                 "/checkpoints");
+  return failure(ErrorCode::ParseError, "a checkpoint of the match cannot be read", "/checkpoints");
 }
 
 void appendCheckpoint(telemetry::SessionWriter& session, const StateSegment& segment) {
@@ -63,8 +62,8 @@ Result<SessionCheckpoint> checkpointAt(const telemetry::SessionReader& session, 
   if (range && !time) look(range->begin);
   if (!time) {
     return failure(ErrorCode::NotFound,
-                   "this session has no state of a simulated match at that time; only what was "
-                   "recorded from a simulation can be entered again exactly");
+                   "this session has no state of a simulated match at that time; only simulated "
+                   "matches can be continued exactly");
   }
   auto segment = TRY(checkpointFromJson(json));
   return SessionCheckpoint{*time, std::move(segment)};

@@ -153,9 +153,8 @@ std::shared_ptr<const StateSegment> StateArchive::segmentAt(std::uint64_t tick) 
 Result<sim::WorldState> StateArchive::restore(std::uint64_t tick) const {
   const auto found = segmentAt(tick);
   if (!found) {
-    return failure(
-        ErrorCode::NotFound,
-        "this moment is not in memory any more; record a session to keep all of a match");
+    return failure(ErrorCode::NotFound,
+                   "this moment is no longer in memory; record a session to keep the whole match");
   }
   return found->at(tick);
 }

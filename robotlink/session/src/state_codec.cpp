@@ -257,7 +257,7 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
     return failure(ErrorCode::Unsupported,
                    "this state was saved by an earlier version of Pitchboard (form " +
                        std::to_string(found) + ", this program reads " + std::to_string(version) +
-                       "); the recording can be looked at, but not gone on from exactly");
+                       "); you can view the recording, but not continue its match exactly");
   }
   if (in.ok() && found > version) {
     return failure(ErrorCode::Unsupported,
@@ -275,7 +275,7 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
     sim::visitValues(state, reader);
   }
   if (!in.ok()) {
-    return failure(ErrorCode::ParseError, "the saved state is cut or damaged",
+    return failure(ErrorCode::ParseError, "the saved state is truncated or damaged",
                    "byte " + std::to_string(in.offset()));
   }
   const bool usable = robotsAreDistinct(state) &&
@@ -283,7 +283,7 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
                       plausible(state);
   if (!usable) {
     return failure(ErrorCode::ParseError,
-                   "the saved state has numbers that no match has (robots or places)");
+                   "the saved state has impossible numbers (robots or places)");
   }
   // What only the simulation can judge: field, noise, the physics' own sizes.
   auto simulation = sim::Simulation::create({});

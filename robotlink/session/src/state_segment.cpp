@@ -102,9 +102,9 @@ void StateSegment::add(std::span<const sim::RobotCommand> commands) {
 
 Result<void> StateSegment::holds(std::uint64_t tick) const {
   if (tick >= firstTick() && tick <= lastTick()) return {};
-  return failure(ErrorCode::NotFound, "tick " + std::to_string(tick) + " is not in this piece (" +
-                                          std::to_string(firstTick()) + " to " +
-                                          std::to_string(lastTick()) + ")");
+  return failure(ErrorCode::NotFound,
+                 "tick " + std::to_string(tick) + " is not in this checkpoint (" +
+                     std::to_string(firstTick()) + " to " + std::to_string(lastTick()) + ")");
 }
 
 Result<PlayedStretch> StateSegment::playedTo(std::uint64_t tick) const {
@@ -155,12 +155,13 @@ std::string StateSegment::encode() const {
 Result<StateSegment> StateSegment::decode(std::string_view bytes) {
   CodecReader in(bytes);
   if (in.bytes(segmentMagic.size()) != segmentMagic) {
-    return failure(ErrorCode::ParseError, "this is not a recorded piece of a match");
+    return failure(ErrorCode::ParseError, "this is not a checkpoint of a match");
   }
   const std::uint64_t found = in.varint();
   if (in.ok() && found != segmentVersion) {
-    return failure(ErrorCode::Unsupported,
-                   "this piece of a match was recorded by a later version of Pitchboard; use that");
+    return failure(
+        ErrorCode::Unsupported,
+        "this checkpoint was recorded by a later version of Pitchboard; use that version");
   }
   const std::uint64_t ticks = in.varint();
   if (!in.ok() || ticks > mostTicks) return tl::unexpected(damaged(in));

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <base/register_width.h>
+#include <base/simd_level.h>
 
 namespace pitchboard::draws {
 
@@ -26,9 +26,9 @@ struct Loops {
   void (*fillNormals)(const double* wholes, double* normals, std::size_t n);
 };
 
-/// Null where this processor or compiler has no such registers.
-const Loops* loopsOf(RegisterWidth width);
-/// The widest there are.
+/// Returns null if the processor or compiler lacks this level.
+const Loops* loopsOf(SimdLevel level);
+/// Returns those of the highest level that the processor has.
 const Loops& loops();
 
 /// In the middle of its step, so that it is neither 0 nor 1.

@@ -21,7 +21,7 @@ tl::unexpected<Error> cannotMake(int reason, const std::string& path) {
                      "This folder does not allow new files; choose another one.", path);
     default:
       return failure(ErrorCode::SystemError,
-                     "The file cannot be made: " + systemReason(reason) + ".", path);
+                     "Cannot create the file: " + systemReason(reason) + ".", path);
   }
 }
 
@@ -30,13 +30,13 @@ tl::unexpected<Error> cannotWrite(int reason, const std::string& path) {
     case ENOSPC:
     case EDQUOT:
       return failure(ErrorCode::SystemError,
-                     "The disk is full; free some room or choose another disk.", path);
+                     "The disk is full; free some space or choose another disk.", path);
     case EFBIG:
       return failure(ErrorCode::SystemError,
                      "The file has reached the largest size that is allowed here.", path);
     default:
-      return failure(ErrorCode::SystemError,
-                     "The file cannot be written: " + systemReason(reason) + ".", path);
+      return failure(ErrorCode::SystemError, "Cannot write the file: " + systemReason(reason) + ".",
+                     path);
   }
 }
 

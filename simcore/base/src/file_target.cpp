@@ -60,8 +60,7 @@ Result<FileTarget> FileTarget::at(const std::string& path, IfExists ifExists,
                                   const std::string& source) {
   if (!source.empty() && isSameFile(path, source)) {
     return failure(ErrorCode::Conflict,
-                   "This is the file that is being read; choose another name for the new one.",
-                   path);
+                   "This file is being read; choose another name for the new one.", path);
   }
   FileTarget target;
   target.m_path = path;

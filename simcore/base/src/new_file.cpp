@@ -75,7 +75,8 @@ Result<void> NewFile::stillThere() const {
   struct stat status {};
   if (::fstat(m_fd.get(), &status) != 0) return cannotWrite(errno, m_path);
   if (status.st_nlink > 0) return {};
-  return failure(ErrorCode::SystemError, "The file was removed while it was written.", m_path);
+  return failure(ErrorCode::SystemError, "The file was removed while it was being written.",
+                 m_path);
 }
 
 Result<void> NewFile::close() {

@@ -79,22 +79,22 @@ bool isInGoal(const FieldSpec& field, const Point& ball) {
          std::abs(ball.y) < field.goalWidth / 2.0;
 }
 
-Crossing crossingOf(const FieldSpec& field, const BallSweep& way, const Point& now,
+Crossing crossingOf(const FieldSpec& field, const BallSweep& sweep, const Point& now,
                     std::span<const Standing> robots) {
-  if (!isInField(field, way.from)) return {};
+  if (!isInField(field, sweep.from)) return {};
   const bool isOut = !isInField(field, now);
-  const Point aim = withinWalls(field, way.aim);
+  const Point aim = withinWalls(field, sweep.aim);
   if (!isOut && isInField(field, aim)) return {};
   if (isOut) {
     // The nets hold the ball, so its centre between the posts means that it came in that way.
     if (isInGoal(field, now)) return {Crossing::Line::Goal, now, now.x > 0.0};
-    Crossing crossing = onTheWay(field, way.from, now);
+    Crossing crossing = onTheWay(field, sweep.from, now);
     if (crossing.line == Crossing::Line::Goal) crossing.line = Crossing::Line::End;
     return crossing;
   }
   // It is back already: it was out unless something stopped it before the line.
-  const Crossing crossing = onTheWay(field, way.from, aim);
-  if (crossing.line == Crossing::Line::None || !isFree(field, way.from, crossing.where, robots)) {
+  const Crossing crossing = onTheWay(field, sweep.from, aim);
+  if (crossing.line == Crossing::Line::None || !isFree(field, sweep.from, crossing.where, robots)) {
     return {};
   }
   return crossing;

@@ -30,7 +30,7 @@ struct Standing {
 };
 
 /// `now`: where the ball is after the tick. `robots`: what may have stopped it on its way.
-Crossing crossingOf(const FieldSpec& field, const BallSweep& way, const Point& now,
+Crossing crossingOf(const FieldSpec& field, const BallSweep& sweep, const Point& now,
                     std::span<const Standing> robots);
 
 }  // namespace pitchboard::sim

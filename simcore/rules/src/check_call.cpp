@@ -47,10 +47,10 @@ Allowed checkState(const GameState& game, const RefereeRules& rules, PlayState s
 Allowed checkTimeout(const GameState& game, int team) {
   if (game.state == PlayState::Finished || game.phase == GamePhase::Timeout ||
       (team >= 0 && game.state == PlayState::Playing)) {
-    return refused("A timeout is taken in INITIAL, READY or SET.");
+    return refused("A timeout is possible only in INITIAL, READY or SET.");
   }
   if (team >= 0 && game.teams[static_cast<std::size_t>(team)].timeouts > 0) {
-    return refused("This team has taken its timeout in this half.");
+    return refused("This team has already taken its timeout in this half.");
   }
   return {};
 }
@@ -61,7 +61,7 @@ Result<void> checkCall(const GameState& game, const RefereeRules& rules,
                        std::span<const RobotIdentity> robots, const RefereeCall& call) {
   const bool needsTeam = call.kind == CallKind::Goal || call.kind == CallKind::SetPlay;
   if (call.team < GameState::nobody || call.team > 1 || (needsTeam && call.team < 0)) {
-    return failure(ErrorCode::InvalidArgument, "The referee needs one of the two teams for this.");
+    return failure(ErrorCode::InvalidArgument, "This call needs one of the two teams.");
   }
   const auto robot = std::ranges::find(robots, call.robot, &RobotIdentity::id);
   const GamePlayer* player =
@@ -88,17 +88,17 @@ Result<void> checkCall(const GameState& game, const RefereeRules& rules,
       return {};
     case CallKind::SetPlay:
       if (!playing || game.phase == GamePhase::Timeout) {
-        return refused("Set plays are given in PLAYING only.");
+        return refused("Set plays are possible only in PLAYING.");
       }
       return {};
     case CallKind::NextStep:
-      if (!game.restart.isTold()) return refused("There is no set play to go on with.");
+      if (!game.restart.isTold()) return refused("There is no set play to continue.");
       return {};
     case CallKind::DropBall:
-      if (!playing) return refused("A drop ball is given in PLAYING only.");
+      if (!playing) return refused("A drop ball is possible only in PLAYING.");
       return {};
     case CallKind::Penalise:
-      if (call.penalty == PenaltyKind::None) return refused("A penalty needs its reason.");
+      if (call.penalty == PenaltyKind::None) return refused("Choose the reason of the penalty.");
       return {};
     case CallKind::Pardon:
       if (player->penalty == PenaltyKind::None) {
@@ -106,10 +106,10 @@ Result<void> checkCall(const GameState& game, const RefereeRules& rules,
       }
       return {};
     case CallKind::NextHalf:
-      if (!finished) return refused("The next half follows FINISHED.");
+      if (!finished) return refused("The next half can start only after FINISHED.");
       return {};
     case CallKind::ShootOut:
-      if (!finished) return refused("The shoot-out follows FINISHED.");
+      if (!finished) return refused("The shoot-out can start only after FINISHED.");
       return {};
     case CallKind::Timeout:
       return checkTimeout(game, call.team);

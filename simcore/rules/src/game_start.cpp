@@ -149,7 +149,7 @@ Result<void> RefereeTable::start(const GameStart& start) {
   g.stopped = g.stopped || start.stopped;
   g.over = start.over;
   if (!isPlausible(g, m_world.robots.size())) {
-    return wrong("A number of the game is out of the range that games have.");
+    return wrong("A number of the game is out of range.");
   }
   mirror();
   return {};

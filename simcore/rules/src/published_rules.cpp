@@ -49,7 +49,7 @@ void putBackWhenOut(const PublishedGeometry& g, PublishedBall& ball, std::uint64
   }
 }
 
-void applyRules(WorldState& world, PublishedState& state, const BallSweep& /*way*/,
+void applyRules(WorldState& world, PublishedState& state, const BallSweep& /*sweep*/,
                 std::vector<Event>& events) {
   const PublishedGeometry g(world.settings.field);
   PublishedBall& ball = state.ball;
@@ -77,16 +77,16 @@ void scoreGoal(WorldState& world, RigidBall& ball, bool leftScored, std::vector<
   }
 }
 
-void applyRules(WorldState& world, RigidBodyState& state, const BallSweep& way,
+void applyRules(WorldState& world, RigidBodyState& state, const BallSweep& sweep,
                 std::vector<Event>& events) {
   const FieldSpec& field = world.settings.field;
   RigidBall& ball = state.ball;
-  if (isInField(field, ball.position) && isInField(field, way.aim)) return;
+  if (isInField(field, ball.position) && isInField(field, sweep.aim)) return;
   std::array<Standing, highestRobotNumber> robots;
   const std::size_t count = std::min(robots.size(), state.robots.size());
   for (std::size_t i = 0; i < count; ++i)
     robots[i] = {state.robots[i].pose.position, robotRadius(world, i)};
-  const Crossing crossing = crossingOf(field, way, ball.position, std::span(robots).first(count));
+  const Crossing crossing = crossingOf(field, sweep, ball.position, std::span(robots).first(count));
   if (crossing.line == Crossing::Line::Goal) {
     scoreGoal(world, ball, crossing.right, events);
     return;
@@ -108,8 +108,8 @@ void applyRules(WorldState& world, RigidBodyState& state, const BallSweep& way,
 
 }  // namespace
 
-void applyPublishedRules(WorldState& world, const BallSweep& way, std::vector<Event>& events) {
-  std::visit([&](auto& state) { applyRules(world, state, way, events); }, world.physics);
+void applyPublishedRules(WorldState& world, const BallSweep& sweep, std::vector<Event>& events) {
+  std::visit([&](auto& state) { applyRules(world, state, sweep, events); }, world.physics);
 }
 
 }  // namespace pitchboard::sim

@@ -32,8 +32,8 @@ Result<std::array<GameTeam, 2>> teamsOf(const WorldState& world) {
       colours += (colours.empty() ? "" : ", ") + std::string(info(team.colour).name);
     }
     return failure(ErrorCode::InvalidArgument,
-                   "A referee's match is played by two teams, but here are " + colours +
-                       "; take the robots of the others off, or play without a referee.",
+                   "A match with a referee needs two teams, but here are " + colours +
+                       "; remove the robots of the others, or play without a referee.",
                    "teams");
   }
   for (const TeamColor usual : {TeamColor::Blue, TeamColor::Red}) {
@@ -174,9 +174,9 @@ Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCa
   return {};
 }
 
-void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& way,
+void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& sweep,
                  Placements& placements, std::vector<Event>& events) {
-  RefereeTable(world, now, placements, events).tick(way);
+  RefereeTable(world, now, placements, events).tick(sweep);
 }
 
 int secondsOf(int ticks, double tickRate) {

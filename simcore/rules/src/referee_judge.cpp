@@ -33,10 +33,10 @@ constexpr double longestEnd = 10.0;     // s that a half waits for the ball
 
 }  // namespace
 
-void RefereeTable::judge(const BallSweep& way) {
-  followTouches(way);
+void RefereeTable::judge(const BallSweep& sweep) {
+  followTouches(sweep);
   const PlayState before = m_game.state;
-  if (m_rules.goals && judgeLines(way)) return;
+  if (m_rules.goals && judgeLines(sweep)) return;
   if (m_game.state != before || !m_rules.automatic) return;
   if (!m_game.restart.isTold()) judgeRest();
   if (m_game.state != PlayState::Playing) return;
@@ -113,12 +113,12 @@ void RefereeTable::judgeDoubleTouch(std::size_t robot) {
 }
 
 /// Goals and a ball that is out. True when play does not go on as it was.
-bool RefereeTable::judgeLines(const BallSweep& way) {
+bool RefereeTable::judgeLines(const BallSweep& sweep) {
   if (m_game.restart.step == Restart::Step::Placing) return false;  // the ball is dead
   std::array<Standing, highestRobotNumber> robots;
   const std::size_t count = std::min(robots.size(), m_now.robots.size());
   for (std::size_t i = 0; i < count; ++i) robots[i] = {m_now.robots[i].pose.position, radiusOf(i)};
-  Crossing crossing = crossingOf(m_field, way, m_now.ball, std::span(robots).first(count));
+  Crossing crossing = crossingOf(m_field, sweep, m_now.ball, std::span(robots).first(count));
   if (crossing.line == Crossing::Line::None) {
     if (isInField(m_field, m_now.ball)) return false;
     // Somebody put it there.

@@ -267,11 +267,11 @@ void RefereeTable::mirror() {
   m_world.clockRunning = m_game.state == PlayState::Playing && clockRuns();
 }
 
-void RefereeTable::tick(const BallSweep& way) {
+void RefereeTable::tick(const BallSweep& sweep) {
   runClocks();
   runPenalties();
   if (m_game.state == PlayState::Playing) {
-    judge(way);
+    judge(sweep);
   } else if (m_rules.automatic && m_game.state == PlayState::Set && m_rules.motionInSet > 0.0) {
     judgeRobots();
   }

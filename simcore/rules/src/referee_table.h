@@ -35,7 +35,7 @@ class RefereeTable {
 
   /// One that checkCall() allows.
   void carryOut(const RefereeCall& call);
-  void tick(const BallSweep& way);
+  void tick(const BallSweep& sweep);
   /// game_start.cpp
   Result<void> start(const GameStart& start);
 
@@ -79,9 +79,9 @@ class RefereeTable {
   void comesBack(std::size_t robot);
 
   // Judging.
-  void judge(const BallSweep& way);
-  void followTouches(const BallSweep& way);
-  bool judgeLines(const BallSweep& way);
+  void judge(const BallSweep& sweep);
+  void followTouches(const BallSweep& sweep);
+  bool judgeLines(const BallSweep& sweep);
   void judgeGoal(bool right, const Point& where);
   void judgeRest();
   void judgeRobots();

@@ -45,19 +45,19 @@ std::vector<std::string> ignoredSettings(const SimulationSettings& settings,
   const auto add = [&](bool asked, const char* sentence) {
     if (asked) ignored.emplace_back(sentence);
   };
-  add(noise.imuWhite != 0.0, "The published physics has no white noise of the IMU (imu_white).");
+  add(noise.imuWhite != 0.0, "The published physics has no white IMU noise (imu_white).");
   add(noise.missedDetection != 0.0,
-      "The published physics misses no ball and no robot in view (missed_detection).");
-  add(noise.visionDelay != 0.0, "The published physics sees without a delay (vision_delay).");
-  add(noise.ofModel, "The published physics has no noise of robot models (noise \"robot\").");
+      "The published physics always sees a ball or robot in view (missed_detection).");
+  add(noise.visionDelay != 0.0, "The published physics has no vision delay (vision_delay).");
+  add(noise.ofModel,
+      "The published physics does not use the noise of robot models (noise \"robot\").");
   RigidBodySettings usual;
   usual.ballMass = settings.field.ballMass;
-  add(!(settings.rigidBody == usual),
-      "The published physics has constants of its own (rigid_body).");
+  add(!(settings.rigidBody == usual), "The published physics has fixed constants (rigid_body).");
   add(!(playedField(settings).surface == settings.field.surface),
-      "The published physics has a surface of its own (rolling_deceleration, rolling_speed_kept).");
+      "The published physics has a fixed surface (rolling_deceleration, rolling_speed_kept).");
   add(std::ranges::any_of(models, [](const RobotModel& model) { return !(model == RobotModel{}); }),
-      "The published physics knows one kind of robot (model).");
+      "The published physics has only one robot model (model).");
   add(settings.tickRate != published_frame::framesPerSecond,
       "The published physics has speeds per frame: at another tick rate than 60 everything moves "
       "faster or slower (tick_rate).");
@@ -168,7 +168,8 @@ Result<void> Simulation::restore(const WorldState& state) {
     TRY(sim::validate(*state.settings.referee));
   }
   if (state.game && (!state.settings.referee || !isPlausible(*state.game, state.robots.size()))) {
-    return failure(ErrorCode::InvalidArgument, "This saved moment has a game that no referee has.");
+    return failure(ErrorCode::InvalidArgument,
+                   "The saved state contains a game, but no referee rules are active.");
   }
   auto model = makePhysicsModel(state.settings.physics);
   const bool fits =
@@ -177,7 +178,7 @@ Result<void> Simulation::restore(const WorldState& state) {
     TRY(validate(robot));
   }
   if (!fits || !model || !model->owns(state)) {
-    return failure(ErrorCode::InvalidArgument, "This saved moment does not fit its physics model.");
+    return failure(ErrorCode::InvalidArgument, "The saved state does not fit its physics model.");
   }
   m_state = state;
   m_model = std::move(model);
@@ -287,7 +288,7 @@ Result<void> Simulation::placeHead(RobotId id, double headYaw) {
 
 Result<void> Simulation::placeBall(const Point& position, const Velocity& velocity) {
   if (!isFinite({position, 0}) || !isFinite({{velocity.x, velocity.y}, 0})) {
-    return failure(ErrorCode::InvalidArgument, "The ball's place must be finite numbers.");
+    return failure(ErrorCode::InvalidArgument, "The ball's position must be finite numbers.");
   }
   const FieldSpec& field = m_state.settings.field;
   m_model->placeBall(m_state, insideWalls(field, position, field.ballRadius), velocity);

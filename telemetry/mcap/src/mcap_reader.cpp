@@ -67,14 +67,12 @@ Result<void> McapReader::Impl::readHeader() {
   const std::string_view magic(mcapMagic.data(), mcapMagic.size());
   const std::string begin(source.look(0, magic.size()));
   if (begin.size() == magic.size() && begin.substr(0, 5) == magic.substr(0, 5) && begin != magic) {
-    return tl::unexpected(Error{ErrorCode::Unsupported,
-                                "This MCAP file is of a version that this program does not know.",
-                                source.name()});
+    return tl::unexpected(
+        Error{ErrorCode::Unsupported, "This MCAP version is not supported.", source.name()});
   }
   if (begin != magic) {
     return tl::unexpected(Error{ErrorCode::ParseError,
-                                "This is not an MCAP file: its first bytes are others.",
-                                source.name()});
+                                "This is not an MCAP file (wrong magic bytes).", source.name()});
   }
   dataBegin = magic.size();
   const RecordHead head = headIn(source.look(dataBegin, recordHead));

@@ -41,8 +41,7 @@ class McapScan {
     closeRun();
     m_reader.boundLosses();
     if (!m_done) {
-      m_reader.problem(m_source.size(),
-                       "the file ends without its end mark: the recording broke off.");
+      m_reader.problem(m_source.size(), "the file has no end mark: the recording was cut off.");
     }
     return true;
   }
@@ -123,7 +122,7 @@ class McapScan {
     if (head.op == McapOp{0} || !mayEnd(m_source, end, McapOp::Header)) return false;
     closeRun();
     m_indexDue = 0;
-    lose({.offset = m_at, .bytes = end - m_at, .reason = "This is a record of an unknown kind."});
+    lose({.offset = m_at, .bytes = end - m_at, .reason = "This record has an unknown type."});
     return true;
   }
 
@@ -149,7 +148,8 @@ class McapScan {
     if (m_unpacked > freeExpansion && m_unpacked / mostExpansion > m_source.size()) {
       lose({.offset = m_at,
             .bytes = m_source.size() - m_at,
-            .reason = "The file unpacks to far more than any recording; the rest is left out."});
+            .reason = "The file decompresses to far more data than any recording has; the rest is "
+                      "ignored."});
       return m_done = true;
     }
     if (!read) return true;
@@ -165,7 +165,7 @@ class McapScan {
             .bytes = chunk.length,
             .start = chunk.start,
             .end = chunk.end,
-            .reason = "This part ends in a record that is cut."});
+            .reason = "This part ends in a truncated record."});
     }
     m_chunked = true;
     m_reader.chunks.push_back(std::move(chunk));
@@ -271,13 +271,13 @@ class McapScan {
     const std::uint64_t indexDue = std::exchange(m_indexDue, 0);
     loss.bytes = m_at - from;
     if (loss.bytes == indexDue || (!found && loss.bytes < indexDue)) {
-      m_reader.problem(from, "an index of messages is damaged or cut; no message is lost.");
+      m_reader.problem(from, "an index of messages is damaged; no message is lost.");
       return;
     }
     loss.atLeast = loss.messages.has_value();
     if (!loss.messages) m_reader.lookAtHead(found, loss);
     if (!found && !loss.atLeast) {
-      loss.reason = "The recording broke off here.";
+      loss.reason = "The recording was cut off here.";
       m_done = true;
     }
     lose(std::move(loss));

@@ -138,7 +138,7 @@ Result<Pb2Message> parsePb2(std::string_view datagram) {
       message.values.push_back(value);
     }
   }
-  if (!words.next().empty()) return words.refuse("there is text behind OUT");
+  if (!words.next().empty()) return words.refuse("there is text after OUT");
   return message;
 }
 

@@ -40,8 +40,9 @@ Result<ExportFormat> exportFormat(std::string_view name) {
   const auto found = std::ranges::find(formats, name);
   if (found != formats.end()) return static_cast<ExportFormat>(found - formats.begin());
   return failure(ErrorCode::InvalidArgument,
-                 "The format must be csv-wide, csv-even, csv-long, jsonl or mcap, not \"" +
-                     std::string(name.substr(0, 40)) + "\".");
+                 "There is no format \"" + std::string(name.substr(0, 40)) +
+                     "\". Choose csv-wide, csv-even, csv-long, jsonl, mcap, report, svg, png, mp4 "
+                     "or webm.");
 }
 
 Result<void> checkRange(TimeRange range) {

@@ -60,8 +60,8 @@ std::string troubleText(const SessionStatus& status) {
     case RecordingTrouble::DiskBehind: {
       char text[160];
       std::snprintf(text, sizeof text,
-                    "The disk does not keep up: it has not answered for %.0f s. A power cut now "
-                    "would cost what was recorded since.",
+                    "The disk cannot keep up: no write has finished for %.0f s. A power failure "
+                    "now would lose everything recorded since then.",
                     status.owedSeconds);
       return text + missing;
     }
@@ -70,10 +70,10 @@ std::string troubleText(const SessionStatus& status) {
       const std::string free = bytesText(*status.freeBytes) + " free";
       return (left ? "The disk will be full in " + timeText(*left) + " (" + free + ")"
                    : "The disk is nearly full (" + free + ")") +
-             ": make room on it, or record to another disk." + missing;
+             ": free some space, or record to another disk." + missing;
     }
     case RecordingTrouble::Dropped:
-      return "The disk did not keep up:" + missing;
+      return "The disk could not keep up:" + missing;
     case RecordingTrouble::None:
       break;
   }

@@ -336,7 +336,8 @@ Result<ExportReport> exportText(const SessionReader& session, ExportFormat forma
       writer = std::make_unique<EvenWriter>(session, selection, *selected, out);
       break;
     case ExportFormat::Mcap:
-      return failure(ErrorCode::InvalidArgument, "A session is no text; it needs a file.");
+      return failure(ErrorCode::InvalidArgument,
+                     "A session cannot be written as text. Choose a file.");
   }
   bool going = writer->begin();
   bool interrupted = false;

@@ -76,10 +76,10 @@ class Repair {
   Result<void> verify(const std::string& path,
                       const std::map<std::uint16_t, ChannelDigest>& written) {
     const auto wrong = [&](const std::string& why) {
-      return failure(ErrorCode::SystemError,
-                     "The new file does not hold what was written (" + why +
-                         "); check the disk and try again.",
-                     m_to);
+      return failure(
+          ErrorCode::SystemError,
+          "The new file differs from what was written (" + why + "); check the disk and try again.",
+          m_to);
     };
     auto made = SessionReader::open(path);
     if (!made) return wrong(made.error().message);
@@ -100,7 +100,7 @@ class Repair {
         [this](double part) { return report(0.8 + 0.2 * part); });
     if (!whole) return stopped(m_from);
     if (!made->losses().empty()) return wrong(made->losses().front().reason);
-    if (found != written) return wrong("its messages are others");
+    if (found != written) return wrong("its messages differ");
     const McapStatistics& statistics = made->file().contents().statistics;
     m_report.seconds = static_cast<double>(statistics.end - statistics.start) / 1e9;
     return {};
@@ -126,13 +126,13 @@ std::string RepairReport::summary() const {
   std::string text = std::to_string(messages) + " messages over " + length + " were saved";
   if (lostMessages > 0) {
     text += "; " + std::to_string(lostMessages) + (lostMessages == 1 ? " is lost" : " are lost");
-    if (lostMore) text += ", and others that cannot be counted";
+    if (lostMore) text += ", and an unknown number of others";
   } else if (lostMore) {
-    text += "; others are lost that cannot be counted";
+    text += "; an unknown number of others is lost";
   } else if (brokeOff) {
-    text += "; the recording broke off, so its end may be missing";
+    text += "; the recording was cut off, so its end may be missing";
   } else if (!complete) {
-    text += "; a part that is no message is missing";
+    text += "; data other than messages is missing";
   }
   return text + ".";
 }

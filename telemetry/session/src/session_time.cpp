@@ -120,7 +120,7 @@ double secondsAt(WallTime start, double wall) {
 Result<double> momentOf(const Moment& moment, WallTime start, TimeRange range) {
   if (start.time_since_epoch().count() <= 0) {
     return failure(ErrorCode::InvalidArgument,
-                   "This session does not say when it was recorded. Write seconds of the session.");
+                   "This session has no start time. Give the time in seconds of the session.");
   }
   std::tm day{};
   if (moment.day) {

@@ -392,7 +392,7 @@ void SessionWriter::Impl::fail(const Error& why) {
   error = why;
   state.recording = false;
   state.problem =
-      "Recording stopped. " + why.message + " What was recorded until then is in the file.";
+      "Recording stopped. " + why.message + " Everything recorded before that is in the file.";
 }
 
 /// Needs the lock; may let go of it while it waits.

@@ -148,7 +148,7 @@ class DrawingReader {
     LineWords words(line.substr(magic.size()));
     const auto robot = whole(words.next(), TextDecoder::maxRobot);
     if (!robot) {
-      return refuse("behind PBD1 stands the robot's number, from 1 to " +
+      return refuse("PBD1 must be followed by the robot's number, from 1 to " +
                     std::to_string(TextDecoder::maxRobot));
     }
     m_drawing.robot = *robot;
@@ -157,7 +157,7 @@ class DrawingReader {
     constexpr int highestTeam = 65535;
     m_drawing.team = whole(team, highestTeam);
     if (!m_drawing.team || !words.rest().empty()) {
-      return refuse("behind the robot's number stands its team's number, or nothing");
+      return refuse("only the team's number may follow the robot's number");
     }
     return {};
   }
@@ -172,8 +172,8 @@ class DrawingReader {
     const auto shape = std::ranges::find(shapeWords, word, &ShapeWord::word);
     if (shape == shapeWords.end()) {
       return refuse(shownWord(word) +
-                    " is none of layer, more, colour, width, line, arrow, circle, disc, polygon, "
-                    "area, point, text");
+                    " is not one of layer, more, colour, width, line, arrow, circle, disc, "
+                    "polygon, area, point, text");
     }
     if (m_drawing.layers.empty()) {
       return refuse("there is no layer yet: begin with \"layer NAME\"");
@@ -189,7 +189,7 @@ class DrawingReader {
     layer.adds = adds;
     const std::string_view name = words.next();
     if (name.empty() || name.size() > Limits::nameBytes || printable(name, name.size()) != name) {
-      return refuse("a layer's name is one word of 1 to " + std::to_string(Limits::nameBytes) +
+      return refuse("a layer's name must be one word of 1 to " + std::to_string(Limits::nameBytes) +
                     " printable characters, for example \"decision/target\"");
     }
     layer.name = name;
@@ -201,9 +201,9 @@ class DrawingReader {
       }
       const auto life = number(word, Limits::longestLife);
       if (!life || *life <= 0.0) {
-        return refuse(shownWord(word) +
-                      " is neither field, robot or belief nor seconds up to 10 for which the layer "
-                      "stays");
+        return refuse(
+            shownWord(word) +
+            " must be field, robot or belief, or the lifetime of the layer, up to 10 seconds");
       }
       layer.life = *life;
     }
@@ -224,15 +224,15 @@ class DrawingReader {
       m_colour = hex;
     } else {
       return refuse(shownWord(word) +
-                    " is no colour: team, white, black, grey, red, orange, yellow, green, cyan, "
-                    "blue, violet, magenta, pink, brown, #rrggbb or #rrggbbaa");
+                    " is not a colour: use team, white, black, grey, red, orange, yellow, green, "
+                    "cyan, blue, violet, magenta, pink, brown, #rrggbb or #rrggbbaa");
     }
     return {};
   }
 
   Result<void> readWidth(LineWords& words) {
     const auto width = number(words.next(), Limits::widest);
-    if (!width || *width < 0.5) return refuse("a width is from 0.5 to 20 pixels");
+    if (!width || *width < 0.5) return refuse("the width must be 0.5 to 20 pixels");
     m_width = *width;
     return {};
   }

@@ -248,7 +248,7 @@ Result<void> TeamMonitor::restoreRobots(std::string_view text, WallTime zero) {
   const MonitorJson json = lenient::parsed<MonitorJson>(text);
   const MonitorJson* robots = json.is_object() ? member(json, "robots") : nullptr;
   if (robots == nullptr || !robots->is_array()) {
-    return failure(ErrorCode::ParseError, "This is no state of robots that were heard.");
+    return failure(ErrorCode::ParseError, "This is not a saved state of live robots.");
   }
   std::vector<Robot> read;
   const std::size_t most = mostPlaces(m_options);

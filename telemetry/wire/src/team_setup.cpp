@@ -182,7 +182,7 @@ Result<std::vector<std::uint16_t>> teamPorts(const std::vector<TeamSetup>& teams
   if (teams.size() > TeamSetup::mostTeams) {
     return failure(ErrorCode::InvalidArgument,
                    "At most " + std::to_string(TeamSetup::mostTeams) +
-                       " teams can be heard at one time; leave some out.");
+                       " teams can be received at the same time; remove some.");
   }
   std::vector<std::uint16_t> ports;
   if (std::any_of(teams.begin(), teams.end(), hasNone)) ports = *usual;

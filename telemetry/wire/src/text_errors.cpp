@@ -21,7 +21,7 @@ constexpr std::array<Text, textErrorCount> texts{{
     {"missing-end", "no end word"},
     {"bad-robot", "no usable robot number"},
     {"bad-format", "not in the profile's format"},
-    {"not-a-number", "text in place of a number"},
+    {"not-a-number", "text instead of a number"},
     {"not-finite", "nan or inf"},
     {"too-large", "number too large"},
     {"bad-flag", "flag neither 0 nor 1"},

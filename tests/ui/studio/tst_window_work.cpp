@@ -275,7 +275,7 @@ class TestWindowWork : public QObject {
     s.controller.setSpeed(0.01);  // it lasts longer than any slow computer needs to see it
     play->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(s.controller.frame() && !s.controller.frame()->finished, 30'000);
-    QVERIFY(s.window.notices()->text().startsWith(QStringLiteral("The match begins again.")));
+    QVERIFY(s.window.notices()->text().startsWith(QStringLiteral("Match started again.")));
     QTRY_COMPARE(play->text(), QStringLiteral("Pause"));
   }
 

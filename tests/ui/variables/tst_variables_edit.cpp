@@ -124,7 +124,7 @@ class TestVariablesEdit : public QObject {
                           << "2"
                           << "0 or 1";
     QTest::newRow("words") << action << "dance"
-                           << "words of a code";
+                           << "label of a code";
     QTest::newRow("two commas") << ballDistance << "1,234,5"
                                 << "not a number";
   }

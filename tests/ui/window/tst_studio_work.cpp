@@ -297,7 +297,7 @@ class TestStudioWork : public QObject {
     s.controller.setSpeed(8.0);
     QCOMPARE(s.window.notices()->text(),
              QStringLiteral(
-                 "B1 decision keeps real time (\"clock\": \"real\") and cannot follow \u00d78."));
+                 "B1 decision uses real time (\"clock\": \"real\") and cannot follow \u00d78."));
     QVERIFY(s.noticeButton(QStringLiteral("Change speed only for the others")));
     QTest::mouseClick(s.noticeButton(QStringLiteral("Stay at \u00d71")), Qt::LeftButton);
     QVERIFY(s.window.notices()->text().isEmpty());

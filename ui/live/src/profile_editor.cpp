@@ -106,7 +106,7 @@ ProfileEditor::ProfileEditor(const Profile& profile, const QString& file, QWidge
   m_table->horizontalHeaderItem(Scale)->setToolTip(
       QStringLiteral("Value in the unit = scale × what is sent + offset"));
   m_table->horizontalHeaderItem(Labels)->setToolTip(
-      QStringLiteral("Words of codes: 0 = stop, 1 = walk"));
+      QStringLiteral("Labels of codes: 0 = stop, 1 = walk"));
   const std::pair<int, int> widths[] = {{Name, 150},  {Type, 64},     {Unit, 52},    {Scale, 56},
                                         {Offset, 56}, {Category, 96}, {Meaning, 150}};
   for (const auto& [at, wide] : widths) m_table->setColumnWidth(at, scaled(this, wide));

@@ -51,7 +51,7 @@ TeamsPage::TeamsPage(LiveController* live, QWidget* parent)
   m_table->setObjectName(QStringLiteral("teamPreview"));
   m_table->setHorizontalHeaderLabels({QStringLiteral("From"), QStringLiteral("Port"),
                                       QStringLiteral("Messages"), QStringLiteral("Robot"),
-                                      QStringLiteral("Says")});
+                                      QStringLiteral("Content")});
   styleTable(m_table);
   const int widths[] = {110, 55, 84, 150};
   for (int column = 0; column < 4; ++column) {

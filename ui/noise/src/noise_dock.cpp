@@ -187,8 +187,8 @@ class NoiseDock : public QScrollArea {
     connect(m_model, &QComboBox::activated, this,
             [this] { m_controller->edits()->setPhysics(m_model->currentData().toString()); });
     column->addWidget(m_model);
-    column->addWidget(
-        makeExplanation(QStringLiteral("Changing the physics model stops all motion."), form));
+    column->addWidget(makeExplanation(
+        QStringLiteral("The robots and the ball stop when you change the physics model."), form));
     m_exact = makeExplanation(
         QStringLiteral(
             "“published” matches the published simulator bit for bit. It has no adjustable "

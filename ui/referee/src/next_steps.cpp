@@ -52,7 +52,7 @@ std::vector<NextStep> afterTheEnd(const sim::GameState& game) {
     steps.push_back(calling(CallKind::ShootOut, "Penalty shoot-out", "One robot against a keeper"));
   }
   steps.push_back({std::nullopt, QStringLiteral("Play again"),
-                   QStringLiteral("Begins the match again; undo brings this one back")});
+                   QStringLiteral("Restarts the match. Undo brings this one back")});
   return steps;
 }
 
@@ -63,7 +63,7 @@ std::vector<NextStep> nextSteps(const link::RefereeDesk& desk) {
   const bool shootOut = game.phase == GamePhase::ShootOut;
   std::vector<NextStep> steps;
   if (game.stopped && game.state != PlayState::Finished) {
-    return {calling(CallKind::GoOn, "Go on", "Play goes on")};
+    return {calling(CallKind::GoOn, "Resume play", "Robots may play again")};
   }
   switch (game.state) {
     case PlayState::Initial:

@@ -194,7 +194,7 @@ void RulesFold::show(const link::MatchFrame* shown, const QString& why) {
   if (shown != nullptr && std::exchange(m_refereed, refereed) != refereed) {
     m_fold->setChecked(!refereed);
   }
-  set(m_rules, "Choosing rules restarts the game in INITIAL. Undo brings it back.");
+  set(m_rules, "Restarts the game in INITIAL with these rules. Undo brings the old game back.");
   set(m_automatic, "When off, only your calls and the end of READY change the game.");
   set(m_formation, "Where both teams and the ball stand");
   set(m_asSetPlay, "While PLAYING the side that attacks gets the corner kick, throw-in, … as well");

@@ -172,7 +172,7 @@ void MatchController::restart(std::function<void()> between) {
   m_edits->replaceMatch(
       beginning(),
       over ? QStringLiteral("Play the match again") : QStringLiteral("Restart the match"),
-      over ? QStringLiteral("The match begins again") : QStringLiteral("Match restarted"), m_paused,
+      over ? QStringLiteral("Match started again") : QStringLiteral("Match restarted"), m_paused,
       std::move(between));
 }
 
@@ -383,7 +383,7 @@ void MatchController::runTo(std::uint64_t tick) {
 void MatchController::skip(std::function<bool(const link::MatchEvent&)> wanted) {
   if (!m_runner || !m_frame || !m_edits->allowsChange()) return;
   if (const QStringList programs = realTimePrograms(); !programs.isEmpty()) {
-    refuse(QStringLiteral("%1 keeps real time (\"clock\": \"real\"), so the match cannot skip.")
+    refuse(QStringLiteral("%1 uses real time (\"clock\": \"real\"), so the match cannot skip.")
                .arg(programs.join(QStringLiteral(", "))));
     return;
   }

@@ -119,7 +119,7 @@ Result<double> parseValue(const ColumnInfo& column, const QString& text) {
     return refuse(QStringLiteral("“%1” is not a number%2.")
                       .arg(typed, column.labels.empty()
                                       ? QString()
-                                      : QStringLiteral(", nor the words of a code")));
+                                      : QStringLiteral(", nor the label of a code")));
   }
   if (column.type == ColumnType::Int32) {
     if (value != std::floor(value)) {

@@ -28,13 +28,13 @@ struct Offer {
 };
 // What somebody at a match has to act on; a further one is a line here.
 constexpr Offer offers[] = {
-    {Kind::RobotOffline, "A robot goes offline"},
+    {Kind::RobotOffline, "A robot went offline"},
     {Kind::BatteryLow, "A robot's battery is low"},
     {Kind::Penalised, "A robot is penalised"},
-    {Kind::Fall, "A robot falls"},
-    {Kind::ProcessDied, "A process dies"},
-    {Kind::ProcessSilent, "A process stops responding"},
-    {Kind::RefereeOffline, "The referee goes offline"},
+    {Kind::Fall, "A robot fell"},
+    {Kind::ProcessDied, "A process died"},
+    {Kind::ProcessSilent, "A process stopped responding"},
+    {Kind::RefereeOffline, "The referee went offline"},
     {Kind::SecondSender, "Two programs send as one robot"},
     {Kind::PortLost, "A port cannot be opened"},
     {Kind::Goal, "A goal"},

@@ -486,13 +486,13 @@ void MainWindow::connectNotices() {
           [this] { m_notices->settle(locked); });
   connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices, tell(continued));
   connect(m_future, &AbandonedFuture::began, m_notices, [this] {
-    m_notices->show(
-        {branch, NoticeTone::Success},
-        QStringLiteral("The match goes on from %1. The abandoned future stays as a pale branch.")
-            .arg(clockText(m_future->begin())),
-        {{QStringLiteral("Compare"), [this] { m_future->setCompared(true); }},
-         {QStringLiteral("Drop"), [this] { m_future->drop(); }},
-         {QStringLiteral("Close"), {}}});
+    m_notices->show({branch, NoticeTone::Success},
+                    QStringLiteral("Continuing the match from %1. The timeline keeps the abandoned "
+                                   "future as a pale branch.")
+                        .arg(clockText(m_future->begin())),
+                    {{QStringLiteral("Compare"), [this] { m_future->setCompared(true); }},
+                     {QStringLiteral("Drop"), [this] { m_future->drop(); }},
+                     {QStringLiteral("Close"), {}}});
   });
   connect(m_future, &AbandonedFuture::changed, m_notices, [this] {
     if (!m_future->isOn()) m_notices->settle(branch);
@@ -519,7 +519,7 @@ void MainWindow::askForSpeed(const QStringList& programs, double wanted) {
   };
   m_notices->show(
       {speedTopic},
-      QStringLiteral("%1 keeps real time (\"clock\": \"real\") and cannot follow %2.")
+      QStringLiteral("%1 uses real time (\"clock\": \"real\") and cannot follow %2.")
           .arg(programs.join(QStringLiteral(", ")), speed),
       {{QStringLiteral("Restart with match time"), answer(Programs::RestartWithMatchTime)},
        {QStringLiteral("Stay at ×1"), [this] { m_controller->setSpeed(1.0); }},

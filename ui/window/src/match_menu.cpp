@@ -75,7 +75,7 @@ void fillWhoDecides(QMenu* menu, MatchController* controller) {
                                         controller->setCognition(where);
                                         controller->restart();
                                       });
-    action->setToolTip(QString::fromUtf8(each.tip) + QStringLiteral(". The match begins again."));
+    action->setToolTip(QString::fromUtf8(each.tip) + QStringLiteral(". Restarts the match."));
     action->setCheckable(true);
     action->setChecked(controller->cognition() == each.cognition);
   }

@@ -9,41 +9,41 @@
 
 namespace pitchboard::link::particles {
 
-// What every processor of the kind has.
-namespace narrow {
+// Instructions that every processor of the architecture has.
+namespace baseline {
 inline constexpr int registerLanes = 4;
 #include "localization/particle_loops.inc"
-}  // namespace narrow
+}  // namespace baseline
 
-// Wider ones. Of fused multiply-add nothing is used: the same operations, the same bits.
-#ifdef PITCHBOARD_WIDE_REGISTERS
+// Longer vectors. No fused multiply-add is used, so that the same operations give the same bits.
+#ifdef PITCHBOARD_SIMD_LEVELS
 #pragma GCC push_options
 #pragma GCC target("avx2")
-namespace wide {
+namespace avx2 {
 inline constexpr int registerLanes = 8;
 #include "localization/particle_loops.inc"
-}  // namespace wide
+}  // namespace avx2
 #pragma GCC pop_options
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")
-namespace widest {
+namespace avx512 {
 inline constexpr int registerLanes = 16;
 #include "localization/particle_loops.inc"
-}  // namespace widest
+}  // namespace avx512
 #pragma GCC pop_options
 #endif
 
-const Kernels* kernelsOf(RegisterWidth width) {
-  if (!hasRegisters(width)) return nullptr;
-#ifdef PITCHBOARD_WIDE_REGISTERS
-  if (width == RegisterWidth::Wide) return &wide::all;
-  if (width == RegisterWidth::Widest) return &widest::all;
+const Kernels* kernelsOf(SimdLevel level) {
+  if (!supports(level)) return nullptr;
+#ifdef PITCHBOARD_SIMD_LEVELS
+  if (level == SimdLevel::Avx2) return &avx2::all;
+  if (level == SimdLevel::Avx512) return &avx512::all;
 #endif
-  return &narrow::all;
+  return &baseline::all;
 }
 
 const Kernels& kernels() {
-  static const Kernels& best = widestLoops(kernelsOf);
+  static const Kernels& best = fastestLoops(kernelsOf);
   return best;
 }
 

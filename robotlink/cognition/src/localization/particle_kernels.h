@@ -10,7 +10,7 @@
 #include <array>
 #include <cstdint>
 
-#include <base/register_width.h>
+#include <base/simd_level.h>
 
 namespace pitchboard::link::particles {
 
@@ -95,9 +95,9 @@ struct Kernels {
   void (*fillNormal)(NoiseLanes& lanes, float* out, int n);
 };
 
-/// Null where this processor or compiler has no such registers. All give the same bits.
-const Kernels* kernelsOf(RegisterWidth width);
-/// The widest there are.
+/// Returns null if the processor or compiler lacks this level. All levels give the same bits.
+const Kernels* kernelsOf(SimdLevel level);
+/// Returns those of the highest level that the processor has.
 const Kernels& kernels();
 
 }  // namespace pitchboard::link::particles

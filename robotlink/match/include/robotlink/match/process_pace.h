@@ -20,7 +20,7 @@ class MatchEvents;
 class ProcessPace {
  public:
   /// Shortest time between two changes of pace for team programs, so that each shows its effect.
-  static constexpr std::chrono::seconds ownPaceInterval{3};
+  static constexpr std::chrono::seconds paceInterval{3};
   using Time = std::chrono::steady_clock::time_point;
 
   /// All arguments must outlive this object.
@@ -50,7 +50,7 @@ class ProcessPace {
   /// only if the clocks of all programs can follow. "As fast as possible" begins at ×1, where the
   /// normal rate of each program is measured, and doubles as long as all keep up. Returns `wanted`
   /// if the match waits for no program.
-  double ownPace(double wanted, double now);
+  double teamProgramPace(double wanted, double now);
   /// Returns the speed of the slowest team program that cannot keep up; empty if all keep up.
   std::optional<double> slowestTeamProgram() const;
   enum class Await {

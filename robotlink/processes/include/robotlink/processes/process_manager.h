@@ -111,9 +111,9 @@ struct ProcessNews {
   RobotId robot;
   std::string process;
   pid_t pid = 0;
-  std::string detail;       ///< such as "exit code 2"; empty for Started
-  double restartIn = -1.0;  ///< s; below 0: it is not restarted
-  std::string lastWords{};  ///< for Died: what it wrote last
+  std::string detail;        ///< such as "exit code 2"; empty for Started
+  double restartIn = -1.0;   ///< s; below 0: it is not restarted
+  std::string lastOutput{};  ///< for Died: what it wrote last
 };
 
 /// A line that a process wrote to stdout or stderr.
