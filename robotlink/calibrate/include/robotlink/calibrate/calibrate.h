@@ -28,7 +28,8 @@ struct CalibratedValue {
 
 /// A moment of the recording and what was predicted from it.
 struct PredictedWindow {
-  double time = 0.0;  ///< s, of its start
+  std::size_t session = 0;  ///< position of its recording
+  double time = 0.0;        ///< s, of its start
   struct Place {
     double time = 0.0;
     Point recorded;    ///< as the filter of the calibrated model found it
@@ -39,10 +40,9 @@ struct PredictedWindow {
 };
 
 struct CalibrationCheck {
-  double window = 5.0;  ///< s
-  std::size_t windows = 0;
+  double window = 5.0;              ///< s
   double rms = 0.0, rmsBase = 0.0;  ///< m, at the end of the windows
-  std::vector<PredictedWindow> examples;
+  std::vector<PredictedWindow> windows;
 };
 
 /// Normalized innovations of one sense.

@@ -5,6 +5,7 @@
 // samples and reasons under the key "calibration" (docs/calibrate.md); and as a report for a
 // browser. Any thread.
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,8 @@ struct WrittenValue {
   std::string unit;  ///< "m/s"; empty for plain numbers
 };
 WrittenValue writtenValue(const CalibratedValue& value);
+/// The base model's number for a key, as people write it; nothing for what is not in a model.
+std::optional<double> writtenBase(const Calibration& calibration, std::string_view key);
 
 /// One HTML page that needs nothing but itself: values, residuals, predictions over what was
 /// recorded.
