@@ -36,7 +36,7 @@ inline QStringList all(const QString& library) {
         "live", "session", "report", "experiment", "calibrate", "conformance", "capi"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
-        "noise", "processes", "log", "referee", "experiments", "window"}}};
+        "noise", "processes", "log", "referee", "experiments", "calibrate", "window"}}};
   QStringList folders;
   for (const QString& module : modules.value(library)) folders << library + '/' + module;
   return folders;
