@@ -82,7 +82,7 @@ done < tests/data/telemetry/telemetry_capture_1_robot_60s.txt
 
 # A message of each format, and behind the byte that chooses the format or the port.
 python3 - tests/data/team_messages.json "$seeds" <<'PYTHON'
-import json, pathlib, sys
+import json, math, pathlib, struct, sys
 seeds = pathlib.Path(sys.argv[2])
 for place, message in enumerate(json.load(open(sys.argv[1], encoding="utf-8"))["messages"]):
     data = bytes.fromhex(message["hex"]) if "hex" in message else message["text"].encode()
@@ -97,6 +97,15 @@ options = {"ourTeam": 12, "field": "spl", "teams": [{"setup": "{\"number\": 12}"
 state = {"time": 1, "options": options, "robots": json.dumps({"robots": [robot]}),
          "referee": [{"at": 0, "address": 1, "port": 3838, "localPort": 3838, "base64": "UkdtZQ=="}]}
 (seeds / "live_state" / "one").write_text(json.dumps(state))
+# A robot that turns: all variables in the first row, then IMU, ball and corners.
+rows = bytes([0]) + b"\xff" + struct.pack("<iiififfi", 2, 10, 1, 0.0, 0, 150.0, 5.0, 0)
+rows += b"\xff" + struct.pack("<ffffiiif", 140.0, 40.0, -140.0, -40.0, 300, 350, 0, 10.0)
+rows += b"\xff" + struct.pack("<ffffiiif", 200.0, 10.0, 210.0, 20.0, 0, 1, 2, 0.0)
+for row in range(1, 40):
+    turned = 0.01 * row + 0.004 * math.sin(7 * row)
+    rows += b"\x68" + struct.pack("<fff", turned, 150 + 5 * math.sin(row), 5 - math.degrees(turned))
+    rows += b"\x02" + struct.pack("<f", 40 - math.degrees(turned) + math.cos(3 * row)) + b"\x00"
+(seeds / "calibrate" / "turns").write_bytes(rows)
 
 def record(stream, body):
     return bytes([stream]) + len(body).to_bytes(2, "little") + body
@@ -113,6 +122,7 @@ fuzz() {
   case $target in
     profile | experiment | scenario) length=8000 ;;
     lines) length=1000 ;;
+    calibrate) length=700 ;;  # every input is fitted
     session) length=8200 ;;
     live_state | moments | catalog) length=16000 ;;
   esac

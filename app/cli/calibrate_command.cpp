@@ -50,10 +50,10 @@ void printCalibration(const link::Calibration& calibration) {
     std::printf("Left out: %.1f s, %s\n", seconds, cause.c_str());
   }
   for (const std::string& note : calibration.notes) std::printf("%s\n", note.c_str());
-  if (calibration.check.windows == 0) return;
+  if (calibration.check.windows.empty()) return;
   std::printf("Position after 5 s: %.1f cm off, with %s %.1f cm (%zu windows)\n",
               100.0 * calibration.check.rms, calibration.base.name.c_str(),
-              100.0 * calibration.check.rmsBase, calibration.check.windows);
+              100.0 * calibration.check.rmsBase, calibration.check.windows.size());
 }
 
 Result<int> calibrateRobot(const CalibrateOptions& options) {

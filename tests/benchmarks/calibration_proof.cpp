@@ -4,6 +4,7 @@
 // from it; how often the 95 % intervals hold the hidden number, and whether the calibrated model
 // predicts the next 5 s better than the base model.
 //   calibration_proof [RECORDINGS] [FIRST-SEED]
+// Prints a table; on stderr every interval, as CSV.
 
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +16,7 @@ int main(int argc, char** argv) {
   const int recordings = argc > 1 ? std::atoi(argv[1]) : 200;
   const int first = argc > 2 ? std::atoi(argv[2]) : 1;
   CalibrationTally tally;
+  std::fprintf(stderr, "seed,key,truth,value,low,high\n");
   for (int i = 0; i < recordings; ++i) {
     const auto trial = playCalibrationTrial(static_cast<std::uint64_t>(first + i));
     if (!trial) {
@@ -22,10 +24,11 @@ int main(int argc, char** argv) {
       return 2;
     }
     tally.add(*trial);
-    if ((i + 1) % 10 == 0 || i + 1 == recordings) {
-      std::fprintf(stderr, "%d of %d\n", i + 1, recordings);
-      if ((i + 1) % 50 == 0) tally.print();
+    for (const CalibratedValue& value : trial->calibration.values) {
+      std::fprintf(stderr, "%d,%s,%.6g,%.6g,%.6g,%.6g\n", first + i, value.key.c_str(),
+                   trial->truth(value.key), value.value, value.low, value.high);
     }
+    std::fprintf(stderr, "%d,prediction,%.6g,%.6g,,\n", first + i, trial->rms(), trial->rmsBase());
   }
   tally.print();
   return 0;

@@ -37,7 +37,7 @@ inline QStringList all(const QString& library) {
         "explore"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
-        "noise", "processes", "log", "referee", "experiments", "explore", "window"}}};
+        "noise", "processes", "log", "referee", "experiments", "calibrate", "explore", "window"}}};
   QStringList folders;
   for (const QString& module : modules.value(library)) folders << library + '/' + module;
   return folders;

@@ -13,14 +13,6 @@
 
 namespace tst_cli_blackboard {
 
-namespace {
-
-ProgramRun cli(const QStringList& arguments) {
-  return runProgram("pitchboard-cli", arguments);
-}
-
-}  // namespace
-
 class TestCliBlackboard : public QObject {
   Q_OBJECT
 

@@ -10,19 +10,6 @@
 
 namespace tst_cli_calibrate {
 
-namespace {
-
-ProgramRun cli(const QStringList& arguments) {
-  return runProgram("pitchboard-cli", arguments);
-}
-
-QByteArray contents(const QString& path) {
-  QFile file(path);
-  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
-
-}  // namespace
-
 class TestCliCalibrate : public QObject {
   Q_OBJECT
   QTemporaryDir m_folder;

@@ -15,19 +15,6 @@
 
 namespace tst_cli_export {
 
-namespace {
-
-ProgramRun cli(const QStringList& arguments) {
-  return runProgram("pitchboard-cli", arguments);
-}
-
-QByteArray contents(const QString& path) {
-  QFile file(path);
-  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
-
-}  // namespace
-
 class TestCliExport : public QObject {
   Q_OBJECT
 

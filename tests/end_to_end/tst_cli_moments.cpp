@@ -13,10 +13,6 @@ namespace {
 
 using Run = ProgramRun;
 
-Run cli(const QStringList& arguments) {
-  return runProgram("pitchboard-cli", arguments);
-}
-
 }  // namespace
 
 class TestCliMoments : public QObject {

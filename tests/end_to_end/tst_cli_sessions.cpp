@@ -29,15 +29,6 @@ constexpr TimeRange always{-1e9, 1e9};
 
 using Run = ProgramRun;
 
-Run cli(const QStringList& arguments) {
-  return runProgram("pitchboard-cli", arguments);
-}
-
-QByteArray contents(const QString& path) {
-  QFile file(path);
-  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
-
 /// A float is written with as few digits as give its 32 bits back.
 bool same(double a, double b) {
   if (const auto single = static_cast<float>(b); double(single) == b)

@@ -29,8 +29,10 @@ struct CalibrationTrial {
   Calibration calibration;
   sim::RobotModel hidden;
   double rolling = 0.0;
-  double rms = 0.0, rmsBase = 0.0;  ///< m, against the truth
+  double squares = 0.0, squaresBase = 0.0;  ///< m², errors of predictions against the truth
   std::size_t windows = 0;
+  double rms() const { return std::sqrt(squares / static_cast<double>(windows)); }
+  double rmsBase() const { return std::sqrt(squaresBase / static_cast<double>(windows)); }
   /// The hidden number of a key.
   double truth(const std::string& key) const {
     const auto find = [&](const auto& parameters, const auto& values, const std::string& name) {
@@ -110,8 +112,9 @@ inline Result<std::shared_ptr<telemetry::SeriesStore>> recorded(
   return rows;
 }
 
-/// Errors of the predictions of 5 s by the truth that the rows hold.
-inline void comparePredictions(const telemetry::SeriesStore& rows, CalibrationTrial& trial) {
+/// Adds the squared errors of the predictions of 5 s, by the truth that the rows of a session hold.
+inline void comparePredictions(const telemetry::SeriesStore& rows, std::size_t session,
+                               CalibrationTrial& trial) {
   std::vector<std::array<double, 3>> truth;
   forEachRow(rows, {-1e18, 1e18}, [&](auto, const telemetry::GroupInfo& group, const auto& row) {
     if (group.name != "B1") return;
@@ -123,9 +126,8 @@ inline void comparePredictions(const telemetry::SeriesStore& rows, CalibrationTr
         truth, time - 1e-6, {}, [](const std::array<double, 3>& one) { return one[0]; });
     return found == truth.end() ? truth.back() : *found;
   };
-  double sum = 0.0, sumBase = 0.0;
-  for (const PredictedWindow& window : trial.calibration.check.examples) {
-    if (window.places.empty()) continue;
+  for (const PredictedWindow& window : trial.calibration.check.windows) {
+    if (window.session != session || window.places.empty()) continue;
     const auto& last = window.places.back();
     const auto& first = window.places.front();
     // The way since the first place, so that an error of the first place counts for neither.
@@ -134,13 +136,10 @@ inline void comparePredictions(const telemetry::SeriesStore& rows, CalibrationTr
     const auto square = [&](const Point& p) {
       return (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y);
     };
-    sum += square(last.calibrated);
-    sumBase += square(last.base);
+    trial.squares += square(last.calibrated);
+    trial.squaresBase += square(last.base);
     ++trial.windows;
   }
-  const auto n = static_cast<double>(std::max<std::size_t>(1, trial.windows));
-  trial.rms = std::sqrt(sum / n);
-  trial.rmsBase = std::sqrt(sumBase / n);
 }
 
 /// Two recordings (calibration-drill and calibration-kicks) of the robot number `seed`.
@@ -150,7 +149,7 @@ inline Result<CalibrationTrial> playCalibrationTrial(std::uint64_t seed, double 
   CalibrationTrial trial;
   trial.hidden = hiddenModel(*base, seed, trial.rolling);
   std::vector<CalibrationLog> logs;
-  std::shared_ptr<telemetry::SeriesStore> drill;
+  std::vector<std::shared_ptr<telemetry::SeriesStore>> played;
   for (const std::string name : {"calibration-drill", "calibration-kicks"}) {
     if (name == "calibration-kicks" && kickSeconds <= 0.0) continue;
     auto scenario = loadScenario(name);
@@ -161,7 +160,7 @@ inline Result<CalibrationTrial> playCalibrationTrial(std::uint64_t seed, double 
     if (name == "calibration-kicks") scenario->stop.duration = kickSeconds;
     auto rows = recorded(*scenario);
     if (!rows) return tl::unexpected(rows.error());
-    if (!drill) drill = *rows;
+    played.push_back(*rows);
     // Calibration knows the size of the field, not how the ball rolls on it.
     sim::FieldSpec field = scenario->settings.field;
     field.surface.deceleration = 0.3;
@@ -172,7 +171,7 @@ inline Result<CalibrationTrial> playCalibrationTrial(std::uint64_t seed, double 
   auto calibration = calibrate(logs, *base);
   if (!calibration) return tl::unexpected(calibration.error());
   trial.calibration = std::move(*calibration);
-  comparePredictions(*drill, trial);
+  for (std::size_t i = 0; i < played.size(); ++i) comparePredictions(*played[i], i, trial);
   return trial;
 }
 
@@ -198,9 +197,9 @@ class CalibrationTally {
     }
     if (trial.windows > 0) {
       ++m_predicted;
-      if (trial.rms < trial.rmsBase) ++m_better;
-      m_rms += trial.rms;
-      m_rmsBase += trial.rmsBase;
+      if (trial.rms() < trial.rmsBase()) ++m_better;
+      m_rms += trial.rms();
+      m_rmsBase += trial.rmsBase();
     }
   }
   const std::map<std::string, Row>& rows() const { return m_rows; }

@@ -3,6 +3,7 @@
 
 // One run of one of our programs to its end, as at a terminal.
 
+#include <QFile>
 #include <QProcess>
 
 struct ProgramRun {
@@ -21,4 +22,14 @@ inline ProgramRun runProgram(const char* name, const QStringList& arguments,
   if (!process.waitForFinished(longest_ms)) return {};
   return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -1,
           process.readAllStandardOutput(), process.readAllStandardError()};
+}
+
+inline ProgramRun cli(const QStringList& arguments) {
+  return runProgram("pitchboard-cli", arguments);
+}
+
+/// Of a file; empty if it cannot be read.
+inline QByteArray contents(const QString& path) {
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
 }

@@ -251,7 +251,7 @@ void tellLeftOut(std::span<const MotionFilter> filters, std::span<const Calibrat
       } else if (!fit.ofLogs[f].states[i].known) {
         out.leftOut["the pose is not known"] += dt;
       } else if (filters[f].disturbed()[i]) {
-        out.leftOut["beside the ball or another robot"] += dt;
+        out.leftOut["beside the ball, another robot, a goal or a wall"] += dt;
       }
     }
     const FilterDecisions& decisions = fit.ofLogs[f].decisions;
@@ -273,6 +273,8 @@ CalibrationLog firstPart(const CalibrationLog& log, double holdOut) {
   std::erase_if(out.rows, [end](const CalibrationRow& row) { return row.time > end; });
   std::erase_if(out.robots,
                 [&](const SeenRobotPercept& seen) { return seen.row >= out.rows.size(); });
+  std::erase_if(out.sightings,
+                [&](const TeamMateSighting& seen) { return seen.row >= out.rows.size(); });
   return out;
 }
 

@@ -13,7 +13,6 @@ constexpr double window = 5.0;          // s
 constexpr double windowInterval = 1.0;  // s
 constexpr double leastWalking = 2.0;    // s of a window
 constexpr double placeInterval = 0.1;   // s
-constexpr std::size_t mostExamples = 12;
 constexpr std::size_t timeParts = 60;
 
 /// Where a model walks from a state with recorded actions.
@@ -29,8 +28,8 @@ struct Walk {
   }
 };
 
-void checkLog(const CalibrationLog& log, double holdOut, const MotionFit& motion, Calibration& out,
-              double& sum, double& sumBase) {
+void checkLog(const CalibrationLog& log, std::size_t session, double holdOut,
+              const MotionFit& motion, Calibration& out, double& sum, double& sumBase) {
   const MotionFilter filter(log, out.base);
   FilterDecisions decisions;
   std::vector<Innovation> innovations;
@@ -43,6 +42,7 @@ void checkLog(const CalibrationLog& log, double holdOut, const MotionFit& motion
     if (rows[i].time < next || !states[i].known) continue;
     next = rows[i].time + windowInterval;
     PredictedWindow shown;
+    shown.session = session;
     shown.time = rows[i].time;
     const MotionState& from = states[i];
     const auto begin = [&](const sim::RobotModel& model) {
@@ -80,8 +80,7 @@ void checkLog(const CalibrationLog& log, double holdOut, const MotionFit& motion
     const double x = to.mean[MotionState::X], y = to.mean[MotionState::Y];
     sum += (calibrated.x - x) * (calibrated.x - x) + (calibrated.y - y) * (calibrated.y - y);
     sumBase += (base.x - x) * (base.x - x) + (base.y - y) * (base.y - y);
-    ++out.check.windows;
-    out.check.examples.push_back(std::move(shown));
+    out.check.windows.push_back(std::move(shown));
   }
 }
 
@@ -91,26 +90,23 @@ void checkPredictions(std::span<const CalibrationLog> logs, double holdOut, cons
                       Calibration& out) {
   out.check.window = window;
   double sum = 0.0, sumBase = 0.0;
-  for (const CalibrationLog& log : logs) checkLog(log, holdOut, motion, out, sum, sumBase);
-  if (out.check.windows == 0) return;
-  const auto count = static_cast<double>(out.check.windows);
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    checkLog(logs[i], i, holdOut, motion, out, sum, sumBase);
+  }
+  if (out.check.windows.empty()) return;
+  const auto count = static_cast<double>(out.check.windows.size());
   out.check.rms = std::sqrt(sum / count);
   out.check.rmsBase = std::sqrt(sumBase / count);
-  auto& examples = out.check.examples;
-  if (examples.size() <= mostExamples) return;
-  std::vector<PredictedWindow> chosen;
-  for (std::size_t i = 0; i < mostExamples; ++i) {
-    chosen.push_back(std::move(examples[i * examples.size() / mostExamples]));
-  }
-  examples = std::move(chosen);
 }
 
 void describeResiduals(const MotionFit& motion, Calibration& out) {
-  const std::array<std::pair<Sense, const char*>, 5> senses{{{Sense::Imu, "IMU yaw"},
-                                                             {Sense::BallDistance, "ball distance"},
-                                                             {Sense::BallBearing, "ball bearing"},
-                                                             {Sense::Corner, "corner bearing"},
-                                                             {Sense::Belief, "believed pose"}}};
+  const std::array<std::pair<Sense, const char*>, 6> senses{
+      {{Sense::Imu, "IMU yaw"},
+       {Sense::BallDistance, "ball distance"},
+       {Sense::BallBearing, "ball bearing"},
+       {Sense::Corner, "corner bearing"},
+       {Sense::Belief, "believed pose"},
+       {Sense::TeamMate, "seen by team-mates"}}};
   for (const auto& [sense, name] : senses) {
     std::vector<double> all;
     for (const MotionFit::OfLog& log : motion.ofLogs) {

@@ -59,6 +59,19 @@ WrittenValue writtenValue(const CalibratedValue& value) {
   return out;
 }
 
+std::optional<double> writtenBase(const Calibration& calibration, std::string_view key) {
+  const auto find = [](const auto& parameters, const auto& numbers,
+                       std::string_view name) -> std::optional<double> {
+    for (const auto& parameter : parameters) {
+      if (name == parameter.key) return parameter.written(numbers.*parameter.member);
+    }
+    return {};
+  };
+  return key.starts_with("noise.")
+             ? find(sim::noiseParameters, calibration.base.noise, key.substr(6))
+             : find(sim::robotModelParameters, calibration.base, key);
+}
+
 std::string calibrationToJson(const Calibration& calibration, std::string_view program) {
   Json file = robotModelToJson(calibration.model);
   if (file.is_string()) file = Json{{"name", calibration.model.name}, {"base", file}};
@@ -94,7 +107,7 @@ std::string calibrationToJson(const Calibration& calibration, std::string_view p
   record["notes"] = calibration.notes;
   const CalibrationCheck& check = calibration.check;
   record["check"] = {{"window_s", check.window},
-                     {"windows", check.windows},
+                     {"windows", check.windows.size()},
                      {"rms_m", rounded(check.rms)},
                      {"rms_base_m", rounded(check.rmsBase)}};
   file["sources"] = sources;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include <base/angles.h>
 #include <robotlink/session/recorded_frame.h>
@@ -17,6 +18,7 @@ namespace {
 constexpr double longestGap = 0.5;     // s; longer ones are told
 constexpr double farthest = 100.0;     // m; a percept beyond it is no percept
 constexpr double largestBelief = 1e6;  // cm or degrees
+constexpr double lostSigma = 0.5;      // m; a team-mate that knows its place worse is no reference
 
 /// A percept is new when its value has changed: vision writes a fresh random error every time. The
 /// first value may be as old as the blackboard.
@@ -32,6 +34,89 @@ class FreshValue {
  private:
   bool m_any = false;
   double m_last = 0.0;
+};
+
+/// Columns of what a robot believes of its place.
+class BeliefColumns {
+ public:
+  BeliefColumns() = default;
+  explicit BeliefColumns(const telemetry::GroupInfo& group)
+      : m_x(findSlot(group, {"LOCALIZATION_X"})),
+        m_y(findSlot(group, {"LOCALIZATION_Y"})),
+        m_theta(findSlot(group, {"LOCALIZATION_THETA"})),
+        m_belief(findSlot(group, {"LOCALIZATION_BELIEF"})) {}
+
+  std::optional<CalibrationRow::Belief> read(const sim::FieldSpec& field,
+                                             const telemetry::RowView& row) const {
+    const double x = m_x.read(row), y = m_y.read(row), theta = m_theta.read(row);
+    const double sigma_cm = m_belief.present() ? m_belief.read(row) : 20.0;
+    if (!(std::abs(x) < largestBelief && std::abs(y) < largestBelief) ||
+        !(std::abs(theta) < largestBelief) || !(sigma_cm > 0.0 && sigma_cm < largestBelief)) {
+      return {};
+    }
+    return CalibrationRow::Belief{
+        sim::published_frame::studioFromLocalization(field, {x, y, theta}),
+        sim::published_frame::metresFromCm(sigma_cm)};
+  }
+
+ private:
+  RowSlot m_x, m_y, m_theta, m_belief;
+};
+
+/// Columns of a robot that is seen, by the number of its blackboard; a percept is new when its
+/// distance has changed.
+class SeenRobotColumns {
+ public:
+  SeenRobotColumns() = default;
+  SeenRobotColumns(const telemetry::GroupInfo& group, int robot) {
+    char name[32];
+    std::snprintf(name, sizeof name, "VISION_RBT%02d_DIST", robot);
+    m_distance = findSlot(group, {name});
+    std::snprintf(name, sizeof name, "VISION_RBT%02d_ANGLE", robot);
+    m_bearing = findSlot(group, {name});
+  }
+  bool present() const { return m_distance.present() && m_bearing.present(); }
+
+  std::optional<CalibrationRow::Seen> next(const telemetry::RowView& row) {
+    if (!present()) return {};
+    const auto distance = m_fresh.next(m_distance.read(row));
+    const double bearing = m_bearing.read(row);
+    if (!distance || !std::isfinite(bearing)) return {};
+    const double metres = sim::published_frame::metresFromCm(*distance);
+    if (metres <= 0.0 || metres > farthest) return {};
+    // The published sign of this variable is right positive.
+    return CalibrationRow::Seen{metres, wrapToPi(-radiansFromDegrees(bearing))};
+  }
+
+ private:
+  RowSlot m_distance, m_bearing;
+  FreshValue m_fresh;
+};
+
+/// Reads what a team-mate saw of the robot.
+class MateReader {
+ public:
+  MateReader(const telemetry::GroupInfo& group, int robot)
+      : m_belief(group), m_seen(group, robot) {}
+
+  void read(const telemetry::GroupInfo& group, const telemetry::RowView& row, CalibrationLog& log) {
+    const auto seen = m_seen.next(row);
+    if (!seen) return;
+    const auto belief = m_belief.read(log.field, row);
+    if (!belief || belief->sigma > lostSigma) return;
+    const double direction = belief->pose.yaw + seen->bearing;
+    const Point& from = belief->pose.position;
+    log.sightings.push_back({log.rows.size(),
+                             group.name,
+                             {from.x + seen->distance * std::cos(direction),
+                              from.y + seen->distance * std::sin(direction)},
+                             seen->distance,
+                             belief->sigma});
+  }
+
+ private:
+  BeliefColumns m_belief;
+  SeenRobotColumns m_seen;
 };
 
 /// Reads rows of one group.
@@ -61,8 +146,11 @@ class LogReader {
       const auto value = m_cornerFresh[i].next(m_corners[i].read(row));
       if (value && std::abs(*value) <= 360.0) out.corners[i] = wrapToPi(radiansFromDegrees(*value));
     }
-    readRobots(row);
-    readBelief(row, out);
+    for (std::size_t i = 0; i < m_robots.size(); ++i) {
+      const auto seen = m_robots[i].next(row);
+      if (seen) m_log.robots.push_back({m_log.rows.size(), static_cast<int>(i) + 1, *seen});
+    }
+    out.belief = m_belief.read(m_field, row);
     m_log.rows.push_back(out);
   }
 
@@ -86,19 +174,16 @@ class LogReader {
     m_ballDistance = slot("VISION_BALL_DIST");
     m_ballBearing = slot("VISION_BALL_ANGLE");
     if (!m_ballBearing.present()) m_ballBearing = slot("VISION_PAN_DEG");
-    m_x = slot("LOCALIZATION_X");
-    m_y = slot("LOCALIZATION_Y");
-    m_theta = slot("LOCALIZATION_THETA");
-    m_belief = slot("LOCALIZATION_BELIEF");
+    for (const char* name :
+         {"LOCALIZATION_X", "LOCALIZATION_Y", "LOCALIZATION_THETA", "LOCALIZATION_BELIEF"}) {
+      slot(name);
+    }
+    m_belief = BeliefColumns(group);
     m_corners = {slot("VISION_BLUE_LANDMARK_DEG"), slot("VISION_RED_LANDMARK_DEG"),
                  slot("VISION_YELLOW_LANDMARK_DEG"), slot("VISION_PURPLE_LANDMARK_DEG")};
-    for (std::size_t i = 0; i < m_robotDistance.size(); ++i) {
-      char name[32];
-      std::snprintf(name, sizeof name, "VISION_RBT%02zu_DIST", i + 1);
-      m_robotDistance[i] = findSlot(group, {name});
-      std::snprintf(name, sizeof name, "VISION_RBT%02zu_ANGLE", i + 1);
-      m_robotBearing[i] = findSlot(group, {name});
-      if (m_robotDistance[i].present() && !m_log.has("VISION_RBT")) {
+    for (std::size_t i = 0; i < m_robots.size(); ++i) {
+      m_robots[i] = SeenRobotColumns(group, static_cast<int>(i) + 1);
+      if (m_robots[i].present() && !m_log.has("VISION_RBT")) {
         m_log.variables.emplace_back("VISION_RBT");
       }
     }
@@ -113,43 +198,16 @@ class LogReader {
     out.ball = CalibrationRow::Seen{metres, wrapToPi(radiansFromDegrees(bearing))};
   }
 
-  void readRobots(const telemetry::RowView& row) {
-    for (std::size_t i = 0; i < m_robotDistance.size(); ++i) {
-      if (!m_robotDistance[i].present() || !m_robotBearing[i].present()) continue;
-      const auto distance = m_robotFresh[i].next(m_robotDistance[i].read(row));
-      const double bearing = m_robotBearing[i].read(row);
-      if (!distance || !std::isfinite(bearing)) continue;
-      const double metres = sim::published_frame::metresFromCm(*distance);
-      if (metres <= 0.0 || metres > farthest) continue;
-      // The published sign of this variable is right positive.
-      m_log.robots.push_back({m_log.rows.size(),
-                              static_cast<int>(i) + 1,
-                              {metres, wrapToPi(-radiansFromDegrees(bearing))}});
-    }
-  }
-
-  void readBelief(const telemetry::RowView& row, CalibrationRow& out) const {
-    const double x = m_x.read(row), y = m_y.read(row), theta = m_theta.read(row);
-    const double sigma_cm = m_belief.present() ? m_belief.read(row) : 20.0;
-    if (!(std::abs(x) < largestBelief && std::abs(y) < largestBelief) ||
-        !(std::abs(theta) < largestBelief) || !(sigma_cm > 0.0 && sigma_cm < largestBelief)) {
-      return;
-    }
-    out.belief =
-        CalibrationRow::Belief{sim::published_frame::studioFromLocalization(m_field, {x, y, theta}),
-                               sim::published_frame::metresFromCm(sigma_cm)};
-  }
-
   sim::FieldSpec m_field;
   CalibrationLog& m_log;
   const telemetry::GroupInfo* m_group = nullptr;
   RowSlot m_control, m_decision, m_actionB, m_moving, m_imuYaw, m_imuState, m_look, m_search,
-      m_lost, m_ballDistance, m_ballBearing, m_x, m_y, m_theta, m_belief;
+      m_lost, m_ballDistance, m_ballBearing;
+  BeliefColumns m_belief;
   std::array<RowSlot, 4> m_corners;
-  std::array<RowSlot, 22> m_robotDistance, m_robotBearing;
+  std::array<SeenRobotColumns, 22> m_robots;
   FreshValue m_ballFresh;
   std::array<FreshValue, 4> m_cornerFresh;
-  std::array<FreshValue, 22> m_robotFresh;
 };
 
 Result<CalibrationLog> checkedLog(CalibrationLog log, const std::vector<std::string>& present) {
@@ -201,16 +259,25 @@ Result<CalibrationLog> readLog(const Rows& rows, const sim::FieldSpec& field,
   log.field = field;
   LogReader reader(field, log);
   std::vector<std::string> present;
+  std::map<telemetry::GroupId, MateReader> mates;
+  std::string team;
+  int number = 0;  // of the robot's blackboard, once it is known
   forEachRow(
       rows, range,
-      [&](telemetry::GroupId, const telemetry::GroupInfo& group, const telemetry::RowView& row) {
+      [&](telemetry::GroupId id, const telemetry::GroupInfo& group, const telemetry::RowView& row) {
         if (group.name == robot) {
           reader.read(group, row);
-        } else if (attribute(group, "team") != "" &&
-                   std::ranges::find(present, group.name) == present.end()) {
-          present.push_back(group.name);
+          team = attribute(group, "team");
+          number = attributeNumber(group, "robot");
+          return;
         }
+        if (attribute(group, "team") == "") return;
+        if (std::ranges::find(present, group.name) == present.end()) present.push_back(group.name);
+        if (number <= 0 || attribute(group, "team") != team) return;
+        mates.try_emplace(id, group, number).first->second.read(group, row, log);
       });
+  std::erase_if(log.sightings,
+                [&](const TeamMateSighting& seen) { return seen.row >= log.rows.size(); });
   return checkedLog(std::move(log), present);
 }
 

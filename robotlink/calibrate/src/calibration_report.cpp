@@ -10,7 +10,6 @@
 
 #include <robotlink/report/field_svg.h>
 #include <robotlink/report/report_page.h>
-#include <simcore/world/parameters.h>
 #include <telemetry/wire/base64.h>
 
 namespace pitchboard::link {
@@ -31,27 +30,16 @@ std::string valueTable(const Calibration& c) {
       "<h2>Values</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"l\">Key</th>"
       "<th>Value</th><th>95 % interval</th><th class=\"l\">Unit</th><th>Base model</th>"
       "<th class=\"l\">From</th></tr></thead><tbody>\n";
-  const auto baseOf = [&](const CalibratedValue& value) -> std::string {
-    const auto find = [&](const auto& parameters, const auto& model,
-                          const std::string& key) -> std::string {
-      for (const auto& parameter : parameters) {
-        if (key == parameter.key) return digits(parameter.written(model.*parameter.member));
-      }
-      return "–";
-    };
-    return value.key.starts_with("noise.")
-               ? find(sim::noiseParameters, c.base.noise, value.key.substr(6))
-               : find(sim::robotModelParameters, c.base, value.key);
-  };
-  const auto row = [&](const CalibratedValue& value, const std::string& base) {
+  const auto row = [&](const CalibratedValue& value) {
     const WrittenValue w = writtenValue(value);
+    const auto base = writtenBase(c, value.key);
     out += "<tr>" + tableCell(escaped(value.key), true) + tableCell(digits(w.value)) +
            tableCell(digits(w.low) + " to " + digits(w.high)) + tableCell(escaped(w.unit), true) +
-           tableCell(base) +
+           tableCell(base ? digits(*base) : "–") +
            tableCell(std::to_string(value.samples) + ' ' + escaped(value.of), true) + "</tr>\n";
   };
-  for (const CalibratedValue& value : c.values) row(value, baseOf(value));
-  for (const CalibratedValue& value : c.told) row(value, "–");
+  for (const CalibratedValue& value : c.values) row(value);
+  for (const CalibratedValue& value : c.told) row(value);
   out +=
       "</tbody></table></div>\n<h2>Not estimated</h2>\n<p class=\"quiet\">These keep the number "
       "of the base model.</p>\n<div class=\"scroll\"><table><tbody>\n";
@@ -120,12 +108,18 @@ std::string residualCharts(const Calibration& c) {
 }
 
 std::string trajectories(const Calibration& c, const sim::FieldSpec& field) {
-  if (c.check.windows == 0) {
+  if (c.check.windows.empty()) {
     return "<h2>Predictions</h2>\n<p class=\"quiet\">The part that was held out has no stretch of "
            "5 s in which the robot walked.</p>\n";
   }
+  constexpr std::size_t mostShown = 12;
+  std::vector<PredictedWindow> shown;
+  const std::size_t count = std::min(mostShown, c.check.windows.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    shown.push_back(c.check.windows[i * c.check.windows.size() / count]);
+  }
   std::vector<FieldTrajectory> all;
-  for (const PredictedWindow& window : c.check.examples) {
+  for (const PredictedWindow& window : shown) {
     FieldTrajectory recorded{{}, "#ffffff", 0.9, 0.05}, base{{}, "#e8a25c", 0.9, 0.03},
         calibrated{{}, "#4f8fe3", 1.0, 0.03};
     for (const PredictedWindow::Place& place : window.places) {
@@ -136,7 +130,7 @@ std::string trajectories(const Calibration& c, const sim::FieldSpec& field) {
     all.insert(all.end(), {recorded, base, calibrated});
   }
   std::string out =
-      "<h2>Predictions</h2>\n<p>Over " + std::to_string(c.check.windows) + " windows of " +
+      "<h2>Predictions</h2>\n<p>Over " + std::to_string(c.check.windows.size()) + " windows of " +
       digits(c.check.window) + " s the calibrated model ends " + fixed(100.0 * c.check.rms, 1) +
       " cm from where the robot was (root mean square), the base model " +
       fixed(100.0 * c.check.rmsBase, 1) +
@@ -146,7 +140,7 @@ std::string trajectories(const Calibration& c, const sim::FieldSpec& field) {
       "\"><figcaption>Simulated trajectories over recorded ones, from the same commands. White: "
       "recorded. Blue: calibrated. Orange: base model.</figcaption></figure>\n<div "
       "class=\"charts\">\n";
-  for (const PredictedWindow& window : c.check.examples) {
+  for (const PredictedWindow& window : shown) {
     std::vector<double> calibrated, base;
     double most = 0.1;
     for (const PredictedWindow::Place& place : window.places) {

@@ -11,6 +11,8 @@
 
 #include <base/angles.h>
 
+#include "motion_parameters.h"
+
 namespace pitchboard::link {
 namespace {
 
@@ -21,16 +23,19 @@ constexpr double longestPause = 0.5;     // s without rows; then the filter star
 constexpr double longestDelay = 0.52;    // s
 constexpr double gateSigmas = 6.0;       // of an outlier
 constexpr int mostOutliers = 8;          // hardly anything else between; then something was moved
-constexpr double ballRest = 2.0;         // s after it moved until the ball is used again
+constexpr double ballRest = 4.0;         // s after it moved until the ball is used again
 constexpr double ballTouch = 0.45;       // m; a robot that is nearer may push it
-constexpr double ballPush = 0.36;        // m; a ball that is nearer slows the robot down
-constexpr double robotPush = 0.5;        // m, between the centres
-constexpr double pushTime = 0.4;         // s before and after
-constexpr double pushNoise = 0.004;      // m per 1/60 s, of a robot that may push something
-constexpr double kickRest = 8.0;         // s after a kick until the ball is at rest
+constexpr double ballPush = 0.55;        // m; a ball that is nearer may slow the robot down
+constexpr double robotPush = 0.6;        // m, between the centres
+constexpr double obstaclePush = 0.2;     // m, between its edge and a post, net or wall
+constexpr double pushTime = 1.0;         // s before and after
+constexpr double pushNoise = 0.03;       // m per 1/60 s, of a robot that may push something
+constexpr double pushRest = 2.0;         // s after it until its place is known again
+constexpr double kickRest = 20.0;        // s after a kick until the ball is at rest
 constexpr double startSpread = 0.05;     // m, at least
 constexpr double startYawSpread = 0.02;  // rad, at least
 constexpr double beliefInterval = 2.0;   // s; errors of a belief closer together are the same
+constexpr double believedYawSpread = 0.06;  // rad
 
 double approach(double value, double target, double most) {
   return value < target ? std::min(value + most, target) : std::max(value - most, target);
@@ -45,11 +50,13 @@ double pauseOf(const CalibrationLog& log) {
 class Pass {
  public:
   Pass(const CalibrationLog& log, const std::vector<ExecutedAction>& actions,
-       const std::vector<bool>& disturbed, const std::array<Point, 4>& corners,
-       const sim::RobotModel& model, FilterDecisions& decisions, std::vector<Innovation>& out)
+       const std::vector<bool>& disturbed, const std::vector<bool>& counted,
+       const std::array<Point, 4>& corners, const sim::RobotModel& model,
+       FilterDecisions& decisions, std::vector<Innovation>& out)
       : m_log(log),
         m_actions(actions),
         m_disturbed(disturbed),
+        m_counted(counted),
         m_corners(corners),
         m_model(model),
         m_decisions(decisions),
@@ -59,7 +66,7 @@ class Pass {
   double lastBelief = -1e9;
 
   void start(const MotionFilter::Start& from) {
-    m_placed = !from.covariance.isZero();
+    state.placed = !from.covariance.isZero();
     state.mean.setZero();
     state.covariance.setZero();
     state.mean[State::X] = from.pose.position.x;
@@ -106,7 +113,7 @@ class Pass {
     if (!state.known) return;
     const CalibrationRow& seen = m_log.rows[row];
     for (std::size_t i = 0; i < seen.corners.size(); ++i) {
-      if (!seen.corners[i] || !m_placed) continue;
+      if (!seen.corners[i] || !state.placed) continue;
       const Relative to = relativeTo(m_corners[i].x, m_corners[i].y);
       State::Vector h = State::Vector::Zero();
       h[State::X] = to.dy / to.square;
@@ -120,21 +127,29 @@ class Pass {
 
   void measureBelief(std::uint32_t row) {
     const CalibrationRow& seen = m_log.rows[row];
-    if (!state.known || !m_placed || !seen.belief || seen.time - lastBelief < beliefInterval)
+    if (!state.known || !state.placed || !seen.belief || seen.time - lastBelief < beliefInterval)
       return;
     lastBelief = seen.time;
     const double variance = seen.belief->sigma * seen.belief->sigma + 0.02 * 0.02;
-    for (const int axis : {int(State::X), int(State::Y)}) {
-      State::Vector h = State::Vector::Zero();
-      h[axis] = 1.0;
-      const Point& place = seen.belief->pose.position;
-      update(row, Sense::Belief, h, (axis == State::X ? place.x : place.y) - state.mean[axis],
-             variance);
-    }
+    measurePlace(row, Sense::Belief, seen.belief->pose.position, variance);
     State::Vector h = State::Vector::Zero();
     h[State::Yaw] = 1.0;
     update(row, Sense::Belief, h, wrapToPi(seen.belief->pose.yaw - state.mean[State::Yaw]),
-           0.06 * 0.06);
+           believedYawSpread * believedYawSpread);
+  }
+
+  /// Where a team-mate saw the robot.
+  void measureSighting(const TeamMateSighting& seen) {
+    const auto row = static_cast<std::uint32_t>(seen.row);
+    const double time = m_log.rows[row].time;
+    double& last = m_lastSighting.try_emplace(seen.mate, -1e9).first->second;
+    if (!state.known || !state.placed || time - last < beliefInterval) return;
+    last = time;
+    const double across = seen.distance * std::hypot(m_model.noise.robotBearing, believedYawSpread);
+    const double variance = seen.sigma * seen.sigma +
+                            m_model.noise.robotDistance * m_model.noise.robotDistance +
+                            across * across;
+    measurePlace(row, Sense::TeamMate, seen.place, variance);
   }
 
   void forgetBall(double time, double rest) {
@@ -155,15 +170,16 @@ class Pass {
   const CalibrationLog& m_log;
   const std::vector<ExecutedAction>& m_actions;
   const std::vector<bool>& m_disturbed;
+  const std::vector<bool>& m_counted;
   const std::array<Point, 4>& m_corners;
   const sim::RobotModel& m_model;
   FilterDecisions& m_decisions;
   std::vector<Innovation>& m_out;
   GaitStep m_gait;
   bool m_imuUnknown = true;
-  bool m_placed = false;
   double m_ballUsedFrom = -1e9;
-  std::size_t m_next = 0;  // of the decisions
+  std::map<std::string, double> m_lastSighting;  // by the team-mate, s
+  std::size_t m_next = 0;                        // of the decisions
   int m_rejectedImu = 0, m_rejectedBall = 0, m_rejectedCorners = 0;
 
   void forgetImu() { m_imuUnknown = true; }
@@ -214,6 +230,14 @@ class Pass {
     p(State::X, State::Y) += c * s * (along - across);
     p(State::Y, State::X) += c * s * (along - across);
     p(State::Yaw, State::Yaw) += m_model.noise.rotation * m_model.noise.rotation * frames;
+  }
+
+  void measurePlace(std::uint32_t row, Sense sense, const Point& place, double variance) {
+    for (const int axis : {int(State::X), int(State::Y)}) {
+      State::Vector h = State::Vector::Zero();
+      h[axis] = 1.0;
+      update(row, sense, h, (axis == State::X ? place.x : place.y) - state.mean[axis], variance);
+    }
   }
 
   void measureBall(std::uint32_t row, const CalibrationRow::Seen& ball) {
@@ -329,7 +353,7 @@ class Pass {
       default:
         return;
     }
-    m_out.push_back({innovation, variance, row, sense});
+    if (m_counted[row]) m_out.push_back({innovation, variance, row, sense});
     const State::Vector gain = ph / variance;
     state.mean += gain * innovation;
     state.covariance.noalias() -= gain * ph.transpose();
@@ -437,6 +461,20 @@ std::optional<MotionFilter::Start> poseFromCorners(const CalibrationLog& log,
   return start;
 }
 
+/// Whether a robot, of whose place (m, centred) `unsure` is not known, may be at a wall, or at a
+/// post or net of a goal.
+bool isAtObstacle(const sim::FieldSpec& field, double radius, const Point& place, double unsure) {
+  const double reach = radius + obstaclePush + std::min(unsure, 0.5);
+  // The field is symmetric about both axes.
+  const double x = std::abs(place.x), y = std::abs(place.y);
+  const double line = field.halfLength(), back = line + field.goalDepth;
+  const double post = field.goalWidth / 2.0;
+  if (x > line + field.border - reach || y > field.halfWidth() + field.border - reach) return true;
+  const double sideNet = std::hypot(x - std::clamp(x, line, back), y - post);
+  const double backNet = std::hypot(x - back, y - std::min(y, post));
+  return std::min(sideNet, backNet) < reach + field.goalPostRadius;
+}
+
 MotionFilter::Start startFromBelief(std::uint32_t row, const CalibrationRow::Belief& belief) {
   MotionFilter::Start start;
   start.row = row;
@@ -477,20 +515,6 @@ MotionFilter::MotionFilter(const CalibrationLog& log, const sim::RobotModel& bas
     if (seesCorner || row.ball) m_percepts.push_back(static_cast<std::uint32_t>(i));
   }
   m_seesCorners = corners >= 50;
-  m_disturbed.assign(log.rows.size(), false);
-  const auto disturb = [&](std::size_t row) {
-    const double time = log.rows[row].time;
-    for (std::size_t i = row; i < log.rows.size() && log.rows[i].time < time + pushTime; ++i) {
-      m_disturbed[i] = true;
-    }
-    for (std::size_t i = row; i-- > 0 && log.rows[i].time > time - pushTime;) m_disturbed[i] = true;
-  };
-  for (const std::uint32_t row : m_percepts) {
-    if (log.rows[row].ball && log.rows[row].ball->distance < ballPush) disturb(row);
-  }
-  for (const SeenRobotPercept& seen : log.robots) {
-    if (seen.row < log.rows.size() && seen.seen.distance < robotPush) disturb(seen.row);
-  }
   // Starts are looked for once: they depend little on the model.
   for (std::size_t i = 0; i < log.rows.size(); ++i) {
     const bool anew = i == 0 || log.rows[i].time - log.rows[i - 1].time > pauseOf(log) ||
@@ -513,6 +537,59 @@ MotionFilter::MotionFilter(const CalibrationLog& log, const sim::RobotModel& bas
     }
     m_starts.push_back(start);
   }
+  findDisturbed(base);
+  findCounted();
+}
+
+void MotionFilter::findDisturbed(const sim::RobotModel& base) {
+  const auto& rows = m_log.rows;
+  std::vector<bool> near(rows.size());
+  for (const std::uint32_t row : m_percepts) {
+    if (rows[row].ball && rows[row].ball->distance < ballPush) near[row] = true;
+  }
+  for (const SeenRobotPercept& seen : m_log.robots) {
+    if (seen.row < rows.size() && seen.seen.distance < robotPush) near[seen.row] = true;
+  }
+  // Where it is tells a run that trusts its senses more than its gait.
+  sim::RobotModel model = base;
+  for (const std::size_t i : {motionNoiseForward, motionNoiseSideways}) {
+    valueOf(model, motionParameters[i]) = 5.0 * std::exp(motionPrior(base)[i]);
+  }
+  m_disturbed.assign(rows.size(), false);
+  m_counted.assign(rows.size(), false);
+  FilterDecisions decisions;
+  std::vector<Innovation> unused;
+  std::vector<MotionState> states;
+  run(model, base.noise.visionDelay, decisions, unused, &states);
+  const double radius = base.radius > 0.0 ? base.radius : m_log.field.robotRadius;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const MotionState& state = states[i];
+    if (!state.known || !state.placed) continue;
+    const double unsure = std::sqrt(state.covariance(MotionState::X, MotionState::X) +
+                                    state.covariance(MotionState::Y, MotionState::Y));
+    const Point place{state.mean[MotionState::X], state.mean[MotionState::Y]};
+    if (isAtObstacle(m_log.field, radius, place, unsure)) near[i] = true;
+  }
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (!near[row]) continue;
+    const double time = rows[row].time;
+    for (std::size_t i = row; i-- > 0 && rows[i].time > time - pushTime && !m_disturbed[i];) {
+      m_disturbed[i] = true;
+    }
+    m_disturbed[row] = true;
+    for (std::size_t i = row + 1; i < rows.size() && rows[i].time < time + pushTime && !near[i];
+         ++i) {
+      m_disturbed[i] = true;
+    }
+  }
+}
+
+void MotionFilter::findCounted() {
+  double last = -1e9;
+  for (std::size_t i = 0; i < m_log.rows.size(); ++i) {
+    if (m_disturbed[i]) last = m_log.rows[i].time;
+    m_counted[i] = m_log.rows[i].time - last > pushRest;
+  }
 }
 
 void MotionFilter::run(const sim::RobotModel& model, double delay, FilterDecisions& decisions,
@@ -520,8 +597,8 @@ void MotionFilter::run(const sim::RobotModel& model, double delay, FilterDecisio
   out.clear();
   if (!decisions.recorded) decisions = {};
   if (states) states->assign(m_log.rows.size(), {});
-  Pass pass(m_log, m_actions, m_disturbed, m_corners, model, decisions, out);
-  std::size_t percept = 0, start = 0;
+  Pass pass(m_log, m_actions, m_disturbed, m_counted, m_corners, model, decisions, out);
+  std::size_t percept = 0, start = 0, sighting = 0;
   for (std::uint32_t i = 0; i < m_log.rows.size(); ++i) {
     const CalibrationRow& row = m_log.rows[i];
     const double dt = i > 0 ? row.time - m_log.rows[i - 1].time : 0.0;
@@ -559,6 +636,9 @@ void MotionFilter::run(const sim::RobotModel& model, double delay, FilterDecisio
       const bool early = m_log.rows[m_percepts[percept]].time - m_log.rows[0].time < longestDelay;
       if (!early && age <= 1.5 * std::max(dt, frame)) pass.measureImage(m_percepts[percept]);
       ++percept;
+    }
+    for (; sighting < m_log.sightings.size() && m_log.sightings[sighting].row <= i; ++sighting) {
+      if (!m_seesCorners) pass.measureSighting(m_log.sightings[sighting]);
     }
     if (!m_seesCorners) pass.measureBelief(i);
     if (states) {

@@ -21,7 +21,7 @@
 namespace pitchboard::link {
 
 /// Where a measurement came from.
-enum class Sense : std::uint8_t { Imu, BallDistance, BallBearing, Corner, Belief };
+enum class Sense : std::uint8_t { Imu, BallDistance, BallBearing, Corner, Belief, TeamMate };
 
 struct Innovation {
   double value = 0.0;
@@ -40,6 +40,7 @@ struct MotionState {
   double forward = 0.0, left = 0.0, turn = 0.0;  ///< speeds of the gait, m/s and rad/s
   double odometryX = 0.0, odometryY = 0.0;       ///< m, way so far by the gait alone
   bool known = false;                            ///< there is a pose
+  bool placed = false;                           ///< and it is one on the field
   bool ballKnown = false;
 };
 
@@ -63,7 +64,8 @@ class MotionFilter {
            std::vector<Innovation>& out, std::vector<MotionState>* states = nullptr) const;
 
   const std::vector<ExecutedAction>& actions() const { return m_actions; }
-  /// Rows in which the robot may push the ball or another robot: its feet do not say how it moves.
+  /// Rows in which the robot may push the ball, another robot, a goal or a wall: its gait does not
+  /// say how it moves.
   const std::vector<bool>& disturbed() const { return m_disturbed; }
 
   struct Start {
@@ -74,9 +76,16 @@ class MotionFilter {
   };
 
  private:
+  void findDisturbed(const sim::RobotModel& base);
+  void findCounted();
+
   const CalibrationLog& m_log;
   std::vector<ExecutedAction> m_actions;
   std::vector<bool> m_disturbed;
+  // Rows whose measurements count in the likelihood: not while it is disturbed, nor until it is
+  // known again where it is. By the row that shows a percept, whatever its delay, so that
+  // likelihoods of all delays are of the same measurements.
+  std::vector<bool> m_counted;
   std::vector<std::uint32_t> m_percepts;  // rows with ball or corners
   std::array<Point, 4> m_corners;
   bool m_seesCorners = false;

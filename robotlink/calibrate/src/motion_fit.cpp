@@ -19,7 +19,8 @@ constexpr double leastDelay = 0.02;  // s, median of the prior where the base mo
 constexpr double derivativeStep = 1e-4;
 constexpr int mostRounds = 25;
 constexpr double skewedFrom = 0.12;   // of a logarithm's deviation
-constexpr double closeEnough = 2e-3;  // of a posterior deviation
+constexpr double nearEnough = 0.1;    // of a posterior deviation, while the delay is looked for
+constexpr double closeEnough = 0.01;  // at last
 
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
@@ -166,11 +167,11 @@ class Scoring {
     return 0.0;
   }
 
-  /// Until the steps are small. False if cancelled.
-  bool search(int rounds, const std::function<bool()>& goOn) {
-    for (int round = 0; round < rounds; ++round) {
+  /// Until a step is smaller than `enough` posterior deviations. False if cancelled.
+  bool search(double enough, const std::function<bool()>& goOn) {
+    for (int round = 0; round < mostRounds; ++round) {
       if (!goOn()) return false;
-      if (step() < closeEnough) break;
+      if (step() < enough) break;
     }
     return true;
   }
@@ -292,14 +293,14 @@ MotionFit fitMotion(std::span<const MotionFilter> filters, std::span<const Calib
   for (int round = 0; round < 4; ++round) {
     scoring.decideAnew();
     const double part = 0.25 * round;
-    if (!scoring.search(round == 0 ? 6 : mostRounds, [&] { return goOn(part); })) return fit;
+    if (!scoring.search(nearEnough, [&] { return goOn(part); })) return fit;
     delay = delayPosterior(scoring, prior);
     const double best = delay.best * tick;
     if (round > 0 && best == scoring.delay) break;
     scoring.delay = best;
   }
   scoring.decideAnew();
-  if (!scoring.search(mostRounds, [&] { return goOn(0.8); })) return fit;
+  if (!scoring.search(closeEnough, [&] { return goOn(0.8); })) return fit;
   scoring.step();  // the information at the mode
 
   fit.logs = scoring.logs;

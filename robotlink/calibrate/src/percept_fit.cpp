@@ -70,7 +70,8 @@ void fitMissed(std::span<const CalibrationLog> logs, Calibration& out) {
                all, "images"));
 }
 
-void fitCorners(std::span<const CalibrationLog> logs, const MotionFit& motion, Calibration& out) {
+void fitCorners(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
+                const MotionFit& motion, Calibration& out) {
   const char* key = "noise.landmark_probability";
   constexpr double margin = 0.14;                 // rad, round the border of what the body faces
   std::map<std::pair<int, int>, double> counted;  // in view and seen: how often
@@ -81,7 +82,7 @@ void fitCorners(std::span<const CalibrationLog> logs, const MotionFit& motion, C
     const auto delay = static_cast<std::size_t>(std::lround(motion.delay / log.period));
     for (std::size_t i = delay; i < log.rows.size(); ++i) {
       const MotionState& state = motion.ofLogs[f].states[i - delay];
-      if (!state.known) continue;
+      if (!state.known || filters[f].disturbed()[i]) continue;
       int inView = 0, seen = 0;
       bool sure = true;
       for (std::size_t c = 0; c < corners.size(); ++c) {
@@ -392,7 +393,7 @@ void fitRobots(std::span<const MotionFilter> filters, std::span<const Calibratio
 void fitPercepts(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
                  const MotionFit& motion, Calibration& out) {
   fitMissed(logs, out);
-  fitCorners(logs, motion, out);
+  fitCorners(filters, logs, motion, out);
   fitView(filters, logs, motion, out);
   fitRobots(filters, logs, out);
 }

@@ -12,6 +12,7 @@
 
 #include <ui/base/notice_bar.h>
 #include <ui/base/undo_history.h>
+#include <ui/calibrate/calibrate_dialog.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/explore/explorer.h>
 #include <ui/field/field_view.h>
@@ -261,13 +262,16 @@ void StudioMenus::makeView() {
 void StudioMenus::makeRobots() {
   QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Robots"));
   QObject::connect(menu, &QMenu::aboutToShow, &m_window,
-                   [menu, field = m_parts.field, window = &m_window] {
+                   [menu, field = m_parts.field, match = m_parts.controller, window = &m_window] {
                      qDeleteAll(menu->findChildren<QMenu*>(Qt::FindDirectChildrenOnly));
                      menu->clear();
                      field->fillRobotsMenu(menu);
                      menu->addSeparator();
                      if (auto* cards = window->findChild<RobotsDock*>())
                        cards->addCardActions(*menu);
+                     menu->addSeparator();
+                     menu->addAction(QStringLiteral("Calibrate &from recording…"), window,
+                                     [match, window] { showCalibrateDialog(match, window); });
                    });
 }
 

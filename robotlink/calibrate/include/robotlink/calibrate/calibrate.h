@@ -29,7 +29,8 @@ struct CalibratedValue {
 
 /// A window of the recording, and the motion predicted from its start.
 struct PredictedWindow {
-  double time = 0.0;  ///< s, start of the window
+  std::size_t session = 0;  ///< position of its recording
+  double time = 0.0;        ///< s, start of the window
   struct Place {
     double time = 0.0;
     Point recorded;    ///< estimated from the recording with the calibrated model
@@ -40,10 +41,9 @@ struct PredictedWindow {
 };
 
 struct CalibrationCheck {
-  double window = 5.0;  ///< s
-  std::size_t windows = 0;
+  double window = 5.0;              ///< s
   double rms = 0.0, rmsBase = 0.0;  ///< m, at the end of the windows
-  std::vector<PredictedWindow> examples;
+  std::vector<PredictedWindow> windows;
 };
 
 /// Normalized innovations of a sensor.

@@ -5,6 +5,7 @@
 // programs can load; intervals, numbers of samples and reasons are under its key "calibration"
 // (docs/calibrate.md). Pure functions, except for writing the file; any thread.
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,8 @@ struct WrittenValue {
   std::string unit;  ///< "m/s"; empty for plain numbers
 };
 WrittenValue writtenValue(const CalibratedValue& value);
+/// The base model's number for a key, as people write it; nothing for what is not in a model.
+std::optional<double> writtenBase(const Calibration& calibration, std::string_view key);
 
 /// Returns the report as a self-contained HTML page: values, residuals, and predicted against
 /// recorded motion.

@@ -50,12 +50,22 @@ struct SeenRobotPercept {
   CalibrationRow::Seen seen;
 };
 
+/// Where a team-mate of the same recording saw this robot, by what it believed of its own place.
+struct TeamMateSighting {
+  std::size_t row = 0;    ///< the next row of this robot
+  std::string mate;       ///< "B2"
+  Point place;            ///< m, of this robot
+  double distance = 0.0;  ///< m, between the two
+  double sigma = 0.0;     ///< m, of the team-mate's place, as it told it
+};
+
 struct CalibrationLog {
   std::string session;  ///< name of the file, for messages
   std::string robot;    ///< "B1"
   sim::FieldSpec field;
   std::vector<CalibrationRow> rows;  ///< in order of time
   std::vector<SeenRobotPercept> robots;
+  std::vector<TeamMateSighting> sightings;
   double period = 0.0;                 ///< s, median time between rows
   std::vector<std::string> variables;  ///< those of the variables above that were recorded
   std::vector<std::string> notes;      ///< gaps, missing variables, damage, in sentences

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// How often the intervals of calibrate() hold numbers that were hidden from it, and whether its
+// model predicts better than the base model, in a tenth of what the program calibration_proof plays
+// (docs/calibrate.md).
+
+#include <QtTest>
+
+#include "../support/calibration_trial.h"
+
+namespace tst_calibration_proof {
+
+class TestCalibrationProof : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void intervalsHoldHiddenNumbers() {
+    using namespace pitchboard::link;
+    constexpr int trials = 20;
+    CalibrationTally tally;
+    for (std::uint64_t seed = 20001; seed < 20001 + trials; ++seed) {
+      const auto trial = playCalibrationTrial(seed, 240);
+      QVERIFY2(trial.has_value(), trial ? "" : trial.error().text().c_str());
+      tally.add(*trial);
+    }
+    tally.print();
+    QVERIFY(tally.intervals() > 20 * trials);
+    // 95 % of some 500 intervals, of which those of a recording depend on each other.
+    QVERIFY(tally.covered() >= 0.9 * tally.intervals());
+    QVERIFY(tally.covered() <= 0.99 * tally.intervals());
+    QVERIFY(tally.better() >= 18);
+    QCOMPARE(tally.predicted(), trials);
+  }
+};
+
+}  // namespace tst_calibration_proof
+
+QTEST_GUILESS_MAIN(tst_calibration_proof::TestCalibrationProof)
+
+#include "tst_calibration_proof.moc"
