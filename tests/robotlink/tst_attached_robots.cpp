@@ -141,21 +141,34 @@ class TestAttachedRobots : public QObject {
   /// Looking back and Replay show it as it was seen.
   void itsRowsMakeTheSameRobotAgain() {
     const int key = freeKey(4);
-    const auto& published = VariableCatalog::published();
-    const auto word = [&published](const char* name) {
-      for (const Variable& variable : published.variables()) {
+    const auto& extended = VariableCatalog::extended();
+    const QTemporaryDir folder;
+    const QString map = folder.filePath(QStringLiteral("map.json"));
+    QFile file(map);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(QByteArray::fromStdString(extended.toJson()));
+    file.close();
+    const auto word = [&extended](const char* name) {
+      for (const Variable& variable : extended.variables()) {
         const int offset = variable.type == VariableType::Int ? 0 : SegmentLayout().floatOffset;
         if (variable.name == name) return QString::number(variable.index + offset);
       }
       return QString();
     };
-    Peer peer(key, 2048,
-              {word("LOCALIZATION_X") + "=600", word("LOCALIZATION_Y") + "=350",
-               word("LOCALIZATION_THETA") + "=90", word("VOLTAGE") + "=150",
-               word("VISION_WORKING") + "=1", word("DECISION_ACTION_A") + "=8",
-               word("VISION_BALL_DIST") + "=80.0", word("VISION_PAN_DEG") + "=10.0"});
+    Peer peer(
+        key, 2048,
+        {word("LOCALIZATION_X") + "=600", word("LOCALIZATION_Y") + "=350",
+         word("LOCALIZATION_THETA") + "=90", word("VOLTAGE") + "=150",
+         word("VISION_WORKING") + "=1", word("DECISION_ACTION_A") + "=8",
+         word("VISION_BALL_DIST") + "=80.0", word("VISION_PAN_DEG") + "=10.0",
+         word("ADVISOR_STAMP") + "=3", word("ADVISOR_STATE") + "=2", word("ADVISOR_CHOICE") + "=1",
+         word("ADVISOR_VALUE") + "=0.25", word("ADVISOR_HEAT01") + "=15"});
     QVERIFY2(peer.isReady, peer.process.readAllStandardError().constData());
-    const auto board = parseAttachedBoard(std::to_string(key) + ",robot=7,rate=100,team=yellow");
+    const auto board =
+        parseAttachedBoard(QStringLiteral("%1,catalog=%2,robot=7,rate=100,team=yellow")
+                               .arg(key)
+                               .arg(map)
+                               .toStdString());
     QVERIFY(board);
     std::atomic<int> calls = 0;
     AttachedRobots robots([&calls] { return 0.01 * ++calls; });
@@ -186,6 +199,11 @@ class TestAttachedRobots : public QObject {
     QVERIFY(now.battery == then.battery);
     QVERIFY(then.ball.has_value() && now.ball == then.ball);
     QVERIFY(now.decided == then.decided);
+    for (const RobotFrame* robot : {&then, &now}) {
+      QVERIFY(robot->advice && robot->advice->isThinking && robot->advice->heat);
+      QCOMPARE(robot->advice->choice, AdviceKind::StrongKick);
+      QCOMPARE(robot->advice->value, 0.25);
+    }
     QCOMPARE(now.link->rate, then.link->rate);
     for (std::size_t i = 0; i < telemetry::processCount; ++i) {
       QVERIFY(now.lamps[i].state == then.lamps[i].state);

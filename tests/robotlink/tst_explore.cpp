@@ -91,6 +91,11 @@ class TestExplore : public QObject {
     QVERIFY(idle.behind.low > 0.3 && idle.behind.high < 1.1);
     QVERIFY(result->actions[result->best].value.value > 0.6);
     QCOMPARE(result->actions[result->best].behind.value, 0.0);
+    const ExploredAction& kick = actionNamed(*result, "Kicks at the goal");
+    QCOMPARE(kick.from, (Point{3.2, 0.0}));
+    QCOMPARE(kick.to, (std::optional<Point>{{4.5, 0.0}}));
+    QVERIFY(kick.value.value > 0.5);
+    actionNamed(*result, "Dribbles to the goal");
     QVERIFY(result->verdict() != "No difference can be told between the actions.");
     // The same again, to the bit, and with two threads.
     options.threads = 2;
@@ -98,6 +103,25 @@ class TestExplore : public QObject {
     QCOMPARE(again->rollouts, result->rollouts);
     QCOMPARE(again->last().heat, result->last().heat);
     QCOMPARE(again->actions[1].value.value, result->actions[1].value.value);
+  }
+
+  void teamMatesInReachGetPasses() {
+    MatchFrame frame = openGoal();
+    frame.robots.push_back(robotAt(TeamColor::Blue, 4, {{3.6, 1.2}, 0}, "supporter"));
+    frame.robots.push_back(robotAt(TeamColor::Blue, 5, {{-4.2, 0}, 0}, "keeper"));
+    const auto start = exploreStart(frame);
+    QVERIFY(start);
+    ExploreOptions options = quick(2.0);
+    options.mostRollouts = 2;
+    options.robot = start->robots[0];
+    const auto result = explore(*start, options);
+    QVERIFY(result);
+    actionNamed(*result, "Passes to B4");
+    for (const ExploredAction& action : result->actions) QVERIFY(action.text != "Passes to B5");
+    // Away from the ball there is nothing to kick.
+    options.robot = start->robots[2];
+    const auto other = explore(*start, options);
+    for (const ExploredAction& action : other->actions) QVERIFY(!action.text.starts_with("Passes"));
   }
 
   /// The ball is 6 m away and nobody is near it: a second changes nothing.

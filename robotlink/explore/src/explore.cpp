@@ -6,10 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include <base/angles.h>
 #include <base/try.h>
 #include <robotlink/rollout/rollouts.h>
-#include <simcore/world/action.h>
+#include <simcore/world/field.h>
 
 namespace pitchboard::link {
 namespace {
@@ -19,8 +18,12 @@ using rollout::Rollouts;
 using rollout::Setup;
 using rollout::TracePoint;
 
-constexpr double cellSize = 0.25;     // m, of the heat maps
-constexpr double kickWithin_s = 0.5;  // a ball that was seen longer ago cannot be kicked now
+constexpr double cellSize = 0.25;   // m, of the heat maps
+constexpr double atBall = 1.0;      // m: nearer to the ball, kicks are compared
+constexpr double ballMemory = 2.0;  // s since it was seen
+constexpr double passFrom = 0.8;    // m to a team-mate, at least
+constexpr double passBefore = 0.3;  // m in front of it
+constexpr double beforeLine = 0.3;  // m, of kicks that do not reach the goal
 
 /// Quantiles of the normal distribution for 1, 2, ... intervals that hold together with 95 %.
 double normalQuantile(std::size_t intervals) {
@@ -43,7 +46,7 @@ Estimate estimateOf(std::span<const double> values, double quantile) {
 struct PlayedAction {
   ExploredAction shown;
   Rollouts rollouts;
-  Belief belief;
+  Advice advice;  // AdviceKind::None: it plays as it likes
   std::vector<double> differences;
 };
 
@@ -78,7 +81,9 @@ class Exploration {
     for (std::size_t a = 0; a < m_actions.size(); ++a) {
       PlayedAction& action = m_actions[a];
       const bool counts = a == 0;  // as the robots usually play
-      TRY(action.rollouts.play(action.belief, seeds, play, rows, cancelled,
+      play.advice = action.advice;
+      play.advised = m_player;
+      TRY(action.rollouts.play(m_start.belief, seeds, play, rows, cancelled,
                                counts ? std::span(trace) : std::span<TracePoint>()));
       if (cancelled != nullptr && cancelled->load()) return false;
       for (std::size_t row = 0; row < rows.size(); row += rollout::columnCount) {
@@ -170,7 +175,7 @@ class Exploration {
 
   Result<void> addActions() {
     const Belief& belief = m_start.belief;
-    if (!m_options.robot) return add({}, m_start.setup, belief);
+    if (!m_options.robot) return add({}, m_start.setup);
     const rollout::Player& player = m_start.setup.players[m_player];
     const Point& at = belief.robots[m_player].pose.position;
     const double ownGoal = -m_sign * m_start.setup.field.halfLength();
@@ -187,7 +192,7 @@ class Exploration {
     plays.text = "Plays on (" + player.behaviour.name + ')';
     plays.from = at;
     if (usual != roles.end()) plays.to = usual->to;
-    TRY(add(std::move(plays), m_start.setup, belief));
+    TRY(add(std::move(plays), m_start.setup));
     for (const Role& role : roles) {
       if (role.behaviour == player.behaviour.name) continue;
       Setup setup = m_start.setup;
@@ -196,60 +201,61 @@ class Exploration {
       action.text = role.text;
       action.from = at;
       action.to = role.to;
-      TRY(add(std::move(action), setup, belief));
+      TRY(add(std::move(action), setup));
     }
     return addKicks();
   }
 
-  /// Kicks that reach the ball where the robot stands: the ball leaves at once, then it plays on.
+  /// What a robot at the ball may do with it, in the words of its advisor.
   Result<void> addKicks() {
     const Belief& belief = m_start.belief;
     const rollout::RobotBelief& robot = belief.robots[m_player];
-    if (robot.down || belief.ball.age > kickWithin_s) return {};
-    struct Kick {
-      std::array<int, 2> codes;
-      const char* text;
-    };
-    constexpr std::array kicks{Kick{{4, 5}, "Kicks now"}, Kick{{21, 22}, "Kicks gently now"},
-                               Kick{{12, 12}, "Passes to the left now"},
-                               Kick{{13, 13}, "Passes to the right now"}};
-    const Setup& setup = m_start.setup;
-    const sim::RobotModel& model = setup.players[m_player].model;
-    const sim::NoiseParameters& noise = setup.noise.ofModel ? model.noise : setup.noise;
-    const double radius = model.radius > 0.0 ? model.radius : setup.field.robotRadius;
-    const sim::BallAtFeet ball{
-        distance(robot.pose.position, belief.ball.place),
-        wrapToPi(direction(robot.pose.position, belief.ball.place) - robot.pose.yaw)};
-    for (const Kick& kick : kicks) {
-      double speed = 0.0;
-      int code = 0;
-      for (const int foot : kick.codes) {
-        const double hit = sim::kickSpeed(model, radius, foot, ball);
-        if (hit <= speed) continue;
-        speed = hit;
-        code = foot;
-      }
-      if (speed <= 0.0) continue;
-      const double yaw = robot.pose.yaw + radiansFromDegrees(sim::findAction(code)->kick.direction);
-      const double x = std::cos(yaw), y = std::sin(yaw);
-      Belief kicked = belief;
-      kicked.ball.velocity = {speed * x, speed * y};
-      kicked.ball.velocitySigma = std::hypot(noise.kickSpeed, speed * noise.kickAngle);
-      const double rolls =
-          std::min(sim::rollingDistance(setup.field.surface, speed), setup.field.length);
-      ExploredAction action;
-      action.text = kick.text;
-      action.from = belief.ball.place;
-      action.to = Point{belief.ball.place.x + rolls * x, belief.ball.place.y + rolls * y};
-      TRY(add(std::move(action), setup, kicked));
+    const rollout::Player& player = m_start.setup.players[m_player];
+    const Point& ball = belief.ball.place;
+    const bool isAtBall =
+        !robot.down && belief.ball.age < ballMemory && distance(robot.pose.position, ball) < atBall;
+    if (!isAtBall || player.behaviour.name == "idle") return {};
+    const sim::FieldSpec& field = m_start.setup.field;
+    const double strong = sim::rollingDistance(field.surface, player.model.kickSpeed);
+    const double weak = sim::rollingDistance(field.surface, player.model.weakKickSpeed);
+    const Point goal{m_sign * field.halfLength(), 0.0};
+    if (distance(ball, goal) < strong) {
+      TRY(addKick("Kicks at the goal", AdviceKind::StrongKick, goal));
+    } else {
+      const double way = direction(ball, goal);
+      const double x = field.halfLength() - beforeLine, y = field.halfWidth() - beforeLine;
+      TRY(addKick("Kicks ahead", AdviceKind::StrongKick,
+                  {std::clamp(ball.x + strong * std::cos(way), -x, x),
+                   std::clamp(ball.y + strong * std::sin(way), -y, y)}));
     }
-    return {};
+    for (std::size_t i = 0; i < belief.robots.size(); ++i) {
+      const rollout::RobotBelief& mate = belief.robots[i];
+      const rollout::Player& other = m_start.setup.players[i];
+      const Point& at = mate.pose.position;
+      const double away = distance(at, ball);
+      if (i == m_player || mate.absent || mate.down || other.side != player.side ||
+          other.behaviour.name == "keeper" || away < passFrom || away > strong) {
+        continue;
+      }
+      TRY(addKick("Passes to " + m_start.names[i],
+                  away > weak ? AdviceKind::StrongKick : AdviceKind::WeakKick,
+                  {at.x + m_sign * passBefore, at.y}));
+    }
+    return addKick("Dribbles to the goal", AdviceKind::Dribble, goal);
   }
 
-  Result<void> add(ExploredAction action, const Setup& setup, const Belief& belief) {
+  Result<void> addKick(std::string text, AdviceKind kind, const Point& to) {
+    ExploredAction action;
+    action.text = std::move(text);
+    action.from = m_start.belief.ball.place;
+    action.to = to;
+    return add(std::move(action), m_start.setup, {kind, {to, 0.0}});
+  }
+
+  Result<void> add(ExploredAction action, const Setup& setup, const Advice& advice = {}) {
     rollout::RolloutsOptions options;
     options.threads = m_options.threads;
-    m_actions.push_back({std::move(action), TRY(Rollouts::create(setup, options)), belief, {}});
+    m_actions.push_back({std::move(action), TRY(Rollouts::create(setup, options)), advice, {}});
     return {};
   }
 

@@ -22,19 +22,24 @@ enum AdviceWord : std::size_t {
   adviceGoal,
   adviceGoalAgainst,
   firstAdviceCandidate,
-  firstAdviceValue = firstAdviceCandidate + adviceCandidates,
-  firstAdviceHeat = firstAdviceValue + adviceCandidates
+  firstAdviceValue = firstAdviceCandidate + mostCandidates,
+  firstAdviceHeat = firstAdviceValue + mostCandidates
 };
-static_assert(firstAdviceHeat + adviceHeatWords == adviceVariableCount);
+static_assert(firstAdviceHeat + std::size_t{heatWords} == adviceVariableCount);
 
-constexpr int thinkingState = 2;
-constexpr int heatColumns = 16, heatRows = 10, cellsPerWord = 8, highestLevel = 15;
+constexpr int cellsPerWord = 8, highestLevel = 15;
 constexpr double levelRatio = 2.0 / 3.0;  // of a level to the next
-constexpr int packedChoice = 100'000'000, packedX = 10'000;
+constexpr int packedKind = 100'000'000, packedX = 10'000;
 constexpr double mostGoals = 1000.0;
 
-constexpr std::array<std::string_view, 7> choiceTexts{
-    "as usual", "strong kick", "weak kick", "dribble", "go to the ball", "leave the ball", "stand"};
+constexpr std::array<std::string_view, static_cast<std::size_t>(lastOf(AdviceKind{})) + 1>
+    kindTexts{"as usual",       "strong kick",    "weak kick", "dribble",
+              "go to the ball", "leave the ball", "stand"};
+
+std::optional<AdviceKind> kindOf(int number) {
+  if (number < 0 || number > static_cast<int>(lastOf(AdviceKind{}))) return {};
+  return static_cast<AdviceKind>(number);
+}
 
 class AdviceMaker {
  public:
@@ -52,8 +57,8 @@ class AdviceMaker {
 
   AdviceView make() const {
     AdviceView view;
-    view.isThinking = whole(adviceState) == thinkingState;
-    view.choice = whole(adviceChoice);
+    view.isThinking = whole(adviceState) == static_cast<int>(AdvisorState::Thinks);
+    view.choice = kindOf(whole(adviceChoice)).value_or(AdviceKind::None);
     view.value = number(adviceValue);
     view.gain = number(adviceGain);
     view.goal = number(adviceGoal);
@@ -67,20 +72,21 @@ class AdviceMaker {
  private:
   void takeCandidates(AdviceView& view) const {
     const auto count = static_cast<std::size_t>(
-        std::clamp(whole(adviceCandidateCount), 0, static_cast<int>(adviceCandidates)));
+        std::clamp(whole(adviceCandidateCount), 0, static_cast<int>(mostCandidates)));
     for (std::size_t i = 0; i < count; ++i) {
       const int packed = whole(firstAdviceCandidate + i);
-      if (packed < 0 || packed / packedChoice >= static_cast<int>(choiceTexts.size())) continue;
+      const auto kind = kindOf(packed < 0 ? packed : packed / packedKind);
+      if (!kind) continue;
       AdviceCandidate& one = view.candidates.emplace_back();
-      one.choice = packed / packedChoice;
-      const double x = packed % packedChoice / packedX, y = packed % packedX;
+      one.kind = *kind;
+      const double x = packed % packedKind / packedX, y = packed % packedX;
       one.place = sim::published_frame::studioFromLocalization(m_field, {x, y, 0.0}).position;
       one.value = number(firstAdviceValue + i);
     }
     // The value says which of several kicks it is.
     AdviceCandidate* chosen = nullptr;
     for (AdviceCandidate& one : view.candidates) {
-      if (one.choice != view.choice) continue;
+      if (one.kind != view.choice) continue;
       const bool nearer = chosen == nullptr ||
                           std::abs(one.value - view.value) < std::abs(chosen->value - view.value);
       if (nearer) chosen = &one;
@@ -91,7 +97,7 @@ class AdviceMaker {
   std::shared_ptr<const BallHeat> heat() const {
     auto made = std::make_shared<BallHeat>(BallHeat{heatColumns, heatRows, {}});
     bool any = false;
-    for (std::size_t word = 0; word < adviceHeatWords; ++word) {
+    for (std::size_t word = 0; word < std::size_t{heatWords}; ++word) {
       const auto bits = static_cast<std::uint32_t>(whole(firstAdviceHeat + word));
       any = any || bits != 0;
       for (int cell = 0; cell < cellsPerWord; ++cell) {
@@ -111,9 +117,9 @@ std::string_view numberedName(std::size_t variable) {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> made;
     for (const char* name : {"ADVISOR_CANDIDATE", "ADVISOR_VALUE"}) {
-      for (std::size_t i = 1; i <= adviceCandidates; ++i) made.push_back(name + std::to_string(i));
+      for (std::size_t i = 1; i <= mostCandidates; ++i) made.push_back(name + std::to_string(i));
     }
-    for (std::size_t i = 1; i <= adviceHeatWords; ++i) {
+    for (std::size_t i = 1; i <= std::size_t{heatWords}; ++i) {
       made.push_back("ADVISOR_HEAT" + std::string(i < 10 ? "0" : "") + std::to_string(i));
     }
     return made;
@@ -123,9 +129,8 @@ std::string_view numberedName(std::size_t variable) {
 
 }  // namespace
 
-std::string_view adviceText(int choice) {
-  const auto at = static_cast<std::size_t>(choice);
-  return choice >= 0 && at < choiceTexts.size() ? choiceTexts[at] : std::string_view();
+std::string_view adviceText(AdviceKind kind) {
+  return kindTexts[static_cast<std::size_t>(kind)];
 }
 
 const std::array<std::string_view, adviceVariableCount>& adviceVariables() {
@@ -144,7 +149,9 @@ std::shared_ptr<const AdviceView> readAdvice(const AdviceReader& reader,
                                              const sim::FieldSpec& field) {
   if (!reader) return nullptr;
   const AdviceMaker maker(reader, field);
-  if (maker.whole(adviceStamp) <= 0 || maker.whole(adviceState) == 0) return nullptr;
+  if (maker.whole(adviceStamp) <= 0 ||
+      maker.whole(adviceState) == static_cast<int>(AdvisorState::Off))
+    return nullptr;
   return std::make_shared<const AdviceView>(maker.make());
 }
 

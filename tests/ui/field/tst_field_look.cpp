@@ -41,7 +41,7 @@ namespace {
 void advise(link::RobotFrame& robot) {
   auto advice = std::make_shared<link::AdviceView>();
   advice->isThinking = true;
-  advice->choice = 1;
+  advice->choice = link::AdviceKind::StrongKick;
   advice->value = 0.08;
   advice->rollouts = 72;
   advice->candidates = {

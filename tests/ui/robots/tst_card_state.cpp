@@ -52,7 +52,7 @@ class TestCardState : public QObject {
     link::MatchFrame frame = frameOf(1);
     auto advice = std::make_shared<link::AdviceView>();
     advice->isThinking = true;
-    advice->choice = 1;
+    advice->choice = link::AdviceKind::StrongKick;
     advice->value = 0.08;
     advice->gain = 0.05;
     advice->rollouts = 96;

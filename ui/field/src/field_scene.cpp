@@ -60,16 +60,16 @@ std::vector<DrawnAction> drawnCandidates(const link::RobotFrame& robot,
                                          : body;
   for (const link::AdviceCandidate& one : robot.advice->candidates) {
     // What the behaviour would do has no place of its own, and neither has leaving the ball.
-    constexpr int leaveBall = 5;
-    const bool hasPlace = one.choice != 0 && one.choice != leaveBall;
+    const bool hasPlace =
+        one.kind != link::AdviceKind::None && one.kind != link::AdviceKind::LeaveBall;
     if (!hasPlace && !one.isChosen) continue;
     DrawnAction& action = drawn.emplace_back();
-    action.from = link::isAdviceForBall(one.choice) ? ball : body;
+    action.from = link::isForBall(one.kind) ? ball : body;
     if (hasPlace) action.to = toScene(one.place);
     action.text = signedValue(one.value);
     if (one.isChosen) {
-      action.text = QString::fromUtf8(link::adviceText(one.choice).data(),
-                                      qsizetype(link::adviceText(one.choice).size())) +
+      action.text = QString::fromUtf8(link::adviceText(one.kind).data(),
+                                      qsizetype(link::adviceText(one.kind).size())) +
                     QStringLiteral("  ") + action.text;
     }
     action.color = theme().team(robot.identity.team);

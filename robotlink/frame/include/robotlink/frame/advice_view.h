@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <base/geometry.h>
+#include <robotlink/cognition/advice.h>
 #include <simcore/world/field.h>
 
 namespace pitchboard::link {
@@ -27,33 +28,28 @@ struct BallHeat {
 
 /// Something that the advisor has considered.
 struct AdviceCandidate {
-  int choice = 0;      ///< as ADVISOR_CHOICE; 0: what the behaviour would do
-  Point place;         ///< where the ball or the robot is to go
-  double value = 0.0;  ///< expected goal difference
+  AdviceKind kind = AdviceKind::None;  ///< None: what the behaviour would do
+  Point place;                         ///< where the ball or the robot is to go
+  double value = 0.0;                  ///< expected goal difference
   bool isChosen = false;
   bool operator==(const AdviceCandidate&) const = default;
 };
 
 struct AdviceView {
   bool isThinking = false;  ///< false: the advice below is old, and nothing depends on it now
-  int choice = 0;           ///< ADVISOR_CHOICE; 0: the behaviour decides
-  double value = 0.0;       ///< expected goal difference of the choice
-  double gain = 0.0;        ///< over what the behaviour would reach by itself
+  AdviceKind choice = AdviceKind::None;  ///< None: the behaviour decides
+  double value = 0.0;                    ///< expected goal difference of the choice
+  double gain = 0.0;                     ///< over what the behaviour would reach by itself
   double goal = 0.0, goalAgainst = 0.0;  ///< shares of the rollouts
   int rollouts = 0;
   std::vector<AdviceCandidate> candidates;
   std::shared_ptr<const BallHeat> heat;  ///< of the ball in 5 s; null: none
 };
 
-/// Returns the text of an ADVISOR_CHOICE for people, "strong kick"; empty if it is unknown.
-std::string_view adviceText(int choice);
-/// The ball's target is its place, and not the robot's.
-constexpr bool isAdviceForBall(int choice) {
-  return choice >= 1 && choice <= 3;
-}
+/// Returns the text of a kind for people: "strong kick".
+std::string_view adviceText(AdviceKind kind);
 
-inline constexpr std::size_t adviceCandidates = 6, adviceHeatWords = 20;
-inline constexpr std::size_t adviceVariableCount = 9 + 2 * adviceCandidates + adviceHeatWords;
+inline constexpr std::size_t adviceVariableCount = 9 + 2 * mostCandidates + heatWords;
 /// The variables that readAdvice() needs. Sources look up their places once.
 const std::array<std::string_view, adviceVariableCount>& adviceVariables();
 
