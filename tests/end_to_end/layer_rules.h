@@ -33,8 +33,8 @@ inline QStringList all(const QString& library) {
       {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session"}},
       {"robotlink",
        {"blackboard", "processes", "models", "cognition", "rollout", "advisor", "scenario", "frame",
-        "match", "live", "session", "report", "experiment", "learn", "calibrate", "conformance", "capi",
-        "explore"}},
+        "match", "live", "session", "report", "experiment", "learn", "calibrate", "conformance",
+        "capi", "explore"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
         "noise", "processes", "log", "referee", "experiments", "calibrate", "explore", "window"}}};

@@ -41,8 +41,7 @@ class TestRefereeModel : public QObject {
     v.setPlayStep = "prepare";
     v.secondaryTime = 23;
     v.countdown = "ready";
-    QCOMPARE(refereeSetPlayText(v),
-             QStringLiteral("corner kick for RED, prepare, ready in 23 s"));
+    QCOMPARE(refereeSetPlayText(v), QStringLiteral("corner kick for RED, prepare, ready in 23 s"));
     v = view();
     v.kickOffTeam = 12;
     v.secondaryTime = 8;
