@@ -63,7 +63,7 @@ class ValueChart : public QChartView {
   class Layer;
   void place();
   void placeGridX();
-  static void put(QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
+  void put(QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
                   double toStep);
 
   QValueAxis* m_axisX;
