@@ -44,8 +44,9 @@ void advise(link::RobotFrame& robot) {
   advice->choice = link::AdviceKind::StrongKick;
   advice->value = 0.08;
   advice->rollouts = 72;
-  advice->candidates = {
-      {0, {}, 0.01, false}, {1, {3.0, 0.0}, 0.08, true}, {6, {0, -2}, 0.02, false}};
+  advice->candidates = {{link::AdviceKind::None, {}, 0.01, false},
+                        {link::AdviceKind::StrongKick, {3.0, 0.0}, 0.08, true},
+                        {link::AdviceKind::Stand, {0.0, -2.0}, 0.02, false}};
   auto heat = std::make_shared<link::BallHeat>(link::BallHeat{16, 10, std::vector<float>(160)});
   heat->cells[144] = 1.0F;
   advice->heat = heat;

@@ -39,11 +39,6 @@ inline void small(ExportDialog* dialog) {
   size->setCurrentIndex(size->findData(QSize(640, 360)));
 }
 
-inline QByteArray contents(const QString& path) {
-  QFile file(path);
-  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
-
 inline void overwrite(const QString& path, const QByteArray& bytes) {
   QFile file(path);
   QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size());
