@@ -107,7 +107,7 @@ class TestCliUsage : public QObject {
     QTest::addColumn<QStringList>("words");
     QTest::addColumn<QString>("offered");
     QTest::newRow("a command") << QStringList{"sim"} << "simulate";
-    QTest::newRow("commands") << QStringList{"ex"} << "experiment export";
+    QTest::newRow("commands") << QStringList{"ex"} << "experiment explore export";
     QTest::newRow("an option") << QStringList{"simulate", "--sc"} << "--scenario";
     QTest::newRow("a choice") << QStringList{"simulate", "--cognition", "e"} << "external";
     QTest::newRow("a command below") << QStringList{"blackboard", "d"} << "dump";

@@ -239,7 +239,7 @@ class TestStudioRecording : public QObject {
     QTRY_VERIFY2_WITH_TIMEOUT(
         (words += recorder.readAllStandardError()).contains("disk cannot keep up"), words,
         longWait);
-    QVERIFY2(words.contains("warning: The disk does not keep up"), words);
+    QVERIFY2(words.contains("warning: The disk cannot keep up"), words);
     QVERIFY2(words.contains(" free") || words.contains("room for"), words);
     recorder.kill();
     QVERIFY(recorder.waitForFinished());

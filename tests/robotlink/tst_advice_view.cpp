@@ -92,11 +92,12 @@ class TestAdviceView : public QObject {
     QVERIFY(runner);
     (*runner)->post([&](SimulatedMatch& match) {
       Blackboard& board = *match.blackboard(match.simulation().state().robots[0].id);
+      const VariableCatalog map = match.catalog().withExtension();
       for (const auto& [name, value] : words) {
-        if (const auto number = match.catalog().intVar(name)) {
+        if (const auto number = map.intVar(name)) {
           board.write(*number, static_cast<int>(value));
         } else {
-          board.write(match.catalog().floatVar(name).value(), static_cast<float>(value));
+          board.write(map.floatVar(name).value(), static_cast<float>(value));
         }
       }
       return Changed::Yes;

@@ -272,7 +272,7 @@ class TestCalibrate : public QObject {
     // Standing tells of the IMU, and of no speed.
     const auto log = readCalibrationLog(**rows, scenario.settings.field, "drill", "B1");
     const auto stood = calibrate(std::span(&*log, 1), kidSize(), {0.5});
-    QVERIFY(stood.has_value());
+    QVERIFY2(stood.has_value(), stood ? "" : stood.error().text().c_str());
     QVERIFY(stood->kept.contains("forward_fast"));
     QVERIFY(stood->find("noise.imu_white") != nullptr);
     QVERIFY(!calibrate({}, kidSize()).has_value());

@@ -51,7 +51,7 @@ class TestRecordingHealth : public QObject {
     const SessionStatus soon = status(1.2, 1.2e9 / 600);
     QCOMPARE(secondsLeft(soon).value(), 600.0);
     QCOMPARE(troubleOf(soon), RecordingTrouble::LittleRoom);
-    QVERIFY(says(soon, "The disk will be full in 10 min (1.2 GB free): make room"));
+    QVERIFY(says(soon, "The disk will be full in 10 min (1.2 GB free): free some space"));
     QCOMPARE(troubleOf(status(1.2, 1.2e9 / 3600)), RecordingTrouble::None);
     QCOMPARE(troubleText(status(1.2, 1.2e9 / 3600)), std::string());
     // Little room is enough for a recording that hardly grows, and alarming while that is not
@@ -77,7 +77,7 @@ class TestRecordingHealth : public QObject {
     QCOMPARE(troubleOf(of), RecordingTrouble::None);
     of.owedSeconds = 9.6;
     QCOMPARE(troubleOf(of), RecordingTrouble::DiskBehind);
-    QVERIFY(says(of, "does not keep up: it has not answered for 10 s"));
+    QVERIFY(says(of, "cannot keep up: no write has finished for 10 s"));
     of.dropped = 7;
     QVERIFY(says(of, "7 rows and messages are missing"));
     of.owedSeconds = 0.0;

@@ -543,9 +543,14 @@ MotionFilter::MotionFilter(const CalibrationLog& log, const sim::RobotModel& bas
 
 void MotionFilter::findDisturbed(const sim::RobotModel& base) {
   const auto& rows = m_log.rows;
+  // A robot that stands pushes nothing.
+  const auto walks = [&](std::size_t row) {
+    const ExecutedAction& action = m_actions[row];
+    return action.kicks || sim::gaitSpeed(base, action.code, action.b).inMotion;
+  };
   std::vector<bool> near(rows.size());
   for (const std::uint32_t row : m_percepts) {
-    if (rows[row].ball && rows[row].ball->distance < ballPush) near[row] = true;
+    if (rows[row].ball && rows[row].ball->distance < ballPush && walks(row)) near[row] = true;
   }
   for (const SeenRobotPercept& seen : m_log.robots) {
     if (seen.row < rows.size() && seen.seen.distance < robotPush) near[seen.row] = true;
@@ -568,7 +573,7 @@ void MotionFilter::findDisturbed(const sim::RobotModel& base) {
     const double unsure = std::sqrt(state.covariance(MotionState::X, MotionState::X) +
                                     state.covariance(MotionState::Y, MotionState::Y));
     const Point place{state.mean[MotionState::X], state.mean[MotionState::Y]};
-    if (isAtObstacle(m_log.field, radius, place, unsure)) near[i] = true;
+    if (walks(i) && isAtObstacle(m_log.field, radius, place, unsure)) near[i] = true;
   }
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (!near[row]) continue;

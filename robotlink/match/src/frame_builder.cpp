@@ -133,8 +133,9 @@ void FrameBuilder::fillRobot(const SimulatedMatch& match, RobotFrame& out) {
       const std::string_view name = telemetry::meaningTable[i].variable;
       m_variables[i] = name.empty() ? nullptr : m_catalog->find(name);
     }
+    m_extended = m_catalog->withExtension();
     for (std::size_t i = 0; i < m_advice.size(); ++i) {
-      m_advice[i] = m_catalog->find(adviceVariables()[i]);
+      m_advice[i] = m_extended.find(adviceVariables()[i]);
     }
   }
   const RobotReader reader = [&](FieldMeaning meaning) -> std::optional<double> {

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 
+#include <robotlink/blackboard/variable_catalog.h>
 #include <robotlink/frame/build_robot.h>
 #include <robotlink/match/match_runner.h>
 
@@ -43,7 +44,8 @@ class FrameBuilder {
   double m_busy = 0.0;
   std::map<RobotId, LampMemory> m_lamps;
   std::array<const Variable*, telemetry::fieldMeaningCount> m_variables{};  // of m_catalog
-  std::array<const Variable*, adviceVariableCount> m_advice{};
+  VariableCatalog m_extended;                                   // the map with the extension
+  std::array<const Variable*, adviceVariableCount> m_advice{};  // of m_extended
   const VariableCatalog* m_catalog = nullptr;
   Time m_last{};
   double m_playing = 0.0;  // s in which the match did not stand still

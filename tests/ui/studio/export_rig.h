@@ -12,6 +12,7 @@
 
 #include <ui/session/export_dialog.h>
 
+#include "../support/program_run.h"
 #include "session_rig.h"
 
 namespace session_rig {

@@ -87,8 +87,8 @@ class TestBranch : public QObject {
     };
     QVERIFY(colourAt(row.center() + QPoint(3, 0)) != theme().window);
     QCOMPARE(colourAt(QPoint(row.left() - 8, row.center().y())), theme().window);
-    QVERIFY(s.window.notices()->text().contains(QStringLiteral("goes on from 00:04")));
-    QVERIFY(s.window.notices()->text().contains(QStringLiteral("pale branch")));
+    QVERIFY(s.window.notices()->text().contains(QStringLiteral("Continuing the match from 00:04")));
+    QVERIFY(s.window.notices()->text().contains(QStringLiteral("dashed branch")));
   }
 
   void itIsComparedAndDropped() {

@@ -35,7 +35,7 @@ class TimelineStrip : public QWidget {
   /// `offset`. Null: none.
   void setCompared(const EventList* events, double offset, const QString& caption);
 
-  /// What the match has left, a pale branch above the band; null: none.
+  /// What the match has left, a dashed branch above the band; null: none.
   void setFuture(AbandonedFuture* future);
 
   telemetry::TimeRange shown() const { return m_axis.shown; }

@@ -488,7 +488,7 @@ void MainWindow::connectNotices() {
   connect(m_future, &AbandonedFuture::began, m_notices, [this] {
     m_notices->show({branch, NoticeTone::Success},
                     QStringLiteral("Continuing the match from %1. The timeline keeps the abandoned "
-                                   "future as a pale branch.")
+                                   "future as a dashed branch.")
                         .arg(clockText(m_future->begin())),
                     {{QStringLiteral("Compare"), [this] { m_future->setCompared(true); }},
                      {QStringLiteral("Drop"), [this] { m_future->drop(); }},
