@@ -102,7 +102,7 @@ class TestAdviceView : public QObject {
       }
       return Changed::Yes;
     });
-    QVERIFY((*runner)->waitUntilStill(std::chrono::seconds(10)));
+    QTRY_VERIFY((*runner)->latest()->robots.at(0).advice);
     const auto simulated = (*runner)->latest()->robots.at(0).advice;
 
     telemetry::GroupInfo group{"B1", {}, {{"robot", "1"}, {"team", "blue"}}};
