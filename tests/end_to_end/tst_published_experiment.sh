@@ -32,7 +32,7 @@ python3 - << 'PY' || fail "the t-test against the real robot"
 import csv, json, math, statistics
 summary = json.load(open("results/summary.json"))
 report = open("results/report.md").read()
-assert "What this means for the published 53 % of goals" in report
+assert "The published 53 % of goals" in report
 for condition in ("published, no errors", "published, with errors"):
     walked = [float(row["walked_m"]) for row in csv.DictReader(open("results/runs.csv"))
               if row["condition"] == condition]
