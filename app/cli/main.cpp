@@ -17,12 +17,11 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", PITCHBOARD_VERSION, "Print the version");
 
   int exitCode = 0;
-  constexpr std::array commands{&addSimulateCommand, &addConformanceCommand, &addBlackboardCommands,
-                                &addCatalogCommands, &addListenCommand,      &addDecodeCommand,
-                                &addRecordCommand,   &addInspectCommand,     &addRepairCommand,
-                                &addExportCommand,   &addExperimentCommand,  &addTournamentCommand,
-                                &addTestCommand,     &addCalibrateCommand,   &addLearnCommand,
-                                &addExploreCommand};
+  constexpr std::array commands{
+      &addSimulateCommand, &addConformanceCommand, &addBlackboardCommands, &addCatalogCommands,
+      &addListenCommand,   &addDecodeCommand,      &addRecordCommand,      &addInspectCommand,
+      &addRepairCommand,   &addExportCommand,      &addExperimentCommand,  &addTournamentCommand,
+      &addTestCommand,     &addCalibrateCommand,   &addLearnCommand,       &addExploreCommand};
   for (const AddCommand add : commands) add(app, exitCode);
 
   if (const auto ended = pitchboard::shared::parse(app, argc, argv)) return *ended;

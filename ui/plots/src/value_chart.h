@@ -63,8 +63,7 @@ class ValueChart : public QChartView {
   class Layer;
   void place();
   void placeGridX();
-  void put(QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
-                  double toStep);
+  void put(QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step, double toStep);
 
   QValueAxis* m_axisX;
   QValueAxis* m_axisY;

@@ -139,8 +139,8 @@ struct BehaviourChoice {
 /// default, or with "from": ..., a file or an object of parameters, the value there.
 BehaviourChoice readBehaviour(const JsonObject& parent, JsonReport& report, std::string_view key,
                               std::span<const std::string_view> known);
-/// Reads the same from text: a name out of behaviours(), or such an object. `usual` has the values of
-/// missing parameters.
+/// Reads the same from text: a name out of behaviours(), or such an object. `usual` has the values
+/// of missing parameters.
 Result<BehaviourChoice> behaviourFromText(std::string_view nameOrJson, std::string_view source,
                                           const BehaviourParameters& usual = {});
 /// Reads the parameters of a team from a file, as `pitchboard-cli learn` writes it: {"version": 1,

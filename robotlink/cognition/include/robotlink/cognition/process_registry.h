@@ -2,8 +2,8 @@
 #pragma once
 
 // Lists the reference processes of this module and all behaviours of the decision process. To add
-// one, write its class and add a line to process_registry.cpp. Programs and matches read the list of
-// all processes, which contains the advisor, too: <robotlink/advisor/reference_processes.h>. Any
+// one, write its class and add a line to process_registry.cpp. Programs and matches read the list
+// of all processes, which contains the advisor, too: <robotlink/advisor/reference_processes.h>. Any
 // thread.
 
 #include <memory>

@@ -34,11 +34,11 @@ struct ProfileProcess {
   /// The condition under which the process is started.
   enum class OnlyFor {
     Everyone,
-      Behaviour,  ///< the robot has one of our behaviours
-      Pose,       ///< its behaviour uses the pose
-      Separate,   ///< processes do not run inside this program
-      Target,     ///< it has one of our behaviours, whose decision process sets targets
-      Advised     ///< its team thinks ahead
+    Behaviour,  ///< the robot has one of our behaviours
+    Pose,       ///< its behaviour uses the pose
+    Separate,   ///< processes do not run inside this program
+    Target,     ///< it has one of our behaviours, whose decision process sets targets
+    Advised     ///< its team thinks ahead
   };
   /// The time that a team program's clocks show.
   enum class Clock {

@@ -95,9 +95,9 @@ class Rollouts {
   /// Plays a rollout for each seed and writes a row of columnCount numbers for each to `out`. Equal
   /// seeds have equal noise, whatever the belief. Fails before playing if the belief does not match
   /// the players, contains a number that is not finite, or `out` has the wrong size. `cancelled` is
-  /// checked between tiles; rows that were not played are NaN. `trace` is empty or has tracePoints()
-  /// for each seed; a rollout that ends early repeats its last point. With one thread, it allocates
-  /// nothing after the first call.
+  /// checked between tiles; rows that were not played are NaN. `trace` is empty or has
+  /// tracePoints() for each seed; a rollout that ends early repeats its last point. With one
+  /// thread, it allocates nothing after the first call.
   Result<void> play(const Belief& belief, std::span<const std::uint64_t> seeds,
                     const PlayOptions& options, std::span<double> out,
                     const std::atomic<bool>* cancelled = nullptr, std::span<TracePoint> trace = {});

@@ -14,10 +14,10 @@ namespace pitchboard::telemetry {
 class ClockMap {
  public:
   /// Returns when a datagram was sent, in our time (s). `sent` is the sender's time in the datagram
-  /// (ms), `arrival` our time when it arrived (s). The result is never later than `arrival`. It never
-  /// decreases, and it increases whenever `sent` does and `arrival` is later than the last result, so
-  /// that rows stay in order and none replaces another. Call it for datagrams in the order in which
-  /// they were sent, and leave out late ones.
+  /// (ms), `arrival` our time when it arrived (s). The result is never later than `arrival`. It
+  /// never decreases, and it increases whenever `sent` does and `arrival` is later than the last
+  /// result, so that rows stay in order and none replaces another. Call it for datagrams in the
+  /// order in which they were sent, and leave out late ones.
   double map(std::uint64_t sent, double arrival);
 
   /// Returns our clock minus the sender's in s, including the shortest delay; 0 before the first
