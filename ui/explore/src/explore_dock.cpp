@@ -61,7 +61,6 @@ class ExploreDock : public QScrollArea {
     connect(m_parts.selection, &RobotSelection::changed, this, [this](const auto& ids) {
       if (!ids.empty()) m_explorer->setRobot(ids.front());
     });
-    showRobots();
     showAll();
   }
 
@@ -69,6 +68,10 @@ class ExploreDock : public QScrollArea {
   void changeEvent(QEvent* event) override {
     QScrollArea::changeEvent(event);
     if (event->type() == QEvent::PaletteChange) showAll();
+  }
+  void showEvent(QShowEvent* event) override {
+    QScrollArea::showEvent(event);
+    showRobots();
   }
 
  private:
@@ -162,6 +165,7 @@ class ExploreDock : public QScrollArea {
   }
 
   void showRobots() {
+    if (!isVisible()) return;  // frames come sixty times a second
     const FramePtr frame = m_parts.source->frame();
     m_start->setEnabled(frame && !frame->robots.empty());
     std::vector<RobotKey> robots;
@@ -219,8 +223,7 @@ class ExploreDock : public QScrollArea {
     if (found == nullptr) {
       return QStringLiteral(
                  "Shows where the ball may go in the next %1 s, how likely a goal is, and what the "
-                 "chosen "
-                 "robot had best do.")
+                 "chosen robot had best do.")
           .arg(Explorer::seconds);
     }
     const QString from = momentText(found->time, 2, m_parts.timeline->clock());
