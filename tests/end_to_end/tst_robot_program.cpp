@@ -37,6 +37,19 @@ class TestRobotProgram : public QObject {
     process.start(PITCHBOARD_BIN "/pitchboard-robot", arguments);
     QTRY_VERIFY(process.canReadLine() || process.state() == QProcess::NotRunning);
   }
+  /// A decision process of robot 2 with these options kicks a ball that is 39 cm in front of it.
+  void kicksFrom39Centimetres(const QStringList& options) const {
+    QProcess process;
+    start(process, withBase(QStringList("decision") + options));
+    auto board = SystemVSegments::open(m_base + 200, AttachMode::AttachOnly);
+    QVERIFY(board);
+    board->write(m_variables.visionPanDeg, 10.0F);
+    board->write(m_variables.visionBallDist, 39.0F);
+    board->write(m_variables.comReferee, 2);
+    QTRY_COMPARE(board->read(m_variables.decisionActionA), 5);
+    process.kill();
+    QVERIFY(process.waitForFinished());
+  }
 
  private slots:
   void cleanup() {
@@ -78,17 +91,7 @@ class TestRobotProgram : public QObject {
   }
 
   void distanceToKick() {
-    QProcess process;
-    start(process, withBase({"decision", "--robot", "2", "--behaviour", "naive",
-                             "--distance-to-kick", "40"}));
-    auto board = SystemVSegments::open(m_base + 200, AttachMode::AttachOnly);
-    QVERIFY(board);
-    board->write(m_variables.visionPanDeg, 10.0F);
-    board->write(m_variables.visionBallDist, 39.0F);
-    board->write(m_variables.comReferee, 2);
-    QTRY_COMPARE(board->read(m_variables.decisionActionA), 5);
-    process.kill();
-    QVERIFY(process.waitForFinished());
+    kicksFrom39Centimetres({"--robot", "2", "--behaviour", "naive", "--distance-to-kick", "40"});
   }
 
   /// A file of numbers, named on the command line or in the INI file.
@@ -109,16 +112,7 @@ class TestRobotProgram : public QObject {
     for (const QStringList& arguments :
          {QStringList{"--robot", "2", "--behaviour", "naive", "--parameters", best},
           QStringList{"--config", ini}}) {
-      QProcess process;
-      start(process, withBase(QStringList("decision") + arguments));
-      auto board = SystemVSegments::open(m_base + 200, AttachMode::AttachOnly);
-      QVERIFY(board);
-      board->write(m_variables.visionPanDeg, 10.0F);
-      board->write(m_variables.visionBallDist, 39.0F);
-      board->write(m_variables.comReferee, 2);
-      QTRY_COMPARE(board->read(m_variables.decisionActionA), 5);
-      process.kill();
-      QVERIFY(process.waitForFinished());
+      kicksFrom39Centimetres(arguments);
       removeSegment(m_base + 200);
     }
     const ProgramRun none =
