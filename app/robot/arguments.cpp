@@ -161,9 +161,10 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->capture_default_str()
       ->check(checkBehaviour);
   command
-      .add_option("--parameters", a.parameters,
-                  "Numbers of the behaviour that --behaviour does not name, such as best.json of "
-                  "`pitchboard-cli learn`")
+      .add_option(
+          "--parameters", a.parameters,
+          "Parameters of the behaviour, unless --behaviour sets them; for example best.json of "
+          "`pitchboard-cli learn`")
       ->type_name("FILE");
   command
       .add_option("--distance-to-kick", a.distanceToKick,
