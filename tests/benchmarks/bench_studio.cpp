@@ -305,31 +305,53 @@ int splitter() {
 
 int replay(const char* path) {
   Studio studio({1440, 900});
-  studio.window.setMemoryBudget(64);  // MB
+  studio.window.setMemoryBudget(256);  // MB; half an hour takes about 900
   studio.window.show();
   studio.window.openSession(QString::fromUtf8(path));
   const auto* file = studio.window.replay();
   while (!file->isOpen() || file->loaded() < 1.0) spin(std::chrono::milliseconds(20));
   auto* plots = studio.window.findChild<ui::PlotsDock*>();
-  plots->plotVariables({QStringLiteral("B1/LOCALIZATION_X"), QStringLiteral("B1/BATTERY")});
+  ui::PaneSpec pane;
+  pane.curves << ui::variableCurve(QStringLiteral("B1/LOCALIZATION_X"))
+              << ui::variableCurve(QStringLiteral("B2/LOCALIZATION_X"));
+  plots->setLayoutSpec({{ui::PageSpec{QStringLiteral("one"), {pane}}}, 0});
   plots->time()->setWindow(60.0);
   spin(std::chrono::seconds(2));
   const auto* chart = studio.window.findChild<ui::ChartPane*>();
   const double length = studio.window.timeline()->available()->end;
   constexpr int times = 40;
+  constexpr double longestFetch = 20'000.0;  // ms
   std::vector<double> cpu, real;
   for (int i = 0; i < times; ++i) {
     // Neither what was read before nor what lies beside it.
     const double time = 60.0 + std::fmod(0.382 * (i + 1), 1.0) * (length - 120.0);
     const auto isDrawn = [&] {
       const telemetry::TimeRange shown = chart->timeAxis().shown;
-      const auto& traces = chart->traces();
-      return shown.begin <= time && time <= shown.end && traces[0].any && !traces[0].coarse;
+      constexpr double tick = 1.0 / 60.0;  // the moment that is shown lies on one
+      // Until it is drawn again, the chart has the curves of the moment before.
+      const auto isOfNow = [&shown](const ui::CurveTrace& trace) {
+        return trace.any && !trace.coarse && !trace.columns.empty() &&
+               std::abs(trace.columns.front().time - shown.begin) < 1.0 &&
+               std::abs(trace.columns.back().time - shown.end) < 1.0;
+      };
+      return shown.begin <= time + tick && time - tick <= shown.end &&
+             std::ranges::all_of(chart->traces(), isOfNow);
     };
     const double cpuBefore = cpuMilliseconds();
     const auto begin = Clock::now();
     studio.window.timeline()->seek(time);
-    while (!isDrawn()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    while (!isDrawn()) {
+      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+      if (millisecondsSince(begin) < longestFetch) continue;
+      const auto& trace = chart->traces()[0];
+      std::fprintf(stderr,
+                   "error: the curves at %.1f s are not drawn; shown: %.1f to %.1f s, curve: %s\n",
+                   time, chart->timeAxis().shown.begin, chart->timeAxis().shown.end,
+                   !trace.any      ? "empty"
+                   : trace.reading ? "being read"
+                                   : "an envelope");
+      return 2;
+    }
     QCoreApplication::processEvents();  // the stroke that was asked for
     cpu.push_back(cpuMilliseconds() - cpuBefore);
     real.push_back(millisecondsSince(begin));

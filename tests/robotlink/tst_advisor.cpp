@@ -212,14 +212,77 @@ class TestAdvisor : public QObject {
     QVERIFY2(chosen >= 95, qPrintable(QString::number(chosen)));
   }
 
+  /// What makes no difference is not thought about for long.
+  void thoughtsEndWhenNobodyCanGain() {
+    const ProcessOptions options = kidSize();
+    const Situation now = atBall({1.0, 0.0}, 0.0);
+    auto rollouts = rollout::Rollouts::create(setupFor(options)).value();
+    // It goes for the ball anyway.
+    const Candidates candidates{Advice{}, kick(AdviceKind::GoToBall, {1.0, 0.0})};
+    Thought thought(beliefOf(now, {}, 0.0, options), candidates, 7, 72, 5.0);
+    while (!thought.isDone()) thought.playOne(rollouts, options.field);
+    QCOMPARE(thought.played(), 8);
+    QCOMPARE(thought.result().best, std::size_t{0});
+  }
+
+  /// The other team has as many robots, also when this robot has not seen them.
+  void unseenOpponentsPlayToo() {
+    const ProcessOptions options = kidSize();
+    Situation now = atBall({1.0, 0.0}, 0.0);
+    now.mates[0] = mateAt({-4.0, 0.0}, Intention::Keep);
+    now.mates[1] = mateAt({0.0, 1.0});
+    const auto fielders = [&](const Points& seen) {
+      OpponentMemory opponents;
+      opponents.update(seen, 0.0);
+      const rollout::Belief belief = beliefOf(now, opponents, 0.0, options);
+      std::vector<double> sigmas;
+      for (std::size_t i = firstTheirs; i < allPlayers; ++i) {
+        if (!belief.robots[i].absent) sigmas.push_back(belief.robots[i].sigma);
+      }
+      return sigmas;
+    };
+    QCOMPARE(fielders({}).size(), std::size_t{2});
+    const auto one = fielders({{2.0, 0.0}});
+    QCOMPARE(one.size(), std::size_t{2});
+    QVERIFY(one[0] < 0.3 && one[1] > 0.5);
+    QCOMPARE(fielders({{2.0, 0.0}, {0.5, 0.5}, {0.0, -1.0}}).size(), std::size_t{3});
+  }
+
+  /// A ball that is out comes back where the rules say: a missed shot costs most of the field.
+  void ballOutCountsAsItsRestart() {
+    const sim::FieldSpec field = kidSize().field;
+    const auto valueAt = [&](const Point& ball, std::size_t touched) {
+      std::array<double, rollout::columnCount> row{};
+      const auto put = [&row](rollout::Column column, double value) {
+        row[static_cast<std::size_t>(column)] = value;
+      };
+      put(rollout::Column::EndedBy, static_cast<double>(rollout::Ended::BallOut));
+      put(rollout::Column::BallX, ball.x);
+      put(rollout::Column::BallY, ball.y);
+      put(rollout::Column::LastTouch, static_cast<double>(touched));
+      return valueOfRow(row, field);
+    };
+    const double missed = valueAt({4.6, 2.0}, ownPlayer), corner = valueAt({4.6, 2.0}, firstTheirs);
+    QVERIFY(missed < 0.0);
+    QVERIFY(corner > 0.1);
+    QCOMPARE(valueAt({-4.6, -2.0}, firstTheirs), -missed);
+    const double thrown = valueAt({2.0, 3.1}, ownPlayer);
+    QVERIFY(thrown < valueAt({2.0, 3.1}, firstTheirs) && thrown > missed);
+  }
+
   void matchesRepeat() {
-    const SimulatedMatch one = played(scenarioOf(true), 2400),
-                         other = played(scenarioOf(true), 2400);
-    QCOMPARE(one.simulation().hash(), other.simulation().hash());
-    QVERIFY(wordOf(one, 1, "ADVISOR_STAMP") > 0);
-    QCOMPARE(wordOf(one, 4, "ADVISOR_STAMP"), 0);  // of the other team
-    // It has done something.
-    QVERIFY(played(scenarioOf(false), 2400).simulation().hash() != one.simulation().hash());
+    constexpr int ticks = 2400;
+    int differ = 0;  // from the match without: most thoughts find nothing better
+    for (const std::uint64_t seed : {3U, 4U, 5U, 6U}) {
+      const SimulatedMatch one = played(scenarioOf(true, seed), ticks),
+                           other = played(scenarioOf(true, seed), ticks);
+      QCOMPARE(one.simulation().hash(), other.simulation().hash());
+      QVERIFY(wordOf(one, 1, "ADVISOR_STAMP") > 0);
+      QCOMPARE(wordOf(one, 4, "ADVISOR_STAMP"), 0);  // of the other team
+      differ +=
+          played(scenarioOf(false, seed), ticks).simulation().hash() != one.simulation().hash();
+    }
+    QVERIFY(differ > 0);
   }
 
   void itSaysWhatItThought() {
@@ -232,8 +295,8 @@ class TestAdvisor : public QObject {
       QCOMPARE(stamp, last + 1);
       last = stamp;
       ++thoughts;
-      QVERIFY(wordOf(match, 1, "ADVISOR_ROLLOUTS") >= 36);
       const int candidates = wordOf(match, 1, "ADVISOR_CANDIDATES");
+      QVERIFY(wordOf(match, 1, "ADVISOR_ROLLOUTS") >= 4 * candidates);
       QVERIFY(candidates >= 2 && candidates <= 6);
       QCOMPARE(wordOf(match, 1, "ADVISOR_CANDIDATE1") / 100000000, 0);
       QVERIFY(wordOf(match, 1, "ADVISOR_CANDIDATE2") >= 100000000);
@@ -380,6 +443,29 @@ class TestAdvisor : public QObject {
     QVERIFY(mind.word("ADVISOR_STAMP") >= 2);
     QVERIFY(mind.word("ADVISOR_ROLLOUTS") >= 12);
     QVERIFY(mind.word("ADVISOR_CANDIDATES") >= 3);
+  }
+
+  /// While a match is played, and back again.
+  void teamsBeginAndEndToThinkAhead() {
+    auto match = played(scenarioOf(false), 60);
+    const auto thoughts = [&](int ticks) {
+      const int before = wordOf(match, 1, "ADVISOR_STAMP");
+      for (int i = 0; i < ticks; ++i) match.tick();
+      return wordOf(match, 1, "ADVISOR_STAMP") - before;
+    };
+    QCOMPARE(thoughts(1200), 0);
+    QVERIFY(match.robots().setAdvisor(TeamColor::Blue, AdvisorOptions{}));
+    QVERIFY(thoughts(2400) > 0);
+    QCOMPARE(wordOf(match, 4, "ADVISOR_STAMP"), 0);  // of the other team
+    QVERIFY(match.toScenario().advisors.contains(TeamColor::Blue));
+    // Numbers that cannot be used change nothing.
+    QVERIFY(!match.robots().setAdvisor(TeamColor::Blue, AdvisorOptions{.rollouts = 0}));
+    QVERIFY(match.toScenario().advisors.at(TeamColor::Blue) == AdvisorOptions{});
+    QVERIFY(thoughts(2400) > 0);
+    QVERIFY(match.robots().setAdvisor(TeamColor::Blue, {}));
+    QCOMPARE(wordOf(match, 1, "ADVISOR_STATE"), 0);
+    QCOMPARE(thoughts(2400), 0);
+    QVERIFY(match.toScenario().advisors.empty());
   }
 
   void refusesOptions() {

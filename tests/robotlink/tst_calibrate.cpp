@@ -11,6 +11,9 @@
 #include <robotlink/calibrate/calibration_file.h>
 
 #include "../support/calibration_trial.h"
+#include "executed_actions.h"
+#include "motion_parameters.h"
+#include "motion_start.h"
 #include "posterior_grid.h"
 
 namespace tst_calibrate {
@@ -116,6 +119,32 @@ class TestCalibrate : public QObject {
                value.key.c_str());
     }
     fileAndReport(c);
+  }
+
+  /// The robot walks faster than the base model at once, and then turns while its images are late.
+  void theStartDependsOnNeitherGaitNorDelay() {
+    Scenario scenario = drill(20.0);
+    sim::RobotModel fast = kidSize();
+    fast.forwardFast *= 1.6;
+    fast.noise.visionDelay = 0.2;
+    scenario.robots.front().model = fast;
+    scenario.writes = {{RobotId{1}, "DECISION_LOCALIZATION", 1.0, 0.0},
+                       {RobotId{1}, "DECISION_ACTION_B", 10.0, 0.0},
+                       {RobotId{1}, "DECISION_ACTION_A", 1.0, 0.0},
+                       {RobotId{1}, "DECISION_ACTION_A", 2.0, 4.0}};
+    scenario.robots.front().pose = {{-2.0, -0.5}, 2.0};
+    const CalibrationLog log = logOf(scenario);
+    const auto actions = executedActions(log, kidSize());
+    const Pose truth = scenario.robots.front().pose;
+    const auto error = [&](double gaitSpread, double delay) {
+      const auto start = startFromCorners(log, actions, kidSize(), gaitSpread, delay, 0);
+      return start ? std::hypot(start->pose.position.x - truth.position.x,
+                                start->pose.position.y - truth.position.y)
+                   : 100.0;
+    };
+    QVERIFY2(error(speedPrior, 0.2) < 0.15, qPrintable(QString::number(error(speedPrior, 0.2))));
+    QVERIFY(error(1e-3, 0.2) > 0.3);        // the gait of the base model is trusted
+    QVERIFY(error(speedPrior, 0.0) > 0.3);  // corners are taken to be where they were seen before
   }
 
   void badRecordings_data() {

@@ -85,6 +85,7 @@ class TestTournament : public QObject {
   void wrongMatchesFail();
   void madeByAProgram();
   void againstVersion08();
+  void theAdvisorsProof();
   void teamsThinkAhead();
   void wrongFilesAreExplained_data();
   void wrongFilesAreExplained();
@@ -267,6 +268,19 @@ void TestTournament::againstVersion08() {
   const auto programs = loadRuntime({folder + "team-0.8-programs.json", {}, {}});
   QVERIFY2(programs.has_value(), programs ? "" : programs.error().text().c_str());
   QVERIFY(programs->hasOwn());
+}
+
+/// The proof of the advisor, and opponents that it does not assume: with it and without.
+void TestTournament::theAdvisorsProof() {
+  const std::string folder = PITCHBOARD_SOURCE_DIR "/tests/data/teams/";
+  for (const char* name : {"advisor", "advisor-slower", "advisor-kicks", "advisor-dribbles"}) {
+    const auto e = loadExperiment(folder + name + ".json");
+    QVERIFY2(e.has_value(), e ? "" : e.error().text().c_str());
+    QCOMPARE(e->allRuns(), std::size_t{std::string_view(name) == "advisor" ? 400U : 200U});
+    std::size_t advised = 0;
+    for (const Condition& condition : e->conditions) advised += condition.scenario.advisors.size();
+    QCOMPARE(advised, std::size_t{2});  // in both colours
+  }
 }
 
 /// As the file or the command line says, whichever colour they play in; the folder keeps it.

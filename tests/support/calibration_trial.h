@@ -5,6 +5,7 @@
 // calibrate() says of it. For the program calibration_proof.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -142,8 +143,10 @@ inline void comparePredictions(const telemetry::SeriesStore& rows, std::size_t s
   }
 }
 
-/// Two recordings (calibration-drill and calibration-kicks) of the robot number `seed`.
-inline Result<CalibrationTrial> playCalibrationTrial(std::uint64_t seed, double kickSeconds = 400) {
+/// Two recordings (calibration-drill and calibration-kicks) of the robot number `seed`; of the
+/// drill only if `kickSeconds` is 0.
+inline Result<CalibrationTrial> playCalibrationTrial(std::uint64_t seed,
+                                                     double kickSeconds = 240.0) {
   const auto base = loadRobotModel("kid-size");
   if (!base) return tl::unexpected(base.error());
   CalibrationTrial trial;
@@ -154,7 +157,8 @@ inline Result<CalibrationTrial> playCalibrationTrial(std::uint64_t seed, double 
     if (name == "calibration-kicks" && kickSeconds <= 0.0) continue;
     auto scenario = loadScenario(name);
     if (!scenario) return tl::unexpected(scenario.error());
-    scenario->settings.seed = seed;
+    // The noise of a tick depends on the seed alone: both recordings would have the same.
+    scenario->settings.seed = seed + (name == "calibration-kicks" ? 1'000'000 : 0);
     scenario->settings.field.surface.deceleration = trial.rolling;
     scenario->robots.front().model = trial.hidden;
     if (name == "calibration-kicks") scenario->stop.duration = kickSeconds;
@@ -179,21 +183,45 @@ inline Result<CalibrationTrial> playCalibrationTrial(std::uint64_t seed, double 
 class CalibrationTally {
  public:
   struct Row {
-    int estimated = 0, covered = 0, below = 0;
-    double squares = 0.0;  // of (estimate - truth) / half-width
+    int covered = 0, below = 0;
     double width = 0.0;
+    /// Of every interval: by how many half-widths the truth is above the estimate, on the scale of
+    /// logarithms; 1 is the end of the interval.
+    std::vector<double> off;
+    int estimated() const { return static_cast<int>(off.size()); }
+    /// By which factor the intervals should have been wider to hold 95 % of the truths.
+    double factor() const {
+      std::vector<double> sizes;
+      for (const double one : off) sizes.push_back(std::abs(one));
+      std::ranges::sort(sizes);
+      const auto rank = static_cast<std::size_t>(0.95 * static_cast<double>(sizes.size()));
+      return sizes[std::min(rank, sizes.size() - 1)];
+    }
+    /// How often the truth was in each tenth of the posterior, taken as normal: even if it is
+    /// right.
+    std::string ranks() const {
+      std::array<int, 10> counts{};
+      for (const double one : off) {
+        const double share = 0.5 * std::erfc(-1.96 * one / std::sqrt(2.0));
+        ++counts[static_cast<std::size_t>(std::clamp(share * 10.0, 0.0, 9.0))];
+      }
+      std::string out;
+      for (const int count : counts) out += (out.empty() ? "" : " ") + std::to_string(count);
+      return out;
+    }
   };
   void add(const CalibrationTrial& trial) {
-    ++m_trials;
     for (const CalibratedValue& value : trial.calibration.values) {
       const double truth = trial.truth(value.key);
       Row& row = m_rows[value.key];
-      ++row.estimated;
+      const double least = 1e-12;
+      const double off = std::log(std::max(least, truth) / std::max(least, value.value));
+      const double end = truth > value.value ? value.high : value.low;
+      const double half = std::abs(std::log(std::max(least, end) / std::max(least, value.value)));
+      row.off.push_back(off / std::max(least, half));
       if (truth >= value.low && truth <= value.high) ++row.covered;
       if (truth < value.low) ++row.below;
-      const double half = std::max(1e-12, 0.5 * (value.high - value.low));
-      row.squares += (value.value - truth) * (value.value - truth) / (half * half);
-      row.width += half / std::max(1e-12, value.value);
+      row.width += 0.5 * (value.high - value.low) / std::max(least, value.value);
     }
     if (trial.windows > 0) {
       ++m_predicted;
@@ -202,10 +230,9 @@ class CalibrationTally {
       m_rmsBase += trial.rmsBase();
     }
   }
-  const std::map<std::string, Row>& rows() const { return m_rows; }
   int intervals() const {
     int sum = 0;
-    for (const auto& [key, row] : m_rows) sum += row.estimated;
+    for (const auto& [key, row] : m_rows) sum += row.estimated();
     return sum;
   }
   int covered() const {
@@ -217,11 +244,12 @@ class CalibrationTally {
   int better() const { return m_better; }
 
   void print() const {
-    std::printf("%-28s %5s %8s %6s %6s %8s\n", "key", "n", "covered", "below", "z", "width");
+    std::printf("%-28s %5s %8s %6s %6s %8s  %s\n", "key", "n", "covered", "below", "factor",
+                "width", "ranks");
     for (const auto& [key, row] : m_rows) {
-      std::printf("%-28s %5d %6.1f %% %6d %6.2f %6.2f %%\n", key.c_str(), row.estimated,
-                  100.0 * row.covered / row.estimated, row.below,
-                  1.96 * std::sqrt(row.squares / row.estimated), 100.0 * row.width / row.estimated);
+      std::printf("%-28s %5d %6.1f %% %6d %6.2f %6.2f %%  %s\n", key.c_str(), row.estimated(),
+                  100.0 * row.covered / row.estimated(), row.below, row.factor(),
+                  100.0 * row.width / row.estimated(), row.ranks().c_str());
     }
     std::printf("all: %d intervals, %.2f %% covered\n", intervals(),
                 100.0 * covered() / std::max(1, intervals()));
@@ -232,7 +260,7 @@ class CalibrationTally {
   }
 
  private:
-  int m_trials = 0, m_predicted = 0, m_better = 0;
+  int m_predicted = 0, m_better = 0;
   double m_rms = 0.0, m_rmsBase = 0.0;
   std::map<std::string, Row> m_rows;
 };

@@ -8,7 +8,6 @@
 
 #include <base/try.h>
 #include <robotlink/processes/match_turns.h>
-#include <simcore/world/action_codes.h>
 
 #include "candidates.h"
 #include "game_belief.h"
@@ -19,6 +18,7 @@ namespace {
 
 constexpr double stepPeriod = 0.1;     // s, as decision
 constexpr double thoughtPeriod = 1.0;  // s between the beginnings of two thoughts
+constexpr double quietPeriod = 2.0;    // s after one that found nothing better
 constexpr int slices = 4;              // steps that a thought takes
 constexpr int mostRollouts = 5000;
 
@@ -27,11 +27,6 @@ double cpuTime() {
   timespec now{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-bool isKick(const Act& act) {
-  const auto index = static_cast<std::size_t>(act.action);
-  return index < knownActions.size() && knownActions[index].kind == ActionKind::Kick;
 }
 
 class Advisor final : public CognitiveProcess {
@@ -139,6 +134,7 @@ class Advisor final : public CognitiveProcess {
     if (played > 0) m_cost += 0.2 * ((cpuTime() - begun) / played - m_cost);
     if (!thought.isDone()) return;
     publish(board, thought);
+    if (m_mind.last.kind == AdviceKind::None) m_mind.next += quietPeriod - thoughtPeriod;
     m_mind.thought.reset();
   }
 

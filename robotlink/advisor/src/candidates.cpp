@@ -7,6 +7,7 @@
 #include <base/angles.h>
 #include <base/repeatable_math.h>
 #include <robotlink/cognition/act.h>
+#include <simcore/world/action_codes.h>
 
 namespace pitchboard::link {
 namespace {
@@ -107,6 +108,11 @@ void addKeeper(const Situation& now, const Thinker& who, Collector& out) {
 }
 
 }  // namespace
+
+bool isKick(const Act& act) {
+  const auto index = static_cast<std::size_t>(act.action);
+  return index < knownActions.size() && knownActions[index].kind == ActionKind::Kick;
+}
 
 bool knowsEnough(const Situation& now) {
   const bool isToldBall = std::ranges::any_of(

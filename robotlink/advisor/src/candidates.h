@@ -21,6 +21,8 @@ struct Thinker {
   bool isKeeper = false;
 };
 
+/// Nobody can change a kick that goes on.
+bool isKick(const Act& act);
 /// The robot knows enough to think.
 bool knowsEnough(const Situation& now);
 /// Whether it matters now what the robot does; None unless it knows enough.

@@ -118,6 +118,14 @@ rollout::Belief beliefOf(const Situation& now, const OpponentMemory& opponents, 
       belief.robots[next++] = at(one.place, facing(one.place), sigmaOf(one), 0.7);
     }
   }
+  // As many as its own team are on the field; whom nobody has seen waits somewhere behind the ball.
+  for (std::size_t side = 0; next < firstTheirs + mates && next < allPlayers; ++side) {
+    constexpr double behind = 1.2, beside = 1.5, anywhere = 0.8, inside = 0.3;  // m
+    const double x = field.halfLength() - inside, y = field.halfWidth() - inside;
+    const Point place{std::clamp(ball.x + behind, -x, x),
+                      std::clamp(ball.y + (side % 2 == 0 ? beside : -beside), -y, y)};
+    belief.robots[next++] = at(place, facing(place), anywhere, 0.7);
+  }
   // A keeper stands where nobody has looked, unless all of them are known.
   if (!keeper && mates > 0 && opponents.known().size() <= mates) {
     const Point line{field.halfLength() - 0.4, 0.0};

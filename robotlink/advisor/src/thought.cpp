@@ -14,9 +14,29 @@ namespace {
 using rollout::Column;
 using Row = std::array<double, rollout::columnCount>;
 
+constexpr double quantile = 2.0;  // of t, 95 % on both sides, for the usual numbers
+constexpr double worthIt = 0.01;  // goals
+constexpr double least = 0.004;   // goals: standard deviation of the gain of one rollout
+
 double in(const Row& row, Column column) {
   return row[static_cast<std::size_t>(column)];
 }
+
+/// Where the rules put a ball that has left the field: a goal kick is taken from the halfway line
+/// (2021 to 2024), a corner kick from the corner.
+void putBack(const sim::FieldSpec& field, bool oursTouchedIt, Position& end) {
+  constexpr double away = 0.75;  // m that the others keep
+  end.near = oursTouchedIt ? away : 0.0;
+  end.theirsNear = oursTouchedIt ? 0.0 : away;
+  const double x = field.halfLength(), y = field.halfWidth();
+  if (std::abs(end.ball.x) > x) {
+    const bool attackersTouchedIt = oursTouchedIt == (end.ball.x > 0.0);
+    end.ball = {attackersTouchedIt ? 0.0 : std::copysign(x, end.ball.x),
+                std::copysign(y, end.ball.y)};
+  }
+}
+
+}  // namespace
 
 double valueOfRow(const Row& row, const sim::FieldSpec& field) {
   const double goals = in(row, Column::GoalsLeft) - in(row, Column::GoalsRight);
@@ -28,14 +48,14 @@ double valueOfRow(const Row& row, const sim::FieldSpec& field) {
   if (static_cast<rollout::Ended>(static_cast<int>(in(row, Column::EndedBy))) ==
       rollout::Ended::BallOut) {
     // Whoever touched it last has lost it.
-    const bool ours = in(row, Column::LastTouch) < static_cast<double>(theirKeeper);
-    end.near = ours ? 2.0 : 0.0;
-    end.theirsNear = ours ? 0.0 : 2.0;
+    putBack(field, in(row, Column::LastTouch) < static_cast<double>(theirKeeper), end);
   } else {
     end.velocity = {in(row, Column::BallVx), in(row, Column::BallVy)};
   }
   return positionValue(field, end);
 }
+
+namespace {
 
 std::size_t heatCell(const Point& ball, const sim::FieldSpec& field) {
   const auto cell = [](double place, double half, int count) {
@@ -65,11 +85,14 @@ Thought::Thought(rollout::Belief belief, const Candidates& candidates, std::uint
   planRound();
 }
 
-/// Every candidate that is left plays as often.
+/// Every candidate that is left plays as often; a few times first, because most thoughts end there.
 void Thought::planRound() {
-  const std::size_t players = m_alive.size() + 1;
-  const auto share = static_cast<std::size_t>(std::max(1, m_budget / m_rounds)) / players;
-  const std::size_t first = m_of[0].values.size(), count = std::max<std::size_t>(2, share);
+  constexpr int firstLook = 4;
+  const int players = static_cast<int>(m_alive.size()) + 1;
+  const int share = m_round == 0 ? std::min(firstLook, m_budget / players)
+                                 : (m_budget - m_played) / (m_rounds - m_round) / players;
+  const std::size_t first = m_of[0].values.size();
+  const auto count = static_cast<std::size_t>(std::max(2, share));
   m_queue.clear();
   for (std::size_t seed = first + count; seed-- > first;) {
     for (const std::size_t candidate : m_alive) m_queue.push_back({candidate, seed});
@@ -77,7 +100,14 @@ void Thought::planRound() {
   }
 }
 
+/// Who can hardly gain any more plays no further; then the worse half does not.
 void Thought::halve() {
+  std::erase_if(m_alive, [this](std::size_t one) {
+    const Gain gain = gainOf(one);
+    constexpr double surely = 3.0;  // of t, for the few of the first look
+    return gain.mean + surely * gain.error < worthIt;
+  });
+  if (m_round == 1) return;
   std::ranges::stable_sort(
       m_alive, [this](std::size_t a, std::size_t b) { return valueOf(a) > valueOf(b); });
   m_alive.resize(std::max<std::size_t>(1, (m_alive.size() + 1) / 2));
@@ -105,11 +135,26 @@ void Thought::playOne(rollout::Rollouts& rollouts, const sim::FieldSpec& field) 
   ++m_played;
   if (!m_queue.empty() || ++m_round >= m_rounds) return;
   halve();
-  planRound();
+  if (!m_alive.empty()) planRound();
 }
 
 double Thought::valueOf(std::size_t candidate) const {
   return meanOf(m_of[candidate].values);
+}
+
+/// Over what the behaviour would do, paired by random numbers.
+Thought::Gain Thought::gainOf(std::size_t candidate) const {
+  const std::vector<double>&values = m_of[candidate].values, &own = m_of[0].values;
+  const std::size_t n = std::min(values.size(), own.size());
+  std::vector<double> gains(n);
+  for (std::size_t i = 0; i < n; ++i) gains[i] = values[i] - own[i];
+  const double mean = meanOf(gains);
+  double squares = 0.0;
+  for (const double gain : gains) squares += (gain - mean) * (gain - mean);
+  const double count = static_cast<double>(n);
+  if (n < 2) return {mean, 1.0};
+  // A few rollouts that happen to be alike are not sure.
+  return {mean, std::max(std::sqrt(squares / (count * (count - 1.0))), least / std::sqrt(count))};
 }
 
 /// The best is suggested only where the paired interval says that it gains.
@@ -119,23 +164,12 @@ ThoughtResult Thought::result() const {
   for (const std::size_t one : m_alive) {
     if (best == 0 || valueOf(one) > valueOf(best)) best = one;
   }
-  const std::vector<double>& own = m_of[0].values;
   if (best != 0) {
-    const std::vector<double>& values = m_of[best].values;
-    const std::size_t n = std::min(values.size(), own.size());
-    std::vector<double> gains(n);
-    for (std::size_t i = 0; i < n; ++i) gains[i] = values[i] - own[i];
-    const double mean = meanOf(gains);
-    double squares = 0.0;
-    for (const double gain : gains) squares += (gain - mean) * (gain - mean);
-    const double count = static_cast<double>(n);
-    const double error = n > 1 ? std::sqrt(squares / (count * (count - 1.0))) : 1.0;
-    constexpr double quantile = 2.0;  // of t, 95 % on both sides, for the usual numbers
-    constexpr double worthIt = 0.01;  // goals
-    const double low = mean - quantile * error;
-    if (low > 0.0 && mean > worthIt) {
+    const Gain gain = gainOf(best);
+    const double low = gain.mean - quantile * gain.error;
+    if (low > 0.0 && gain.mean > worthIt) {
       out.best = best;
-      out.gain = mean;
+      out.gain = gain.mean;
       out.gainLow = low;
     }
   }

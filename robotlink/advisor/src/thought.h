@@ -23,6 +23,9 @@ struct ThoughtResult {
   double goal = 0.0, goalAgainst = 0.0;  ///< shares of its rollouts
 };
 
+/// What a rollout is worth: its goals, else the position at its end.
+double valueOfRow(const std::array<double, rollout::columnCount>& row, const sim::FieldSpec& field);
+
 class Thought {
  public:
   using Heat = std::array<int, static_cast<std::size_t>(heatColumns* heatRows)>;
@@ -51,6 +54,10 @@ class Thought {
   struct Next {
     std::size_t candidate = 0, seed = 0;
   };
+  struct Gain {
+    double mean = 0.0, error = 1.0;  ///< goals; the standard error
+  };
+  Gain gainOf(std::size_t candidate) const;
   void planRound();
   void halve();
 
@@ -58,7 +65,7 @@ class Thought {
   Candidates m_candidates;
   std::array<Of, mostCandidates> m_of;
   std::uint64_t m_seed = 1;
-  int m_budget = 0, m_played = 0, m_rounds = 1, m_round = 0;
+  int m_budget = 0, m_played = 0, m_rounds = 2, m_round = 0;
   double m_horizon = 5.0;
   std::vector<std::size_t> m_alive;  ///< without the first, which always plays
   std::vector<Next> m_queue;         ///< of this round, the next at the back

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 
 #include <base/angles.h>
 #include <simcore/world/action_codes.h>
@@ -53,33 +52,6 @@ const std::vector<const char*>& hiddenKeys() {
       "radius",     "mass",       "fall_impulse", "foot_side", "foot_width",     "kick_reach",
       "kick_outer", "kick_inner", "head_speed",   "pan_limit", "camera_forward", "camera_height"};
   return keys;
-}
-
-/// The actions that a number of the gait belongs to.
-std::set<int> actionsOf(std::size_t parameter) {
-  switch (parameter) {
-    case motionForwardFast:
-      return {1};
-    case motionForwardSlow:
-      return {8};
-    case motionBackwardFast:
-      return {17};
-    case motionBackwardSlow:
-      return {18};
-    case motionSideways:
-      return {6, 7};
-    case motionTurn:
-      return {2, 3};
-    case motionAroundSideways:
-    case motionAroundTurn:
-      return {9, 14};
-    case motionAcceleration:
-      return {1, 6, 7, 8, 9, 14, 17, 18};
-    case motionYawAcceleration:
-      return {2, 3, 9, 14};
-    default:
-      return {};
-  }
 }
 
 struct Counts {
@@ -137,12 +109,9 @@ void addMotion(const MotionFit& fit, const Counts& counts, Calibration& out) {
       out.kept[parameter.key] = "the recording says too little about it";
       continue;
     }
-    const auto k = static_cast<Eigen::Index>(i);
-    const double half = normal95 * std::sqrt(fit.covariance(k, k));
-    GridPosterior of95{fit.logs[i], fit.logs[i] - half, fit.logs[i] + half, 0.0};
-    if (fit.marginals[i]) of95 = *fit.marginals[i];
-    take(out, {parameter.key, std::exp(of95.median), std::exp(of95.low), std::exp(of95.high),
-               samples, of});
+    const GridPosterior& log = fit.marginals[i];
+    take(out,
+         {parameter.key, std::exp(log.median), std::exp(log.low), std::exp(log.high), samples, of});
   }
   const std::size_t images = counts.ball + counts.corners;
   if (fit.delayKnown) {

@@ -6,6 +6,8 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "gait_step.h"
+
 namespace pitchboard::link {
 namespace {
 
@@ -30,7 +32,8 @@ struct Walk {
 
 void checkLog(const CalibrationLog& log, std::size_t session, double holdOut,
               const MotionFit& motion, Calibration& out, double& sum, double& sumBase) {
-  const MotionFilter filter(log, out.base);
+  MotionFilter filter(log, out.base);
+  filter.findDisturbed(motion.model, motion.delay);
   FilterDecisions decisions;
   std::vector<Innovation> innovations;
   std::vector<MotionState> states;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "motion_filter.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +9,7 @@
 
 #include <base/angles.h>
 
+#include "gait_step.h"
 #include "motion_parameters.h"
 
 namespace pitchboard::link {
@@ -18,28 +17,26 @@ namespace {
 
 using State = MotionState;
 
-constexpr double frame = 1.0 / 60.0;     // s, in which noise is given
-constexpr double longestPause = 0.5;     // s without rows; then the filter starts anew
-constexpr double longestDelay = 0.52;    // s
-constexpr double gateSigmas = 6.0;       // of an outlier
-constexpr int mostOutliers = 8;          // hardly anything else between; then something was moved
-constexpr double ballRest = 4.0;         // s after it moved until the ball is used again
-constexpr double ballTouch = 0.45;       // m; a robot that is nearer may push it
-constexpr double ballPush = 0.55;        // m; a ball that is nearer may slow the robot down
-constexpr double robotPush = 0.6;        // m, between the centres
-constexpr double obstaclePush = 0.2;     // m, between its edge and a post, net or wall
-constexpr double pushTime = 1.0;         // s before and after
-constexpr double pushNoise = 0.03;       // m per 1/60 s, of a robot that may push something
-constexpr double pushRest = 2.0;         // s after it until its place is known again
-constexpr double kickRest = 20.0;        // s after a kick until the ball is at rest
-constexpr double startSpread = 0.05;     // m, at least
-constexpr double startYawSpread = 0.02;  // rad, at least
-constexpr double beliefInterval = 2.0;   // s; errors of a belief closer together are the same
+constexpr double frame = 1.0 / 60.0;       // s, in which noise is given
+constexpr double longestPause = 0.5;       // s without rows; then the filter starts anew
+constexpr double longestDelay = 0.52;      // s
+constexpr double gateSigmas = 6.0;         // of an outlier
+constexpr int mostOutliers = 8;            // hardly anything else between; then something was moved
+constexpr double ballRest = 4.0;           // s after it moved until the ball is used again
+constexpr double ballTouch = 0.45;         // m; a robot that is nearer may push it
+constexpr double ballPush = 0.55;          // m; a ball that is nearer may slow the robot down
+constexpr double robotPush = 0.6;          // m, between the centres
+constexpr double obstaclePush = 0.2;       // m, between its edge and a post, net or wall
+constexpr double pushTime = 1.0;           // s before and after
+constexpr double pushNoise = 0.03;         // m per 1/60 s, of a robot that may push something
+constexpr double doubtfulGait = 0.005;     // m per 1/60 s, noise of a gait that may be obstructed
+constexpr double pushRest = 2.0;           // s after it until its place is known again
+constexpr double kickRest = 20.0;          // s after a kick until the ball is at rest
+constexpr double startRest = 5.0;          // s after a start until its measurements count
+constexpr double startInterval = 2.0;      // s between two looks for where it is
+constexpr double mostBelievedSigma = 0.7;  // m, of a place to begin from
+constexpr double beliefInterval = 2.0;     // s; errors of a belief closer together are the same
 constexpr double believedYawSpread = 0.06;  // rad
-
-double approach(double value, double target, double most) {
-  return value < target ? std::min(value + most, target) : std::max(value - most, target);
-}
 
 /// s without rows after which the filter starts anew.
 double pauseOf(const CalibrationLog& log) {
@@ -65,8 +62,9 @@ class Pass {
   State state;
   double lastBelief = -1e9;
 
-  void start(const MotionFilter::Start& from) {
+  void start(const MotionStart& from, double time) {
     state.placed = !from.covariance.isZero();
+    m_countedFrom = time + (state.placed ? startRest : 0.0);
     state.mean.setZero();
     state.covariance.setZero();
     state.mean[State::X] = from.pose.position.x;
@@ -74,9 +72,9 @@ class Pass {
     state.mean[State::Yaw] = from.pose.yaw;
     state.covariance.topLeftCorner<3, 3>() = from.covariance;
     forgetImu();
+    if (!state.known) m_gait = {};
     state.known = true;
     state.ballKnown = false;
-    m_gait = {};
   }
   void forgetPose() { state.known = false; }
   void settle(const ExecutedAction& action) {
@@ -176,6 +174,7 @@ class Pass {
   FilterDecisions& m_decisions;
   std::vector<Innovation>& m_out;
   GaitStep m_gait;
+  double m_countedFrom = -1e9;  // s
   bool m_imuUnknown = true;
   double m_ballUsedFrom = -1e9;
   std::map<std::string, double> m_lastSighting;  // by the team-mate, s
@@ -353,113 +352,13 @@ class Pass {
       default:
         return;
     }
-    if (m_counted[row]) m_out.push_back({innovation, variance, row, sense});
+    if (m_counted[row] && m_log.rows[row].time >= m_countedFrom)
+      m_out.push_back({innovation, variance, row, sense});
     const State::Vector gain = ph / variance;
     state.mean += gain * innovation;
     state.covariance.noalias() -= gain * ph.transpose();
   }
 };
-
-/// The pose of the first seconds from field corners: the best of a grid, moved along by gait and
-/// IMU. Corners have names, so that there is only one such pose once three were seen.
-std::optional<MotionFilter::Start> poseFromCorners(const CalibrationLog& log,
-                                                   const std::vector<ExecutedAction>& actions,
-                                                   const std::array<Point, 4>& corners,
-                                                   const sim::RobotModel& model,
-                                                   std::size_t first) {
-  constexpr double longestLook = 20.0;  // s
-  constexpr std::size_t enough = 1500;
-  struct Sight {
-    double x, y, yaw;  // from the first pose, in its frame
-    std::size_t corner;
-    double bearing;
-  };
-  std::vector<Sight> sights;
-  std::array<std::size_t, 4> seen{};
-  GaitStep gait;
-  double x = 0.0, y = 0.0, yaw = 0.0;
-  const std::optional<double> firstYaw = log.rows[first].imuYaw;
-  for (std::size_t i = first; i < log.rows.size(); ++i) {
-    const CalibrationRow& row = log.rows[i];
-    if (row.time - log.rows[first].time > longestLook || sights.size() >= enough) break;
-    if (i > first) {
-      const double dt = std::min(0.1, row.time - log.rows[i - 1].time);
-      gait.advance(model, actions[i], dt);
-      yaw = firstYaw && row.imuYaw ? wrapToPi(*row.imuYaw - *firstYaw) : yaw + gait.turn * dt;
-      x += (std::cos(yaw) * gait.forward - std::sin(yaw) * gait.left) * dt;
-      y += (std::sin(yaw) * gait.forward + std::cos(yaw) * gait.left) * dt;
-    }
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-      if (!row.corners[c]) continue;
-      sights.push_back({x, y, yaw, c, *row.corners[c]});
-      ++seen[c];
-    }
-  }
-  const auto different = std::ranges::count_if(seen, [](std::size_t n) { return n >= 3; });
-  if (sights.size() < 20 || different < 2) return {};
-  const std::size_t stride = std::max<std::size_t>(1, sights.size() / 150);
-  const auto cost = [&](const Pose& pose) {
-    double sum = 0.0;
-    const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
-    for (std::size_t i = 0; i < sights.size(); i += stride) {
-      const Sight& sight = sights[i];
-      const double dx = corners[sight.corner].x - (pose.position.x + c * sight.x - s * sight.y);
-      const double dy = corners[sight.corner].y - (pose.position.y + s * sight.x + c * sight.y);
-      const double error = wrapToPi(std::atan2(dy, dx) - pose.yaw - sight.yaw - sight.bearing);
-      sum += std::min(error * error, 1.0);
-    }
-    return sum;
-  };
-  Pose best;
-  double least = std::numeric_limits<double>::infinity();
-  constexpr double stepXy = 0.75, stepYaw = std::numbers::pi / 8.0;
-  const double halfX = log.field.halfLength() + 0.5, halfY = log.field.halfWidth() + 0.5;
-  for (double px = -halfX; px <= halfX; px += stepXy) {
-    for (double py = -halfY; py <= halfY; py += stepXy) {
-      for (int k = 0; k < 16; ++k) {
-        const Pose pose{{px, py}, wrapToPi(k * stepYaw)};
-        if (const double value = cost(pose); value < least) {
-          least = value;
-          best = pose;
-        }
-      }
-    }
-  }
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Identity();
-  // From there by Gauss and Newton; sights that fit badly count less, as in the cost above.
-  for (int round = 0; round < 30; ++round) {
-    normal = Eigen::Matrix3d::Identity() * 1e-6;
-    Eigen::Vector3d slope = Eigen::Vector3d::Zero();
-    const double c = std::cos(best.yaw), s = std::sin(best.yaw);
-    for (const Sight& sight : sights) {
-      const double ox = c * sight.x - s * sight.y, oy = s * sight.x + c * sight.y;
-      const double dx = corners[sight.corner].x - best.position.x - ox;
-      const double dy = corners[sight.corner].y - best.position.y - oy;
-      const double square = std::max(0.01, dx * dx + dy * dy);
-      const double error = wrapToPi(std::atan2(dy, dx) - best.yaw - sight.yaw - sight.bearing);
-      const Eigen::Vector3d h(dy / square, -dx / square, -1.0 - (dy * oy + dx * ox) / square);
-      const double weight = 1.0 / (1.0 + error * error / 0.04);
-      normal += weight * h * h.transpose();
-      slope += weight * error * h;
-    }
-    const Eigen::Vector3d move = normal.ldlt().solve(slope);
-    const double length = std::max(1.0, move.head<2>().norm() / 0.5);
-    best.position.x -= move[0] / length;
-    best.position.y -= move[1] / length;
-    best.yaw = wrapToPi(best.yaw - move[2] / length);
-    if (move.norm() < 1e-5) break;
-  }
-  // The filter sees the same corners again: twice the deviation leaves them their say. A wide start
-  // would make an extended filter too sure of what it has linearized about.
-  const double sigma = model.noise.landmarkBearing > 0.0 ? model.noise.landmarkBearing : 0.05;
-  MotionFilter::Start start;
-  start.row = static_cast<std::uint32_t>(first);
-  start.pose = best;
-  start.covariance = 4.0 * sigma * sigma * normal.inverse();
-  start.covariance.diagonal() += Eigen::Vector3d(
-      startSpread * startSpread, startSpread * startSpread, startYawSpread * startYawSpread);
-  return start;
-}
 
 /// Whether a robot, of whose place (m, centred) `unsure` is not known, may be at a wall, or at a
 /// post or net of a goal.
@@ -475,25 +374,7 @@ bool isAtObstacle(const sim::FieldSpec& field, double radius, const Point& place
   return std::min(sideNet, backNet) < reach + field.goalPostRadius;
 }
 
-MotionFilter::Start startFromBelief(std::uint32_t row, const CalibrationRow::Belief& belief) {
-  MotionFilter::Start start;
-  start.row = row;
-  start.pose = belief.pose;
-  const double spread = std::max(0.1, belief.sigma);
-  start.covariance.diagonal() = Eigen::Vector3d(spread * spread, spread * spread, 0.1 * 0.1);
-  return start;
-}
-
 }  // namespace
-
-void GaitStep::advance(const sim::RobotModel& model, const ExecutedAction& action, double dt) {
-  sim::GaitSpeed target;
-  if (!action.kicks && !action.down) target = sim::gaitSpeed(model, action.code, action.b);
-  moves = target.inMotion;
-  forward = approach(forward, target.forward, model.maxAcceleration * dt);
-  left = approach(left, target.left, model.maxAcceleration * dt);
-  turn = approach(turn, target.turn, model.maxYawAcceleration * dt);
-}
 
 double logLikelihood(const std::vector<Innovation>& innovations) {
   double sum = 0.0;
@@ -515,38 +396,16 @@ MotionFilter::MotionFilter(const CalibrationLog& log, const sim::RobotModel& bas
     if (seesCorner || row.ball) m_percepts.push_back(static_cast<std::uint32_t>(i));
   }
   m_seesCorners = corners >= 50;
-  // Starts are looked for once: they depend little on the model.
-  for (std::size_t i = 0; i < log.rows.size(); ++i) {
-    const bool anew = i == 0 || log.rows[i].time - log.rows[i - 1].time > pauseOf(log) ||
-                      (!m_actions[i].down && m_actions[i - 1].down);
-    if (!anew || m_actions[i].down) continue;
-    const auto row = static_cast<std::uint32_t>(i);
-    Start start;
-    start.row = row;
-    const auto pose = m_seesCorners ? poseFromCorners(log, m_actions, m_corners, base, i)
-                                    : std::optional<Start>();
-    if (pose) {
-      start = *pose;
-    } else {
-      for (std::size_t k = i; k < log.rows.size() && log.rows[k].time < log.rows[i].time + 0.5;
-           ++k) {
-        if (!log.rows[k].belief || log.rows[k].belief->sigma >= 0.7) continue;
-        start = startFromBelief(row, *log.rows[k].belief);
-        break;
-      }
-    }
-    m_starts.push_back(start);
-  }
-  findDisturbed(base);
-  findCounted();
+  for (const ExecutedAction& action : m_actions) m_executed.insert(action.code);
+  findDisturbed(base, base.noise.visionDelay);
 }
 
-void MotionFilter::findDisturbed(const sim::RobotModel& base) {
+void MotionFilter::findDisturbed(const sim::RobotModel& known, double delay) {
   const auto& rows = m_log.rows;
   // A robot that stands pushes nothing.
   const auto walks = [&](std::size_t row) {
     const ExecutedAction& action = m_actions[row];
-    return action.kicks || sim::gaitSpeed(base, action.code, action.b).inMotion;
+    return action.kicks || sim::gaitSpeed(known, action.code, action.b).inMotion;
   };
   std::vector<bool> near(rows.size());
   for (const std::uint32_t row : m_percepts) {
@@ -556,17 +415,15 @@ void MotionFilter::findDisturbed(const sim::RobotModel& base) {
     if (seen.row < rows.size() && seen.seen.distance < robotPush) near[seen.row] = true;
   }
   // Where it is tells a run that trusts its senses more than its gait.
-  sim::RobotModel model = base;
-  for (const std::size_t i : {motionNoiseForward, motionNoiseSideways}) {
-    valueOf(model, motionParameters[i]) = 5.0 * std::exp(motionPrior(base)[i]);
-  }
+  sim::RobotModel model = known;
+  model.noise.forward = model.noise.sideways = doubtfulGait;
   m_disturbed.assign(rows.size(), false);
   m_counted.assign(rows.size(), false);
   FilterDecisions decisions;
   std::vector<Innovation> unused;
   std::vector<MotionState> states;
-  run(model, base.noise.visionDelay, decisions, unused, &states);
-  const double radius = base.radius > 0.0 ? base.radius : m_log.field.robotRadius;
+  run(model, delay, decisions, unused, &states);
+  const double radius = known.radius > 0.0 ? known.radius : m_log.field.robotRadius;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const MotionState& state = states[i];
     if (!state.known || !state.placed) continue;
@@ -587,6 +444,7 @@ void MotionFilter::findDisturbed(const sim::RobotModel& base) {
       m_disturbed[i] = true;
     }
   }
+  findCounted();
 }
 
 void MotionFilter::findCounted() {
@@ -597,38 +455,72 @@ void MotionFilter::findCounted() {
   }
 }
 
+bool MotionFilter::dependsOn(std::size_t parameter) const {
+  const std::set<int> actions = actionsOf(parameter);
+  return actions.empty() ||
+         std::ranges::any_of(actions, [&](int code) { return m_executed.contains(code); });
+}
+
+bool MotionFilter::beginsAnew(std::uint32_t row) const {
+  if (m_actions[row].down) return false;
+  return row == 0 || m_log.rows[row].time - m_log.rows[row - 1].time > pauseOf(m_log) ||
+         m_actions[row - 1].down;
+}
+
+const MotionStart& MotionFilter::startAt(std::uint32_t row, const sim::RobotModel& model,
+                                         double delay, FilterDecisions& decisions) const {
+  const auto [place, isNew] = decisions.starts.try_emplace(row);
+  MotionStart& start = place->second;
+  if (!isNew) return start;
+  start.row = row;
+  if (m_seesCorners) {
+    const auto found = startFromCorners(m_log, m_actions, model, decisions.gaitSpread, delay, row);
+    if (found) start = *found;
+    return start;
+  }
+  for (std::size_t k = row;
+       k < m_log.rows.size() && m_log.rows[k].time < m_log.rows[row].time + 0.5; ++k) {
+    if (!m_log.rows[k].belief || m_log.rows[k].belief->sigma >= mostBelievedSigma) continue;
+    start = startFromBelief(row, *m_log.rows[k].belief);
+    break;
+  }
+  return start;
+}
+
 void MotionFilter::run(const sim::RobotModel& model, double delay, FilterDecisions& decisions,
                        std::vector<Innovation>& out, std::vector<MotionState>* states) const {
   out.clear();
-  if (!decisions.recorded) decisions = {};
+  if (!decisions.recorded) {
+    decisions.all.clear();
+    decisions.outliers = decisions.imuResets = decisions.ballMoves = decisions.jumps = 0;
+  }
   if (states) states->assign(m_log.rows.size(), {});
   Pass pass(m_log, m_actions, m_disturbed, m_counted, m_corners, model, decisions, out);
-  std::size_t percept = 0, start = 0, sighting = 0;
+  std::size_t percept = 0, sighting = 0;
+  double lastLook = -1e9;
   for (std::uint32_t i = 0; i < m_log.rows.size(); ++i) {
     const CalibrationRow& row = m_log.rows[i];
     const double dt = i > 0 ? row.time - m_log.rows[i - 1].time : 0.0;
     const ExecutedAction& action = m_actions[i];
-    if (action.down || dt > pauseOf(m_log)) {
+    const bool gap = dt > pauseOf(m_log);
+    if (action.down || gap) {
       pass.forgetPose();
       pass.forgetBall(row.time, ballRest);
     } else if (i > 0) {
       pass.predict(i, dt);
     }
-    if (start < m_starts.size() && m_starts[start].row == i) {
-      pass.start(m_starts[start]);
-      if (dt > pauseOf(m_log)) pass.settle(action);
-      ++start;
-    } else if (!pass.state.known && !action.down && m_seesCorners) {
-      const auto [place, isNew] = m_restarts.try_emplace(i);  // carried, or lost
-      if (isNew) {
-        const auto pose = poseFromCorners(m_log, m_actions, m_corners, model, i);
-        if (pose) place->second = *pose;
+    const bool anew = beginsAnew(i);
+    const bool looks = (!pass.state.known || !pass.state.placed) && !action.down &&
+                       row.time - lastLook >= startInterval;
+    if (anew || looks) {
+      lastLook = row.time;
+      const MotionStart& start = startAt(i, model, delay, decisions);
+      // Without a place, what it knows of its yaw is as good as before.
+      if (!pass.state.known || !start.covariance.isZero()) {
+        const bool settles = !pass.state.known && (gap || !anew);
+        pass.start(start, row.time);
+        if (settles) pass.settle(action);
       }
-      pass.start(place->second);
-      pass.settle(action);
-    } else if (!pass.state.known && !action.down && row.belief && row.belief->sigma < 0.5) {
-      pass.start(startFromBelief(i, *row.belief));
-      pass.settle(action);
     }
     if (action.kicks && action.began) pass.forgetBall(row.time, kickRest);
     pass.measureImu(i);

@@ -11,12 +11,15 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 
 #include <robotlink/calibrate/calibration_log.h>
 #include <simcore/world/robot_model.h>
 
 #include "executed_actions.h"
+#include "motion_parameters.h"
+#include "motion_start.h"
 
 namespace pitchboard::link {
 
@@ -51,36 +54,43 @@ struct FilterDecisions {
   std::vector<std::uint8_t> all;
   bool recorded = false;
   std::size_t outliers = 0, imuResets = 0, ballMoves = 0, jumps = 0;
+  /// Where it was found to begin, by row. They are kept when measurements are decided anew, until
+  /// they are cleared.
+  std::map<std::uint32_t, MotionStart> starts;
+  double gaitSpread = speedPrior;  ///< for looking for them, see startFromCorners()
 };
 
 class MotionFilter {
  public:
   /// `log` must outlive it.
   MotionFilter(const CalibrationLog& log, const sim::RobotModel& base);
+  /// Finds disturbed() again, for a model that is nearer to the robot than the base. Ends what runs
+  /// before it have decided.
+  void findDisturbed(const sim::RobotModel& known, double delay);
 
   /// Measurements in order. `delay`: s between an image and its percepts. Makes the decisions if
   /// they are not recorded, else follows them. `states`: one for each row, if wanted.
   void run(const sim::RobotModel& model, double delay, FilterDecisions& decisions,
            std::vector<Innovation>& out, std::vector<MotionState>* states = nullptr) const;
 
+  /// Whether a motion parameter changes anything here: speeds of actions that the robot never
+  /// carried out do not.
+  bool dependsOn(std::size_t parameter) const;
   const std::vector<ExecutedAction>& actions() const { return m_actions; }
   /// Rows in which the robot may push the ball, another robot, a goal or a wall: its gait does not
   /// say how it moves.
   const std::vector<bool>& disturbed() const { return m_disturbed; }
 
-  struct Start {
-    std::uint32_t row = 0;
-    Pose pose{};
-    /// Of x, y, yaw. Zero: nobody knows where it is, and corners are of no use.
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  };
-
  private:
-  void findDisturbed(const sim::RobotModel& base);
   void findCounted();
+  bool beginsAnew(std::uint32_t row) const;
+  /// Remembers in `decisions` what it finds.
+  const MotionStart& startAt(std::uint32_t row, const sim::RobotModel& model, double delay,
+                             FilterDecisions& decisions) const;
 
   const CalibrationLog& m_log;
   std::vector<ExecutedAction> m_actions;
+  std::set<int> m_executed;  // codes
   std::vector<bool> m_disturbed;
   // Rows whose measurements count in the likelihood: not while it is disturbed, nor until it is
   // known again where it is. By the row that shows a percept, whatever its delay, so that
@@ -89,17 +99,6 @@ class MotionFilter {
   std::vector<std::uint32_t> m_percepts;  // rows with ball or corners
   std::array<Point, 4> m_corners;
   bool m_seesCorners = false;
-  std::vector<Start> m_starts;  // in order
-  // After a jump, by row: found once, for all runs.
-  mutable std::map<std::uint32_t, Start> m_restarts;
-};
-
-/// The gait of the model for one step: speeds approach those of the action (m/s, rad/s). `moves`:
-/// the legs move, so that there is motion noise.
-struct GaitStep {
-  double forward = 0.0, left = 0.0, turn = 0.0;
-  bool moves = false;
-  void advance(const sim::RobotModel& model, const ExecutedAction& action, double dt);
 };
 
 double logLikelihood(const std::vector<Innovation>& innovations);

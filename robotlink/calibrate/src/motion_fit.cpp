@@ -19,8 +19,9 @@ constexpr double leastDelay = 0.02;  // s, median of the prior where the base mo
 constexpr double derivativeStep = 1e-4;
 constexpr int mostRounds = 25;
 constexpr double skewedFrom = 0.12;   // of a logarithm's deviation
-constexpr double nearEnough = 0.1;    // of a posterior deviation, while the delay is looked for
-constexpr double closeEnough = 0.01;  // at last
+constexpr double nearEnough = 0.2;    // of a posterior deviation, while the delay is looked for
+constexpr double closeEnough = 0.03;  // at last
+constexpr double knownSpeed = 0.05;   // of the logarithm, after the first search
 
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
@@ -94,7 +95,7 @@ MotionLogs firstGuess(std::span<const CalibrationLog> logs, const MotionLogs& pr
 /// The search and what it keeps from round to round.
 class Scoring {
  public:
-  Scoring(std::span<const MotionFilter> filters, const sim::RobotModel& base)
+  Scoring(std::span<MotionFilter> filters, const sim::RobotModel& base)
       : m_filters(filters), m_base(base), m_prior(motionPrior(base)), m_decisions(filters.size()) {
     for (std::size_t i = 0; i < m_prior.size(); ++i) {
       m_precision[static_cast<Eigen::Index>(i)] =
@@ -104,13 +105,26 @@ class Scoring {
 
   double delay = 0.0;
   MotionLogs logs{};
-  Matrix information;  // of the likelihood, at `logs`
 
   const MotionLogs& prior() const { return m_prior; }
   void decideAnew() {
     for (FilterDecisions& one : m_decisions) one.recorded = false;
   }
-  std::vector<FilterDecisions>& decisions() { return m_decisions; }
+  /// Also where the robot is at the beginning and where it is disturbed, by the gait as it is known
+  /// now.
+  void startAnew(double gaitSpread) {
+    decideAnew();
+    for (MotionFilter& one : m_filters) one.findDisturbed(modelAt(logs), delay);
+    for (FilterDecisions& one : m_decisions) {
+      one.starts.clear();
+      one.gaitSpread = gaitSpread;
+    }
+  }
+  std::size_t outliers() const {
+    std::size_t sum = 0;
+    for (const FilterDecisions& one : m_decisions) sum += one.outliers;
+    return sum;
+  }
 
   sim::RobotModel modelAt(const MotionLogs& at) const {
     sim::RobotModel model = m_base;
@@ -132,22 +146,31 @@ class Scoring {
     return sum;
   }
 
+  /// Of the log posterior; `precision` is the expected information and the prior's.
+  struct Derivatives {
+    double value = 0.0;
+    Vector gradient = Vector::Zero(count);
+    Matrix precision = Matrix::Zero(count, count);
+  };
+  Derivatives derivativesAt(const MotionLogs& at) {
+    Derivatives out;
+    for (std::size_t f = 0; f < m_filters.size(); ++f) addDerivatives(f, at, out);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      const double off = at[i] - m_prior[i];
+      out.gradient[k] -= m_precision[k] * off;
+      out.value -= 0.5 * off * off * m_precision[k];
+    }
+    out.precision.diagonal() += m_precision;
+    return out;
+  }
+
   /// One step of scoring; the length of the step in posterior deviations, largest component.
   double step() {
-    Vector gradient = Vector::Zero(count);
-    information = Matrix::Zero(count, count);
-    double now = 0.0;
-    for (std::size_t f = 0; f < m_filters.size(); ++f) now += addDerivatives(f, gradient);
-    for (std::size_t i = 0; i < logs.size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      gradient[k] -= m_precision[k] * (logs[i] - m_prior[i]);
-      const double off = logs[i] - m_prior[i];
-      now -= 0.5 * off * off * m_precision[k];
-    }
-    Matrix whole = information;
-    whole.diagonal() += m_precision;
-    const Eigen::LDLT<Matrix> solver(whole);
-    Vector move = solver.solve(gradient);
+    const Derivatives here = derivativesAt(logs);
+    const double now = here.value;
+    const Eigen::LDLT<Matrix> solver(here.precision);
+    Vector move = solver.solve(here.gradient);
     const Vector deviations =
         solver.solve(Matrix::Identity(count, count)).diagonal().cwiseMax(1e-16).cwiseSqrt();
     for (int halving = 0; halving < 8; ++halving) {
@@ -177,14 +200,19 @@ class Scoring {
   }
 
  private:
-  /// Adds gradient and information of one recording; gives its log-likelihood.
-  double addDerivatives(std::size_t f, Vector& gradient) {
-    m_filters[f].run(modelAt(logs), delay, m_decisions[f], m_centre);
+  /// Adds those of one recording's log-likelihood.
+  void addDerivatives(std::size_t f, const MotionLogs& centre, Derivatives& out) {
+    m_filters[f].run(modelAt(centre), delay, m_decisions[f], m_centre);
     const auto rows = static_cast<Eigen::Index>(m_centre.size());
     m_values.resize(rows, count);
     m_variances.resize(rows, count);
     for (Eigen::Index p = 0; p < count; ++p) {
-      MotionLogs at = logs;
+      if (!m_filters[f].dependsOn(static_cast<std::size_t>(p))) {
+        m_values.col(p).setZero();
+        m_variances.col(p).setZero();
+        continue;
+      }
+      MotionLogs at = centre;
       at[static_cast<std::size_t>(p)] += derivativeStep;
       m_filters[f].run(modelAt(at), delay, m_decisions[f], m_scratch);
       for (Eigen::Index i = 0; i < rows; ++i) {
@@ -206,14 +234,14 @@ class Scoring {
       share[i] = one.value / std::sqrt(one.variance);
       excess[i] = share[i] * share[i] - 1.0;
     }
-    gradient -= m_values.transpose() * share;
-    gradient += 0.5 * (m_variances.transpose() * excess);
-    information.noalias() += m_values.transpose() * m_values;
-    information.noalias() += 0.5 * (m_variances.transpose() * m_variances);
-    return logLikelihood(m_centre);
+    out.gradient -= m_values.transpose() * share;
+    out.gradient += 0.5 * (m_variances.transpose() * excess);
+    out.precision.noalias() += m_values.transpose() * m_values;
+    out.precision.noalias() += 0.5 * (m_variances.transpose() * m_variances);
+    out.value += logLikelihood(m_centre);
   }
 
-  std::span<const MotionFilter> m_filters;
+  std::span<MotionFilter> m_filters;
   const sim::RobotModel& m_base;
   MotionLogs m_prior;
   Eigen::Matrix<double, count, 1> m_precision;
@@ -230,10 +258,16 @@ struct DelayPosterior {
   double share = 1.0;  ///< deviation as a share of the prior's
 };
 
-DelayPosterior delayPosterior(Scoring& scoring, double prior) {
-  std::array<double, longestDelayTicks + 1> likelihood{};
+/// Looks at the ticks up to `reach` from the scoring's delay; the likelihood is taken to be
+/// negligible farther away.
+DelayPosterior delayPosterior(Scoring& scoring, double prior, int reach) {
+  std::array<double, longestDelayTicks + 1> likelihood;
+  likelihood.fill(-1e300);
   DelayPosterior out;
-  for (int d = 0; d <= longestDelayTicks; ++d) {
+  const int middle = static_cast<int>(std::lround(scoring.delay / tick));
+  const int first = std::max(0, middle - reach), last = std::min(longestDelayTicks, middle + reach);
+  out.best = first;
+  for (int d = first; d <= last; ++d) {
     // Other delays give other measurements their turn first: decisions are made anew for each.
     scoring.decideAnew();
     likelihood[static_cast<std::size_t>(d)] = scoring.logPosterior(scoring.logs, d * tick);
@@ -257,31 +291,141 @@ DelayPosterior delayPosterior(Scoring& scoring, double prior) {
   return out;
 }
 
-/// Posterior of one logarithm from the likelihood itself: `direction` is how all of them move with
-/// one deviation of it.
-GridPosterior marginalAlong(Scoring& scoring, std::size_t parameter,
-                            const Eigen::VectorXd& direction) {
-  constexpr int points = 11;
-  constexpr double reach = 3.75;
-  std::vector<double> weights;
-  for (int k = 0; k < points; ++k) {
-    const double t = reach * (2.0 * k / (points - 1) - 1.0);
-    MotionLogs at = scoring.logs;
-    for (std::size_t i = 0; i < at.size(); ++i)
-      at[i] += t * direction[static_cast<Eigen::Index>(i)];
-    weights.push_back(scoring.logPosterior(at, scoring.delay));
+/// What a standard deviation of noise that is not known well makes of the others: the posterior of
+/// its logarithm, and how much less or more sure the others are at each of its values. A nested
+/// Laplace approximation (Rue, Martino, Chopin, Journal of the Royal Statistical Society B 71,
+/// 2009).
+struct NoisePosterior {
+  static constexpr int points = 601;
+  static constexpr double reach = 3.75;  // deviations to either side
+  std::size_t parameter = 0;
+  Vector direction;                 // how all of them move with one deviation of it
+  std::vector<double> probability;  // at deviations placeAt(i)
+  std::vector<double> cumulative;
+  std::array<Vector, 3> logVariances;  // of the others given it, at -nodeAt, 0, nodeAt deviations
+  static constexpr double nodeAt = 2.0;
+
+  static double placeAt(double i) { return reach * (2.0 * i / (points - 1) - 1.0); }
+  double quantile(double share) const {
+    const auto found = std::ranges::lower_bound(cumulative, share);
+    return placeAt(
+        static_cast<double>(std::min<std::ptrdiff_t>(found - cumulative.begin(), points - 1)));
   }
-  constexpr int fine = 601;
-  const double own = direction[static_cast<Eigen::Index>(parameter)];
-  return posteriorOn(
-      fine,
-      [&](int i) { return scoring.logs[parameter] + own * reach * (2.0 * i / (fine - 1) - 1.0); },
-      [&](int i) { return parabolaAt(weights, (points - 1.0) * i / (fine - 1)); });
+};
+
+/// The parabola through values at -1, 0 and 1.
+double parabolaThrough(double before, double middle, double after, double at) {
+  return middle + 0.5 * (after - before) * at + (0.5 * (after + before) - middle) * at * at;
+}
+
+NoisePosterior noisePosterior(Scoring& scoring, std::size_t parameter,
+                              const Scoring::Derivatives& atMode, const Matrix& covariance) {
+  constexpr int coarse = 11;
+  const auto own = static_cast<Eigen::Index>(parameter);
+  NoisePosterior out;
+  out.parameter = parameter;
+  out.direction = covariance.col(own) / std::sqrt(covariance(own, own));
+  const auto along = [&](double t) {
+    MotionLogs at = scoring.logs;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      at[i] += t * out.direction[static_cast<Eigen::Index>(i)];
+    }
+    return at;
+  };
+  std::vector<double> weights;
+  for (int k = 0; k < coarse; ++k) {
+    const double t = NoisePosterior::reach * (2.0 * k / (coarse - 1) - 1.0);
+    weights.push_back(scoring.logPosterior(along(t), scoring.delay));
+  }
+  // The integral over the others: of a normal distribution about their mode, which is a step of
+  // Newton away.
+  std::array<double, 3> volume{};
+  for (std::size_t n = 0; n < 3; ++n) {
+    const double t = NoisePosterior::nodeAt * (static_cast<double>(n) - 1.0);
+    auto here = n == 1 ? atMode : scoring.derivativesAt(along(t));
+    here.precision.row(own).setZero();
+    here.precision.col(own).setZero();
+    here.precision(own, own) = 1.0;
+    here.gradient[own] = 0.0;
+    const Eigen::LDLT<Matrix> solver(here.precision);
+    volume[n] = 0.5 * here.gradient.dot(solver.solve(here.gradient)) -
+                0.5 * solver.vectorD().array().max(1e-300).log().sum();
+    out.logVariances[n] =
+        solver.solve(Matrix::Identity(count, count)).diagonal().array().max(1e-300).log();
+  }
+  double most = -1e300, sum = 0.0;
+  for (int i = 0; i < NoisePosterior::points; ++i) {
+    const double at = std::clamp(NoisePosterior::placeAt(i) / NoisePosterior::nodeAt, -1.5, 1.5);
+    out.probability.push_back(
+        parabolaAt(weights, (coarse - 1.0) * i / (NoisePosterior::points - 1)) +
+        parabolaThrough(volume[0], volume[1], volume[2], at));
+    most = std::max(most, out.probability.back());
+  }
+  for (double& one : out.probability) sum += one = std::exp(one - most);
+  double so = 0.0;
+  for (double& one : out.probability) {
+    so += one /= sum;
+    out.cumulative.push_back(so - 0.5 * one);
+  }
+  return out;
+}
+
+/// Marginal posteriors of all logarithms: normal distributions, mixed over the noise that is not
+/// known well.
+std::array<GridPosterior, motionParameterCount> marginals(
+    const MotionLogs& logs, const Matrix& covariance, const std::vector<NoisePosterior>& noise) {
+  constexpr int samples = 1000;
+  std::array<GridPosterior, motionParameterCount> out;
+  std::vector<std::vector<double>> places(noise.size());  // deviations, by noise and sample
+  double irrational = std::numbers::phi - 1.0;            // an even sequence in every dimension
+  for (std::size_t n = 0; n < noise.size(); ++n) {
+    for (int i = 0; i < samples; ++i) {
+      const double share = n == 0 ? (i + 0.5) / samples : std::fmod(0.5 + i * irrational, 1.0);
+      places[n].push_back(noise[n].quantile(share));
+    }
+    irrational = std::fmod(irrational * std::numbers::sqrt2 + 0.1, 1.0);
+  }
+  for (std::size_t p = 0; p < logs.size(); ++p) {
+    const auto k = static_cast<Eigen::Index>(p);
+    std::vector<double> means(samples, logs[p]), deviations(samples);
+    double given = covariance(k, k);
+    for (const NoisePosterior& one : noise) given -= one.direction[k] * one.direction[k];
+    given = std::max(given, 1e-4 * covariance(k, k));
+    for (int i = 0; i < samples; ++i) {
+      const auto s = static_cast<std::size_t>(i);
+      double logVariance = std::log(given);
+      for (std::size_t n = 0; n < noise.size(); ++n) {
+        const double t = places[n][s];
+        means[s] += t * noise[n].direction[k];
+        if (noise[n].parameter == p) continue;
+        const auto& variances = noise[n].logVariances;
+        const double at = std::clamp(t / NoisePosterior::nodeAt, -1.5, 1.5);
+        logVariance += parabolaThrough(variances[0][k] - variances[1][k], 0.0,
+                                       variances[2][k] - variances[1][k], at);
+      }
+      deviations[s] = std::exp(0.5 * logVariance);
+    }
+    const auto quantile = [&](double share) {
+      double low = logs[p] - 10.0 * std::sqrt(covariance(k, k));
+      double high = 2.0 * logs[p] - low;
+      for (int round = 0; round < 40; ++round) {
+        const double middle = 0.5 * (low + high);
+        double below = 0.0;
+        for (std::size_t s = 0; s < means.size(); ++s) {
+          below += 0.5 * std::erfc((means[s] - middle) / (deviations[s] * std::numbers::sqrt2));
+        }
+        (below < share * samples ? low : high) = middle;
+      }
+      return 0.5 * (low + high);
+    };
+    out[p] = {quantile(0.5), quantile(0.025), quantile(0.975), 0.0};
+  }
+  return out;
 }
 
 }  // namespace
 
-MotionFit fitMotion(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
+MotionFit fitMotion(std::span<MotionFilter> filters, std::span<const CalibrationLog> logs,
                     const sim::RobotModel& base, const std::function<bool(double)>& progress) {
   Scoring scoring(filters, base);
   scoring.logs = firstGuess(logs, scoring.prior());
@@ -291,44 +435,47 @@ MotionFit fitMotion(std::span<const MotionFilter> filters, std::span<const Calib
   const auto goOn = [&](double part) { return !progress || progress(part); };
   DelayPosterior delay;
   for (int round = 0; round < 4; ++round) {
-    scoring.decideAnew();
+    if (round > 0) scoring.startAnew(knownSpeed);
     const double part = 0.25 * round;
     if (!scoring.search(nearEnough, [&] { return goOn(part); })) return fit;
-    delay = delayPosterior(scoring, prior);
+    delay = delayPosterior(scoring, prior, round == 0 ? longestDelayTicks : 4);
     const double best = delay.best * tick;
     if (round > 0 && best == scoring.delay) break;
     scoring.delay = best;
   }
-  scoring.decideAnew();
-  if (!scoring.search(closeEnough, [&] { return goOn(0.8); })) return fit;
-  scoring.step();  // the information at the mode
+  scoring.startAnew(knownSpeed);
+  for (std::size_t outliers = 0, round = 0; round < 4; ++round) {
+    if (!scoring.search(closeEnough, [&] { return goOn(0.8); })) return fit;
+    // What was an outlier for the first guess of a noise may be none for the last.
+    if (scoring.outliers() == outliers) break;
+    outliers = scoring.outliers();
+    scoring.decideAnew();
+  }
 
-  fit.logs = scoring.logs;
   fit.delay = scoring.delay;
   fit.delayPosterior = delay.grid;
   fit.delayKnown = delay.share < 0.7;
-  Matrix whole = scoring.information;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const double sigma = motionParameters[static_cast<std::size_t>(i)].prior;
-    whole(i, i) += 1.0 / (sigma * sigma);
-  }
-  fit.covariance = whole.ldlt().solve(Matrix::Identity(count, count));
+  const auto atMode = scoring.derivativesAt(scoring.logs);
+  fit.covariance = atMode.precision.ldlt().solve(Matrix::Identity(count, count));
   for (std::size_t i = 0; i < fit.information.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const double sigma = motionParameters[i].prior;
     fit.information[i] = 1.0 - fit.covariance(k, k) / (sigma * sigma);
   }
+  std::vector<NoisePosterior> noise;
   for (std::size_t i = motionNoiseForward; i < motionParameterCount; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double deviation = std::sqrt(fit.covariance(k, k));
-    if (deviation < skewedFrom || fit.information[i] < 0.1) continue;
+    if (std::sqrt(fit.covariance(k, k)) < skewedFrom || fit.information[i] < 0.1) continue;
     if (!goOn(0.9)) return {};
-    fit.marginals[i] = marginalAlong(scoring, i, fit.covariance.col(k) / deviation);
+    noise.push_back(noisePosterior(scoring, i, atMode, fit.covariance));
   }
+  fit.marginals = marginals(scoring.logs, fit.covariance, noise);
+  for (std::size_t i = 0; i < fit.logs.size(); ++i) fit.logs[i] = fit.marginals[i].median;
   fit.model = scoring.modelAt(fit.logs);
   fit.model.noise.visionDelay = fit.delayKnown ? fit.delayPosterior.median : base.noise.visionDelay;
   for (std::size_t f = 0; f < filters.size(); ++f) {
     MotionFit::OfLog one;
+    one.decisions.gaitSpread = knownSpeed;
     filters[f].run(fit.model, fit.delay, one.decisions, one.innovations, &one.states);
     fit.ofLogs.push_back(std::move(one));
   }

@@ -5,13 +5,13 @@
 // method of scoring on the innovations of the filter, with the expected information
 //   I_ij = sum(dv_i dv_j / S + 1/2 dS_i dS_j / S^2)
 // (Harvey, Forecasting, Structural Time Series Models and the Kalman Filter, 1989, section 3.4.5),
-// and the normal approximation of the posterior of the logarithms around it. The delay between an
-// image and its percepts is looked for on a grid of ticks of 1/60 s. Private to calibrate.
+// and the normal approximation of the posterior of the logarithms around it, mixed over the noise
+// that is not known well. The delay between an image and its percepts is looked for on a grid of
+// ticks of 1/60 s. Private to calibrate.
 
 #include <Eigen/Core>
 #include <array>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,13 +22,11 @@
 namespace pitchboard::link {
 
 struct MotionFit {
-  MotionLogs logs{};
-  Eigen::MatrixXd covariance;  ///< of the posterior of the logarithms
+  MotionLogs logs{};           ///< medians
+  Eigen::MatrixXd covariance;  ///< of the posterior of the logarithms, at its mode
   MotionLogs information{};    ///< 1 - (posterior / prior)^2 of the deviation: 0 learned nothing
-  /// Of standard deviations that are not known well, whose posterior is not normal: along the line
-  /// of the other parameters' conditional means. Of the logarithm.
-  std::array<std::optional<GridPosterior>, motionParameterCount> marginals;
-  double delay = 0.0;            ///< s, whole ticks
+  std::array<GridPosterior, motionParameterCount> marginals;  ///< of the logarithms
+  double delay = 0.0;                                         ///< s, whole ticks
   GridPosterior delayPosterior;  ///< of the number in the model, which is no whole tick
   bool delayKnown = false;
   sim::RobotModel model;  ///< the base with these values
@@ -40,8 +38,8 @@ struct MotionFit {
   std::vector<OfLog> ofLogs;
 };
 
-/// `fitted`: time of every log until which it counts. Empty covariance if it was cancelled.
-MotionFit fitMotion(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
+/// Tells the filters where the fitted robot is disturbed. No `ofLogs` if it was cancelled.
+MotionFit fitMotion(std::span<MotionFilter> filters, std::span<const CalibrationLog> logs,
                     const sim::RobotModel& base, const std::function<bool(double)>& progress);
 
 }  // namespace pitchboard::link

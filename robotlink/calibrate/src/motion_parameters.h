@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <set>
 
 #include <simcore/world/robot_model.h>
 
@@ -72,6 +73,33 @@ inline constexpr std::array<MotionParameter, motionParameterCount> motionParamet
     {"noise.imu_drift", nullptr, &sim::NoiseParameters::imuDrift, sigmaPrior, 0.0001},
 }};
 // clang-format on
+
+/// The actions that a number of the gait belongs to; none for noise.
+inline std::set<int> actionsOf(std::size_t parameter) {
+  switch (parameter) {
+    case motionForwardFast:
+      return {1};
+    case motionForwardSlow:
+      return {8};
+    case motionBackwardFast:
+      return {17};
+    case motionBackwardSlow:
+      return {18};
+    case motionSideways:
+      return {6, 7};
+    case motionTurn:
+      return {2, 3};
+    case motionAroundSideways:
+    case motionAroundTurn:
+      return {9, 14};
+    case motionAcceleration:
+      return {1, 6, 7, 8, 9, 14, 17, 18};
+    case motionYawAcceleration:
+      return {2, 3, 9, 14};
+    default:
+      return {};
+  }
+}
 
 /// Logarithms, in the order of the table.
 using MotionLogs = std::array<double, motionParameterCount>;

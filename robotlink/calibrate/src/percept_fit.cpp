@@ -37,26 +37,80 @@ GridPosterior ratePosterior(double base, const std::function<double(double)>& lo
   });
 }
 
+struct MissedImages {
+  std::size_t missed = 0, all = 0;
+};
+
+/// Nine of ten balls that were seen were nearer. m.
+double usualDistance(const CalibrationLog& log) {
+  std::vector<double> all;
+  for (const CalibrationRow& row : log.rows) {
+    if (row.ball) all.push_back(row.ball->distance);
+  }
+  if (all.empty()) return 0.0;
+  const auto at = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 9 / 10);
+  std::nth_element(all.begin(), at, all.end());
+  return *at;
+}
+
+/// Counts the images between the first and the last that show the ball. Both were chosen because
+/// they show it, and do not count themselves. A ball at the edge of the view or of the range comes
+/// and goes: what is near a moment in which it came or went is left out, and so is a ball that was
+/// last seen far away or beside the robot.
+MissedImages missedImages(const CalibrationLog& log, double panLimit) {
+  constexpr double edge = 0.5;  // s
+  const auto& rows = log.rows;
+  const double far = usualDistance(log);
+  MissedImages out;
+  std::optional<std::size_t> first, last;  // seen
+  bool cameIntoView = false;
+  double looksSince = -1e9;
+  const auto close = [&](bool leftView) {
+    if (!first) return;
+    const double from = rows[*first].time + (cameIntoView ? edge : 0.0);
+    const double to = rows[*last].time - (leftView ? edge : 0.0);
+    bool wellInView = false;
+    for (std::size_t i = *first; i < *last; ++i) {
+      const bool lost = rows[i].ballLost.value_or(true);
+      if (!lost && !rows[i].ball) continue;  // no new image
+      if (wellInView && i > *first && rows[i].time >= from && rows[i].time <= to) {
+        ++out.all;
+        if (lost) ++out.missed;
+      }
+      if (!lost) {
+        wellInView = rows[i].ball->distance < far && std::abs(rows[i].ball->bearing) < panLimit;
+      }
+    }
+    first.reset();
+  };
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double time = rows[i].time;
+    const bool lost = rows[i].ballLost.value_or(true);
+    if (!rows[i].looksForBall || !rows[i - 1].looksForBall || rows[i].fallen) {
+      close(first && time - rows[*last].time >= longestMissing);
+      looksSince = time;
+      continue;
+    }
+    if (first && time - rows[*last].time >= longestMissing) close(true);
+    if (lost || !rows[i].ball) continue;
+    if (!first) {
+      first = i;
+      cameIntoView = time - looksSince >= longestMissing;
+    }
+    last = i;
+  }
+  close(true);
+  return out;
+}
+
 void fitMissed(std::span<const CalibrationLog> logs, Calibration& out) {
   const char* key = "noise.missed_detection";
   std::size_t missed = 0, all = 0;
   for (const CalibrationLog& log : logs) {
     if (!log.has("VISION_LOST") || log.period > 0.12) continue;
-    const auto& rows = log.rows;
-    std::optional<std::size_t> last;  // seen
-    for (std::size_t i = 1; i < rows.size(); ++i) {
-      if (!rows[i].looksForBall || !rows[i - 1].looksForBall || rows[i].fallen) {
-        last.reset();
-        continue;
-      }
-      if (rows[i].ballLost.value_or(true)) continue;
-      if (last && rows[i].time - rows[*last].time < longestMissing) {
-        // The row that ends a stretch is seen by definition only if the stretch ends there.
-        missed += i - *last - 1;
-        all += i - *last;
-      }
-      last = i;
-    }
+    const MissedImages images = missedImages(log, out.base.panLimit);
+    missed += images.missed;
+    all += images.all;
   }
   if (all < 200) {
     out.kept[key] = "the ball was in view for too short a time";
@@ -82,7 +136,7 @@ void fitCorners(std::span<const MotionFilter> filters, std::span<const Calibrati
     const auto delay = static_cast<std::size_t>(std::lround(motion.delay / log.period));
     for (std::size_t i = delay; i < log.rows.size(); ++i) {
       const MotionState& state = motion.ofLogs[f].states[i - delay];
-      if (!state.known || filters[f].disturbed()[i]) continue;
+      if (!state.known || !state.placed || filters[f].disturbed()[i]) continue;
       int inView = 0, seen = 0;
       bool sure = true;
       for (std::size_t c = 0; c < corners.size(); ++c) {
@@ -184,9 +238,10 @@ struct Crossings {
 void findCrossings(const CalibrationLog& log, const MotionFilter& filter,
                    const MotionFit::OfLog& fit, double delay_s, const sim::RobotModel& model,
                    Crossings& out) {
-  constexpr double quiet = 0.3;     // s without the ball on the far side
-  constexpr double stretch = 0.25;  // s that are looked at on the far side
-  constexpr double later = 2.0;     // s after which the place of a ball that has come is known well
+  constexpr double quiet = 0.3;              // s without the ball on the far side
+  constexpr double stretch = 0.25;           // s that are looked at on the far side
+  constexpr double crossingInterval = 10.0;  // s
+  constexpr double later = 2.0;  // s after which the place of a ball that has come is known well
   const auto& rows = log.rows;
   if (log.period > coarsest || !log.has("VISION_LOST")) return;
   const auto heads = headYaws(log, model);
@@ -196,6 +251,8 @@ void findCrossings(const CalibrationLog& log, const MotionFilter& filter,
   };
   const std::size_t far = ticks(quiet), near = ticks(quiet);
   const auto seenAt = [&](std::size_t i) { return rows[i].ball.has_value(); };
+  double lastAngle = -1e9, lastDistance = -1e9;  // s, of a crossing that counts
+  const double farthest = usualDistance(log);    // beyond, it may be the range that ends
   for (std::size_t i = near + delay + 1; i + near + delay + ticks(later) < rows.size(); ++i) {
     if (!seenAt(i)) continue;
     const auto none = [&](std::size_t from, std::size_t to) {
@@ -258,7 +315,8 @@ void findCrossings(const CalibrationLog& log, const MotionFilter& filter,
 
     // In the middle of the picture it can only be too far away; at its edge only there.
     const bool byDistance = heads[image].has_value() && at->angle < 0.17 && at->distance > 1.0;
-    const bool byAngle = heads[image].has_value() && at->angle > 0.26;
+    const bool byAngle =
+        heads[image].has_value() && at->angle > 0.26 && at->distance < 0.9 * farthest;
     if (!byDistance && !byAngle) continue;
     Crossing crossing;
     crossing.seen = byAngle ? at->angle : at->distance;
@@ -269,6 +327,10 @@ void findCrossings(const CalibrationLog& log, const MotionFilter& filter,
       crossing.beyond.push_back(byAngle ? next->angle : next->distance);
     }
     if (crossing.beyond.empty() || crossing.beyond.back() <= crossing.seen) continue;
+    // What the filter does not know of the ball is the same for crossings close together.
+    double& last = byAngle ? lastAngle : lastDistance;
+    if (rows[i].time - last < crossingInterval) continue;
+    last = rows[i].time;
     (byAngle ? out.angles : out.distances).push_back(std::move(crossing));
   }
 }

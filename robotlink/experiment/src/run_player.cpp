@@ -207,6 +207,20 @@ Result<RunResult> recordAgain(const std::string& folder, const Experiment& exper
       path);
 }
 
+std::optional<bool> isRunRepeatable(const std::string& session) {
+  const std::filesystem::path file(session);
+  const std::string folder = file.parent_path().parent_path().string();
+  std::size_t number = 0;
+  if (std::sscanf(file.filename().c_str(), "run-%zu.mcap", &number) != 1 ||
+      file != std::filesystem::path(sessionPath(folder, number))) {
+    return std::nullopt;
+  }
+  const auto experiment = experimentOf(folder);
+  if (!experiment) return std::nullopt;
+  const auto result = resultOf(folder, *experiment, number);
+  return result ? std::optional(result->match.repeatable) : std::nullopt;
+}
+
 namespace {
 
 /// Runs that cannot be played again are recorded while they are played, those that are wanted when

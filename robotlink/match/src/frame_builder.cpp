@@ -49,7 +49,7 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   out.snapshot = m_snapshot;
   out.robots.resize(state.robots.size());
   fillTeams(state.settings.teams, out.teams);
-  takeProcesses(match.robots().processes());
+  takeProcesses(match.robots());
   if (!still && m_last != Time{}) m_playing += std::chrono::duration<double>(now - m_last).count();
   m_last = now;
   for (std::size_t i = 0; i < state.robots.size(); ++i) {
@@ -71,6 +71,9 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   out.matchNumber = claim ? std::optional(claim->number().value) : std::nullopt;
   out.inLockStep = match.pace().inLockStep();
   out.slowestTeamProgram = match.pace().slowestTeamProgram();
+  const ProcessPace::Wait* wait = still ? nullptr : match.pace().waitedFor(now);
+  const auto late = wait != nullptr ? simulation.indexOf(wait->robot) : std::nullopt;
+  out.waitsFor = late ? out.robots[*late].name + " " + wait->process : std::string();
   std::erase_if(m_lamps, [&](const auto& entry) { return !simulation.indexOf(entry.first); });
   if (still || now - m_debugTime >= debugInterval) {
     m_cognitionDebug = match.cognitionDebug();
@@ -110,7 +113,8 @@ std::shared_ptr<const FrameSettings> FrameBuilder::settingsOf(const sim::WorldSt
 }
 
 /// Copied when something changed; the frames of a second share one copy.
-void FrameBuilder::takeProcesses(const ProcessManager& processes) {
+void FrameBuilder::takeProcesses(const RobotSlots& robots) {
+  const ProcessManager& processes = robots.processes();
   if (std::exchange(m_processVersion, processes.version()) == processes.version()) return;
   std::map<RobotId, std::vector<ProcessSummary>> byRobot;
   for (const ProcessStatus& one : processes.statuses()) {
@@ -119,8 +123,14 @@ void FrameBuilder::takeProcesses(const ProcessManager& processes) {
                                   one.heartbeatAge, one.foreign, one.speed, one.achieved,
                                   whyRealTime(one.clock), one.missedCycles});
   }
+  // In the order of the robot's runtime profile, whichever was started last.
+  std::map<int, std::size_t> places;
+  for (const auto& slot : robots.all()) {
+    for (std::size_t i = 0; i < slot->processes.size(); ++i) places[slot->processes[i]->id] = i;
+  }
   m_processes.clear();
   for (auto& [robot, list] : byRobot) {
+    std::ranges::stable_sort(list, {}, [&places](const auto& one) { return places[one.id]; });
     m_processes[robot] = std::make_shared<const std::vector<ProcessSummary>>(std::move(list));
   }
 }

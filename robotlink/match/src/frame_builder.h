@@ -36,7 +36,7 @@ class FrameBuilder {
   };
   void fillRobot(const SimulatedMatch& match, RobotFrame& out);
   std::shared_ptr<const FrameSettings> settingsOf(const sim::WorldState& state);
-  void takeProcesses(const ProcessManager& processes);
+  void takeProcesses(const RobotSlots& robots);
   void fillSpeed(const SimulatedMatch& match, Time now, bool still, MatchFrame& out);
 
   std::deque<Sample> m_samples;

@@ -14,6 +14,7 @@ using SteadyClock = std::chrono::steady_clock;
 using Seconds = RestartRule::Seconds;
 
 constexpr auto glance = 20ms;  // between two looks at the processes while one is waited for
+constexpr auto worthTelling = 250ms;
 constexpr Seconds leastTimeToStart{10.0};  // of a process on a busy computer
 constexpr auto worthWaiting = 1s;          // for a restart; longer, the match goes on without it
 
@@ -186,6 +187,9 @@ void LockStep::runSeparate(RobotSlot& slot, SlotProcess& process) {
     }
     // Also reads what it writes: a full pipe would hold it up.
     if (waited > glance) m_pace.lookAfterProcesses(SteadyClock::now());
+    if (waited > worthTelling) {
+      m_pace.tellWait({slot.id, process.profile.name, SteadyClock::now()});
+    }
   }
   process.given = false;
   processes.setSilent(process.id, false, SteadyClock::now());

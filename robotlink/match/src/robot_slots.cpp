@@ -11,6 +11,7 @@
 #include <base/system_reason.h>
 #include <base/try.h>
 #include <robotlink/advisor/reference_processes.h>
+#include <robotlink/cognition/advice.h>
 #include <robotlink/match/moment.h>
 #include <robotlink/models/robot_models.h>
 #include <robotlink/processes/robot_config.h>
@@ -250,6 +251,29 @@ Result<void> RobotSlots::setRuntime(RobotId id, const RuntimeChoice& choice) {
     slot.processes.clear();
     return {};
   });
+}
+
+Result<void> RobotSlots::setAdvisor(TeamColor team, const std::optional<AdvisorOptions>& advisor) {
+  auto& advisors = m_base.scenario.advisors;
+  const auto before = advisors;
+  if (advisor) {
+    advisors[team] = *advisor;
+  } else {
+    advisors.erase(team);
+  }
+  const auto done = changeAll([&]() -> Result<void> {
+    for (const auto& slot : m_slots) {
+      if (identityOf(slot->id).team != team) continue;
+      std::erase_if(slot->processes,
+                    [](const auto& one) { return one->profile.onlyFor == OnlyFor::Advised; });
+      if (!advisor) {
+        writeIfPresent(slot->board, AdvisorVariables().state, static_cast<int>(AdvisorState::Off));
+      }
+    }
+    return {};
+  });
+  if (!done) advisors = before;
+  return done;
 }
 
 Result<void> RobotSlots::setIdentity(const sim::RobotIdentity& identity) {

@@ -186,6 +186,8 @@ MatchFrame RecordedFrames::build(double time, LookBack&& lookBack,
     if (layout.robot.value == 0) continue;
     if (match && std::abs(rowTime - m_rows[*match].time) > timeTolerance) continue;
     const auto [known, isNew] = m_lamps.try_emplace(i);
+    // What a later moment had shown does not count before a process can have worked.
+    if (jumps && time <= flagMemory) known->second = {};
     if (jumps) known->second.jump();
     if (jumps || isNew) lookBack(i, layout, time - flagMemory, known->second);
     RobotFrame robot = robotOf(i, time, known->second, frame);

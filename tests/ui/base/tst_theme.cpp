@@ -101,6 +101,16 @@ class TestTheme : public QObject {
             painted(QStringLiteral("TIMEOUT 4 min 50 s")));
   }
 
+  void wordsEndWhole() {
+    const QFontMetricsF metrics(themeFont(TypeRole::Body));
+    const auto shown = [&metrics](const char* room) {
+      return elidedWords(metrics, QStringLiteral("walk forward, fast"),
+                         metrics.horizontalAdvance(QString::fromUtf8(room)));
+    };
+    QCOMPARE(shown("walk forward, f…"), QStringLiteral("walk forward…"));
+    QVERIFY(shown("walk forwa…").startsWith(QStringLiteral("walk for")));
+  }
+
   void switches() {
     setTheme(*qApp, ThemeChoice::Dark);
     QVERIFY(isDarkTheme());

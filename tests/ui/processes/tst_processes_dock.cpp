@@ -226,6 +226,41 @@ class TestProcessesDock : public QObject {
                               30'000);
   }
 
+  // A process that holds up lock-step is named.
+  void theProcessThatDelaysLockStepIsNamed() {
+    open(oneRobot());
+    QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && now() > 0.5, 30'000);
+    m_controller->setPace(link::RobotsPace::LockStep);
+    QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame()->inLockStep, 30'000);
+    const pid_t pid = process("decision").pid;
+    QCOMPARE(::kill(pid, SIGSTOP), 0);
+    const auto named = [&] {
+      const link::MatchFrame& frame = *m_controller->frame();
+      return frame.waitsFor == frame.robots[0].name + " decision";
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(named(), 30'000);
+    (void)::kill(pid, SIGCONT);  // unless it has been replaced
+    QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame()->waitsFor.empty(), 30'000);
+  }
+
+  void aChangeOfBehaviourKeepsTheOrder() {
+    open(oneRobot());
+    QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
+    const auto names = [this] {
+      QStringList all;
+      for (const link::ProcessSummary& one : m_controller->frame()->robots[0].processes()) {
+        all << QString::fromStdString(one.name);
+      }
+      return all;
+    };
+    const QStringList before = names();
+    QVERIFY(before.size() > 2 && before.back() != QStringLiteral("decision"));
+    const pid_t pid = process("decision").pid;
+    m_controller->edits()->setBehaviour({RobotId{1}}, QStringLiteral("keeper"));
+    QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && process("decision").pid != pid, 30'000);
+    QCOMPARE(names(), before);
+  }
+
   // At 1x it is a choice, and the frame says which it is.
   void freelyOrInLockStep() {
     open(oneRobot());

@@ -3,6 +3,7 @@
 #include <QComboBox>
 #include <QMenu>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QToolButton>
@@ -228,6 +229,13 @@ class TestRefereePanel : public QObject {
     // The log is there without scrolling.
     const auto* log = desk.dock->findChild<QTableView*>("refereeLog");
     QVERIFY(log && log->viewport()->visibleRegion().boundingRect().height() >= scaled(log, 72));
+    // Nothing reaches beyond the panel, which does not scroll sideways.
+    const auto* panel = qobject_cast<QScrollArea*>(desk.dock.get());
+    auto* fold = desk.dock->findChild<QToolButton*>("refereeFold");
+    if (!fold->isChecked()) fold->click();
+    const int wide = panel->widget()->minimumSizeHint().width();
+    QVERIFY2(wide <= std::max(panel->viewport()->width(), scaled(panel, 280)),
+             qPrintable(QString::number(wide)));
   }
 
   void aGoalAndTheScoreboard() {

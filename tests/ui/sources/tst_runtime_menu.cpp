@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <QTemporaryDir>
 #include <QTimer>
+#include <QUndoStack>
 #include <QtTest>
 
 #include <robotlink/blackboard/system_v.h>
@@ -63,12 +64,14 @@ class TestRuntimeMenu : public QObject {
     return {};
   }
 
-  // Opens the robot's menu and clicks the entry of Runtime that begins like this.
-  static void choose(MatchController& controller, int robot, const QString& starts) {
+  // Opens the robot's menu and clicks the entry of Runtime, or another part of the menu, that
+  // begins like this.
+  static void choose(MatchController& controller, int robot, const QString& starts,
+                     decltype(&addRuntimeMenu) part = &addRuntimeMenu) {
     QWidget window;
     window.show();
     QMenu menu(&window);
-    addRuntimeMenu(&menu, &controller, {RobotId{robot}});
+    part(&menu, &controller, {RobotId{robot}});
     QCOMPARE(menu.actions().size(), 1);
     QMenu* runtime = menu.actions().front()->menu();
     runtime->popup(QPoint(20, 20));
@@ -147,6 +150,34 @@ class TestRuntimeMenu : public QObject {
     }
     // Its blackboard is there for a program that I start.
     QVERIFY(link::SystemVSegments::open(m_base + 200, link::AttachMode::AttachOnly));
+  }
+
+  /// A check box for the whole team; undo stops the processes.
+  void aTeamThinksAhead() {
+    MatchController controller(options());
+    controller.open(link::loadScenario("match-3v3").value());
+    QTRY_VERIFY_WITH_TIMEOUT(decisionOf(controller, 6).pid > 0, 30'000);
+    const auto advised = [&controller] {
+      std::vector<int> robots;
+      for (int robot = 1; robot <= 6; ++robot) {
+        for (const link::ProcessSummary& one : processesOf(controller, robot)) {
+          if (one.name == "advisor") robots.push_back(robot);
+        }
+      }
+      return robots;
+    };
+    const std::vector<int> blue{1, 2, 3}, nobody;
+    QCOMPARE(advised(), nobody);
+    choose(controller, 2, QStringLiteral("Advisor"), &addTeamMenu);
+    QTRY_COMPARE_WITH_TIMEOUT(advised(), blue, 30'000);
+    QVERIFY(controller.edits()->isAdvised(TeamColor::Blue));
+    controller.edits()->undoStack()->undo();
+    QTRY_COMPARE_WITH_TIMEOUT(advised(), nobody, 30'000);
+    controller.edits()->undoStack()->redo();
+    QTRY_COMPARE_WITH_TIMEOUT(advised(), blue, 30'000);
+    choose(controller, 3, QStringLiteral("Advisor"), &addTeamMenu);
+    QTRY_COMPARE_WITH_TIMEOUT(advised(), nobody, 30'000);
+    QVERIFY(!controller.edits()->isAdvised(TeamColor::Blue));
   }
 };
 

@@ -3,6 +3,7 @@
 // in a file and in the match, and back.
 #include <QComboBox>
 #include <QFileDialog>
+#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -124,6 +125,11 @@ class TestCalibrateDialog : public QObject {
     const double degrees = values->item(turn.front()->row(), 1)->text().toDouble();
     QVERIFY2(std::abs(degrees - 40.0) < 2.0, qPrintable(QString::number(degrees)));
     QCOMPARE(values->item(turn.front()->row(), 4)->text(), QStringLiteral("40"));
+    // The unit can be read without scrolling.
+    QCOMPARE(values->item(turn.front()->row(), 3)->text(), QStringLiteral("°/s"));
+    const auto* shown = values->horizontalHeader();
+    QVERIFY(shown->sectionViewportPosition(3) + shown->sectionSize(3) <=
+            values->viewport()->width());
     QVERIFY(!s.find<QTableWidget>("calibrateKept")
                  ->findItems(QStringLiteral("kick_speed"), Qt::MatchExactly)
                  .isEmpty());

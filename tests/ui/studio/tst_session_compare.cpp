@@ -4,9 +4,13 @@
 #include <QGraphicsView>
 #include <QMenu>
 #include <QToolButton>
+#include <chrono>
 #include <utility>
 
+#include <robotlink/live/live_pipeline.h>
+#include <robotlink/session/live_recorder.h>
 #include <telemetry/session/session_writer.h>
+#include <telemetry/wire/text_protocol.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/compared_session.h>
@@ -69,6 +73,36 @@ QString longSession(const QTemporaryDir& folder) {
     }
   }
   return (*writer)->finish() ? path : QString();
+}
+
+/// 30 s of two robots that were received five times a second, and walk round in a circle.
+QString liveSession(const QTemporaryDir& folder) {
+  const QString path = folder.filePath(QStringLiteral("live.mcap"));
+  link::LiveOptions options;
+  options.robots = 2;
+  const telemetry::WallTime zero{std::chrono::seconds(1'790'000'000)};
+  const auto recorder = link::LiveRecorder::create(path.toStdString(), options, zero);
+  if (!recorder) return {};
+  link::LivePipeline pipeline(options, zero);
+  pipeline.observe(*recorder, zero);
+  for (int step = 0; step < 150; ++step) {
+    const auto now = zero + std::chrono::milliseconds(200 * step);
+    for (const int robot : {1, 2}) {
+      telemetry::TextMessage m;
+      m.robot = robot;
+      m.x = 520 + static_cast<int>(200 * std::cos(0.02 * step + robot));
+      m.y = 390 + static_cast<int>(200 * std::sin(0.02 * step + robot));
+      m.control = m.vision = m.localization = m.decision = m.imu = 1;
+      const std::string text = telemetry::encode(m);
+      pipeline.take({now,
+                     {{0x0A000000U + static_cast<std::uint32_t>(robot)}, 41708},
+                     static_cast<std::uint16_t>(1240 + robot),
+                     false,
+                     text});
+    }
+    (void)pipeline.frame(now);
+  }
+  return (*recorder)->finish() ? path : QString();
 }
 
 /// Every kind of plot beside each other.
@@ -431,6 +465,32 @@ class TestSessionCompare : public QObject {
     std::vector<QImage> again;
     const auto same = [&] { return (again = pictures()) == first; };
     QTRY_VERIFY2(same(), qPrintable(way));
+  }
+
+  void trailsOfLiveRobotsLookTheSameAfterEveryWay() {
+    Studio s(0);
+    const QTemporaryDir files;
+    s.window.openSession(liveSession(files));
+    QTRY_VERIFY(s.window.replay()->isOpen() && s.window.replay()->loaded() == 1.0);
+    session_rig::closeNotice(s.window);
+    Timeline* timeline = s.window.timeline();
+    const auto pictureAt = [&](double time) {
+      timeline->seek(time);
+      const auto arrived = [&] {
+        const FramePtr frame = timeline->frame();
+        return frame && std::abs(frame->snapshot.time - time) < 0.02;
+      };
+      return QTest::qWaitFor(arrived) ? s.window.field()->grab().toImage() : QImage();
+    };
+    const QImage jumped = pictureAt(20.0);
+    QVERIFY(!jumped.isNull() && pictureAt(2.0) != jumped);
+    // Step by step, and from the future.
+    for (double time = 18.0; time < 20.0; time += 0.25) QVERIFY(!pictureAt(time).isNull());
+    QCOMPARE(pictureAt(20.0), jumped);
+    QVERIFY(pictureAt(20.5) != jumped);
+    QCOMPARE(pictureAt(20.0), jumped);
+    s.action("layer.trails")->setChecked(false);
+    QTRY_VERIFY(s.window.field()->grab().toImage() != jumped);
   }
 
   void anEnvelopeIsMarkedAndCompletesByItself() {

@@ -7,6 +7,8 @@
 #include <QToolButton>
 #include <QtTest>
 
+#include <robotlink/experiment/experiment_folder.h>
+#include <robotlink/experiment/run_player.h>
 #include <robotlink/live/live_state.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/state_archive.h>
@@ -50,6 +52,38 @@ class TestSessions : public QObject {
 
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void aRunThatIsNotRepeatableSaysSo() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString recorded = s.recorded(60);
+    QVERIFY(!recorded.isEmpty());
+    const auto* status = s.window.findChild<QLabel*>(QStringLiteral("statusProcesses"));
+    s.window.openSession(recorded);
+    QTRY_VERIFY(s.window.timeline()->isRecording());
+    QCOMPARE(status->text(), QString());
+    // The same file as a run of an experiment.
+    const QString folder = s.folder.filePath(QStringLiteral("results"));
+    const auto experiment = link::loadExperiment("paper-scenario-1");
+    QVERIFY(experiment);
+    auto results = link::ExperimentFolder::begin(folder.toStdString(), *experiment, false);
+    auto player = link::RunPlayer::create(*experiment, {});
+    QVERIFY(results && player);
+    for (const bool repeatable : {true, false}) {
+      const std::size_t number = repeatable ? 1 : 2;
+      auto result = player->play(number);
+      QVERIFY(result);
+      result->match.repeatable = repeatable;
+      QVERIFY(results->add(*result));
+      const auto path = QString::fromStdString(link::sessionPath(folder.toStdString(), number));
+      QVERIFY(QDir().mkpath(QFileInfo(path).path()) && QFile::copy(recorded, path));
+      s.window.openSession(path);
+      QTRY_COMPARE(s.window.replay()->path(), path);
+      QTRY_COMPARE(status->text(),
+                   repeatable ? QString() : QStringLiteral("Run is not repeatable"));
+      QCOMPARE(status->isVisible(), !repeatable);
+    }
+  }
 
   void lookingBackShowsWhatWas() {
     Studio s;

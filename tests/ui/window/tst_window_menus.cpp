@@ -216,6 +216,15 @@ class TestWindowMenus : public QObject {
     s.window.showPalette();
     auto* words = s.window.findChild<QLineEdit*>(QStringLiteral("paletteWords"));
     auto* list = s.window.findChild<QListView*>(QStringLiteral("paletteList"));
+    const auto* empty = s.window.findChild<QLabel*>(QStringLiteral("paletteEmpty"));
+    // An action that asks for more is as exact as one that does not.
+    QTest::keyClicks(words, QStringLiteral("export"));
+    QVERIFY(list->currentIndex().data().toString().endsWith(QStringLiteral(": Export…")));
+    QVERIFY(list->isVisible() && !empty->isVisible());
+    QTest::keyClicks(words, QStringLiteral(" xyz"));
+    QVERIFY(!list->isVisible() && empty->isVisible());
+    QCOMPARE(empty->text(), QStringLiteral("Nothing matches “export xyz”."));
+    words->clear();
     QTest::keyClicks(words, QStringLiteral("view: panels: referee"));
     QCOMPARE(list->currentIndex().data().toString(), QStringLiteral("View: Panels: Referee"));
     QTest::keyClick(words, Qt::Key_Return);

@@ -44,6 +44,17 @@ QList<Part> partsOf(const QString& text) {
   return parts;
 }
 
+/// Shortens words to a width; a letter or two of the last word, which say nothing, are left out.
+QString shortened(const QFontMetricsF& metrics, const QString& words, double width) {
+  constexpr qsizetype scrap = 2;  // letters
+  QString shown = metrics.elidedText(words, Qt::ElideRight, width);
+  const qsizetype space = shown.lastIndexOf(QLatin1Char(' '));
+  if (shown == words || space <= 0 || shown.size() - space - 2 > scrap) return shown;
+  shown.truncate(space);
+  while (!shown.isEmpty() && !shown.back().isLetterOrNumber()) shown.chop(1);
+  return shown + QChar(0x2026);
+}
+
 QString joined(const QList<Part>& parts) {
   QStringList texts;
   for (const Part& part : parts) texts << part.text;
@@ -62,7 +73,7 @@ QString elidedWords(const QFontMetricsF& metrics, const QString& text, double wi
     const QString whole = parts[i].text;
     parts[i].text.clear();
     const double room = width - metrics.horizontalAdvance(joined(parts));
-    parts[i].text = metrics.elidedText(whole, Qt::ElideRight, std::max(room, 0.0));
+    parts[i].text = shortened(metrics, whole, std::max(room, 0.0));
     if (parts[i].text.size() > dots.size() && fits(joined(parts))) return joined(parts);
     // What stands in front of a number has to be short, or may be left out.
     parts.removeAt(i);

@@ -107,8 +107,9 @@ QPalette paletteOf(const ThemeColors& c) {
   set(QPalette::HighlightedText, QColor(Qt::white));
   set(QPalette::Link, c.accentLine);
   set(QPalette::LinkVisited, c.accentLine);
-  for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText,
-                          QPalette::HighlightedText, QPalette::ToolTipText}) {
+  for (const auto role :
+       {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::HighlightedText,
+        QPalette::ToolTipText, QPalette::PlaceholderText}) {
     p.setColor(QPalette::Disabled, role, c.disabledText);
   }
   p.setColor(QPalette::Disabled, QPalette::Highlight, c.innerLine);
@@ -146,7 +147,7 @@ QStatusBar { border-top: 1px solid @edge; }
 QStatusBar::item { border: none; }
 QDockWidget > QWidget { border: none; }
 QTabBar#docks::tab, QMainWindow > QTabBar::tab {
-  padding: @4 @12; border: 1px solid transparent; border-top: 2px solid transparent;
+  padding: @4 @8; border: 1px solid transparent; border-top: 2px solid transparent;
   color: @secondary; background: transparent; }
 QTabBar::tab { padding: @3 @12; border: 1px solid transparent;
   border-bottom: 2px solid transparent; color: @secondary; background: transparent; }

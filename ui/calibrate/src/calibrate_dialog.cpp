@@ -98,6 +98,11 @@ QString fourDigits(double value) {
   return QString::number(value, 'g', 4);
 }
 
+/// Files say "degrees", which does not fit into a column.
+QString shortUnit(const std::string& unit) {
+  return QString::fromStdString(unit).replace(QLatin1String("degrees"), QStringLiteral("°"));
+}
+
 }  // namespace
 
 CalibrateDialog::CalibrateDialog(MatchController* match, QWidget* parent)
@@ -382,7 +387,7 @@ void CalibrateDialog::showValues() {
       addRow(m_values,
              {QString::fromStdString(value.key), fourDigits(w.value),
               QStringLiteral("%1 to %2").arg(fourDigits(w.low), fourDigits(w.high)),
-              QString::fromStdString(w.unit), base ? fourDigits(*base) : QStringLiteral("–"),
+              shortUnit(w.unit), base ? fourDigits(*base) : QStringLiteral("–"),
               QStringLiteral("%1 %2").arg(value.samples).arg(QString::fromStdString(value.of))});
     }
   }
@@ -391,6 +396,9 @@ void CalibrateDialog::showValues() {
   }
   m_values->resizeColumnsToContents();
   m_kept->resizeColumnsToContents();
+  // Long names are elided rather than the numbers scrolled out of view; the tooltip has them whole.
+  const int widestName = fontMetrics().averageCharWidth() * 29;
+  m_values->setColumnWidth(0, std::min(m_values->columnWidth(0), widestName));
 }
 
 std::vector<RobotId> CalibrateDialog::robotsOfMatch(bool team) const {

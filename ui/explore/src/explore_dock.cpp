@@ -7,15 +7,14 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QTableWidget>
-#include <QVBoxLayout>
 #include <cmath>
 
 #include <ui/base/explanation.h>
 #include <ui/base/robot_words.h>
+#include <ui/base/scrolled_form.h>
 #include <ui/base/table_style.h>
 #include <ui/base/time_axis.h>
 #include <ui/explore/explorer.h>
@@ -38,23 +37,13 @@ QString shareText(const rollout::Share& share) {
            numberText(100.0 * share.high, 1));
 }
 
-class ExploreDock : public QScrollArea {
+class ExploreDock : public ScrolledForm {
  public:
   ExploreDock(const ExploreDockParts& parts, QWidget* parent)
-      : QScrollArea(parent), m_parts(parts), m_explorer(parts.explorer) {
-    setFrameShape(QFrame::NoFrame);
-    setWidgetResizable(true);
-    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    auto* form = new QWidget(this);
-    auto* column = new QVBoxLayout(form);
-    const int edge = scaled(this, 8);
-    column->setContentsMargins(edge, edge, edge, edge);
-    column->setSpacing(scaled(this, 6));
-    addStart(form, column);
-    addResult(form, column);
-    column->addStretch(1);
-    setWidget(form);
-    setMinimumWidth(form->minimumSizeHint().width() + scaled(this, 14));
+      : ScrolledForm(parent, 8), m_parts(parts), m_explorer(parts.explorer) {
+    addStart(form(), column());
+    addResult(form(), column());
+    finishForm();
     connect(m_explorer, &Explorer::changed, this, [this] { showAll(); });
     connect(m_parts.source, &FrameSource::frameReceived, this, [this] { showRobots(); });
     connect(m_parts.source, &FrameSource::restarted, this, [this] { showRobots(); });
@@ -66,11 +55,11 @@ class ExploreDock : public QScrollArea {
 
  protected:
   void changeEvent(QEvent* event) override {
-    QScrollArea::changeEvent(event);
+    ScrolledForm::changeEvent(event);
     if (event->type() == QEvent::PaletteChange) showAll();
   }
   void showEvent(QShowEvent* event) override {
-    QScrollArea::showEvent(event);
+    ScrolledForm::showEvent(event);
     showRobots();
   }
 

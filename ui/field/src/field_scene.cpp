@@ -283,7 +283,7 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
   showOtherPose(robot, now);
 }
 
-// Rows know the way to any moment. What frames have shown is the way only while they go on.
+// Rows know the trail of any moment. What frames have shown is the trail only while they go on.
 void FieldScene::showTrail(Robot& robot, const link::RobotFrame& now) {
   const bool shown = now.poseKnown() && m_style.shows(FieldLayer::Trails) && isTrailShown(now.key);
   robot.trail.setVisible(shown);
@@ -293,7 +293,8 @@ void FieldScene::showTrail(Robot& robot, const link::RobotFrame& now) {
   const bool goesOn = passed >= 0.0 && passed <= longestGap;
   if (recorded || !goesOn) {
     const auto rows = shown && m_rows ? m_rows() : nullptr;
-    const auto places = rows ? trailOf(*rows, now, time) : std::vector<TrailItem::Place>();
+    const auto places = rows ? trailOf(*rows, now, m_frame->settings->field, time)
+                             : std::vector<TrailItem::Place>();
     if (!places.empty()) {
       robot.trail.set(places);
     } else if (!goesOn && recorded) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include <simcore/world/published_frame.h>
+
 namespace pitchboard::ui {
 namespace {
 
@@ -14,8 +16,14 @@ constexpr double rounding = 1e-6;  // s; files keep whole nanoseconds
 }  // namespace
 
 std::vector<TrailItem::Place> trailOf(const telemetry::SeriesStore& rows,
-                                      const link::RobotFrame& robot, double time) {
-  const auto x = rows.find(robot.name, "TRUE_X"), y = rows.find(robot.name, "TRUE_Y");
+                                      const link::RobotFrame& robot, const sim::FieldSpec& field,
+                                      double time) {
+  auto x = rows.find(robot.name, "TRUE_X"), y = rows.find(robot.name, "TRUE_Y");
+  const bool believed = !x || !y;
+  if (believed) {
+    x = rows.find(robot.name, "LOCALIZATION_X");
+    y = rows.find(robot.name, "LOCALIZATION_Y");
+  }
   if (!x || !y || x->group != y->group) return {};
   const auto view = rows.view(x->group);
   const auto known = view ? view->range() : std::nullopt;
@@ -33,7 +41,12 @@ std::vector<TrailItem::Place> trailOf(const telemetry::SeriesStore& rows,
   for (std::size_t i = 0; i < std::min(xs.size(), ys.size()); ++i) {
     const double step = std::floor((xs[i].time + rounding) * perSecond);
     if (std::exchange(last, step) != step) {
-      places.push_back({{xs[i].value, ys[i].value}, xs[i].time});
+      const Point at{xs[i].value, ys[i].value};
+      if (!std::isfinite(at.x) || !std::isfinite(at.y)) continue;
+      const Pose pose = believed
+                            ? sim::published_frame::studioFromLocalization(field, {at.x, at.y, 0.0})
+                            : Pose{at, 0.0};
+      places.push_back({pose.position, xs[i].time});
     }
   }
   return places;

@@ -7,15 +7,18 @@
 #include <vector>
 
 #include <robotlink/frame/robot_frame.h>
+#include <simcore/world/field.h>
 #include <telemetry/series/series_store.h>
 
 #include "trail_item.h"
 
 namespace pitchboard::ui {
 
-/// The true places of a simulated robot, ten a second, up to `time` (s). Empty for robots of Live,
-/// whose rows are written as their profile says, and while the rows are being read.
+/// Returns where a robot truly was, or believed to be where nobody knows the truth, ten times a
+/// second, up to `time` (s). Empty while the rows are being read, and for robots of Live whose
+/// profile gives their position a name of its own.
 std::vector<TrailItem::Place> trailOf(const telemetry::SeriesStore& rows,
-                                      const link::RobotFrame& robot, double time);
+                                      const link::RobotFrame& robot, const sim::FieldSpec& field,
+                                      double time);
 
 }  // namespace pitchboard::ui

@@ -219,7 +219,7 @@ QWidget* LiveSettingsDialog::makeReferee() {
   m_monitor->setObjectName(QStringLiteral("monitor"));
   m_monitorAddress = new QLineEdit(widget);
   m_monitorAddress->setObjectName(QStringLiteral("monitorAddress"));
-  m_monitorAddress->setPlaceholderText(QStringLiteral("address of the referee's computer"));
+  m_monitorAddress->setPlaceholderText(QStringLiteral("IP address"));
   connect(m_monitor, &QCheckBox::toggled, m_monitorAddress, &QWidget::setEnabled);
   form->addRow(m_monitor);
   form->addRow(QStringLiteral("Referee at"), m_monitorAddress);

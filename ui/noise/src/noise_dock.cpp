@@ -5,8 +5,6 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QScrollArea>
-#include <QVBoxLayout>
 #include <array>
 #include <functional>
 
@@ -14,6 +12,7 @@
 #include <ui/base/explanation.h>
 #include <ui/base/parameter_rows.h>
 #include <ui/base/robot_words.h>
+#include <ui/base/scrolled_form.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/robot_selection.h>
@@ -32,33 +31,26 @@ QLabel* partTitle(const QString& text, QWidget* parent) {
   return label;
 }
 
-class NoiseDock : public QScrollArea {
+class NoiseDock : public ScrolledForm {
  public:
   NoiseDock(MatchController* controller, RobotSelection* selection, const SourceSwitch* source,
             QWidget* parent)
-      : QScrollArea(parent), m_controller(controller), m_selection(selection), m_source(source) {
-    setFrameShape(QFrame::NoFrame);
-    setWidgetResizable(true);
-    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    auto* form = new QWidget(this);
-    auto* column = new QVBoxLayout(form);
-    const int edge = scaled(this, 8);
-    column->setContentsMargins(edge, 0, edge, edge);
-    column->setSpacing(scaled(this, 6));
-    addNoise(form, column);
-    addRobots(form, column);
-    addPhysics(form, column);
-    column->addStretch(1);
-    setWidget(form);
-    setMinimumWidth(form->minimumSizeHint().width() + scaled(this, 14));
+      : ScrolledForm(parent, 0),
+        m_controller(controller),
+        m_selection(selection),
+        m_source(source) {
+    addNoise(form(), column());
+    addRobots(form(), column());
+    addPhysics(form(), column());
+    finishForm();
     connect(m_controller, &MatchController::scenarioChanged, this, [this] { adopt(); });
     m_follow = Beat::display().add(this, {}, [this] { follow(); });
     connect(m_source, &FrameSource::frameReceived, this, [this] { m_follow->want(); });
     connect(m_controller->edits(), &MatchEdits::robotsChanged, this, [this] { showRobots(); });
     connect(m_controller->edits(), &MatchEdits::physicsChanged, this,
             [this] { showPhysics(m_controller->edits()->physics()); });
-    connect(m_controller->edits(), &MatchEdits::lockedChanged, form, [this, form](bool locked) {
-      form->setEnabled(!locked);
+    connect(m_controller->edits(), &MatchEdits::lockedChanged, this, [this](bool locked) {
+      form()->setEnabled(!locked);
       follow();
     });
     connect(m_selection, &RobotSelection::changed, this, [this] { showRobots(); });

@@ -205,7 +205,11 @@ void LanePane::paintLanes(QPainter& painter) const {
         // The line between neighbours: colours alone must not tell stretches apart.
         painter.fillRect(QRectF(from, y, 1.0, height), colors.view);
         const double room = box.width() - 2 * padding;
-        if (room < painter.fontMetrics().averageCharWidth() * 2) continue;
+        // Dots alone say nothing.
+        const QFontMetrics metrics = painter.fontMetrics();
+        if (room < std::min(4 * metrics.averageCharWidth(), metrics.horizontalAdvance(word))) {
+          continue;
+        }
         painter.setPen(colors.text);
         drawWords(painter, box.adjusted(padding, 0, -padding, 0), Qt::AlignLeft | Qt::AlignVCenter,
                   word, Qt::ElideRight);

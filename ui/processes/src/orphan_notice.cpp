@@ -24,12 +24,12 @@ void showOrphanNotice(NoticeBar* notices, MatchController* controller) {
   const QString sentence =
       keys.size() == 1
           ? QStringLiteral(
-                "An earlier run left a blackboard behind (key %1), with its old values. "
+                "A program that has ended left a blackboard behind (key %1), with its old values. "
                 "Removing it restarts the match.")
                 .arg(names.front())
           : QStringLiteral(
-                "An earlier run left %1 blackboards behind (keys %2), with their old "
-                "values. Removing them restarts the match.")
+                "Programs that have ended left %1 blackboards behind (keys %2), with their "
+                "old values. Removing them restarts the match.")
                 .arg(keys.size())
                 .arg(names.join(QStringLiteral(", ")));
   notices->show({QStringLiteral("orphans")}, sentence,

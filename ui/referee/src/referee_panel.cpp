@@ -87,6 +87,7 @@ class RefereePanel : public QScrollArea {
     m_column->addWidget(m_log, 1);
     m_rules = new RulesFold(context.controller, m_inside);
     m_column->addWidget(m_rules);
+    m_column->addStretch(0);  // only while the log is hidden
     setWidget(m_inside);
     for (const KeyedCall& one : keyedCalls) {
       addKey(QString::fromUtf8(one.words), one.key,
@@ -158,16 +159,16 @@ class RefereePanel : public QScrollArea {
   }
 
   void addState() {
-    QWidget* row = nullptr;
-    addRow(row);
+    addRow(m_stateRow);
     m_state = label("refereeState", TypeRole::Score);
     QFont large = m_state->font();
     large.setPointSizeF(large.pointSizeF() * 1.3);
     m_clock = label("refereeClock", TypeRole::Score);
     for (QLabel* one : {m_state, m_clock}) one->setFont(large);
-    row->layout()->addWidget(m_state);
-    static_cast<QHBoxLayout*>(row->layout())->addStretch(1);
-    row->layout()->addWidget(m_clock);
+    auto* row = static_cast<QHBoxLayout*>(m_stateRow->layout());
+    row->addWidget(m_state);
+    row->addStretch(1);
+    row->addWidget(m_clock);
     for (auto [line, name] :
          {std::pair{&m_detail, "refereeSetPlay"}, std::pair{&m_truth, "refereeTruth"}}) {
       *line = label(name, TypeRole::Secondary);
@@ -375,7 +376,10 @@ class RefereePanel : public QScrollArea {
   }
 
   void showState(const link::MatchFrame* frame) {
-    if (frame == nullptr || !frame->referee) {
+    const bool any = frame != nullptr && frame->referee;
+    m_stateRow->setVisible(any);
+    m_log->setVisible(any || m_log->model()->rowCount() > 0);
+    if (!any) {
       m_state->setText({});
       m_clock->setText({});
       const SourceKind kind = m_context.source->kind();
@@ -493,6 +497,7 @@ class RefereePanel : public QScrollArea {
 
   RefereeContext m_context;
   QWidget* m_inside;
+  QWidget* m_stateRow = nullptr;
   QVBoxLayout* m_column = nullptr;
   QLabel *m_state = nullptr, *m_clock = nullptr, *m_detail = nullptr, *m_truth = nullptr,
          *m_who = nullptr;

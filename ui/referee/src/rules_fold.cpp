@@ -88,11 +88,12 @@ void RulesFold::addFormations() {
                              Qt::ToolTipRole);
   }
   row->addWidget(m_formation, 1);
+  row = addRow(m_inside);  // a docked panel has no room for three
   for (const bool left : {true, false}) {
     auto* load = new QPushButton(
         left ? QStringLiteral("Left attacks") : QStringLiteral("Right attacks"), m_inside);
     connect(load, &QPushButton::clicked, this, [this, left] { loadFormation(left); });
-    row->addWidget(load);
+    row->addWidget(load, 1);
   }
   m_asSetPlay = new QCheckBox(QStringLiteral("Also give the set play"), m_inside);
   m_asSetPlay->setObjectName(QStringLiteral("refereeAsSetPlay"));
@@ -121,6 +122,7 @@ void RulesFold::addBall() {
   };
   m_x = box("refereeBallX", "To the right of the centre mark");
   m_y = box("refereeBallY", "Up from the centre mark");
+  row = addRow(m_inside);
   const auto place = [&](const char* text, const char* tip, const char* key,
                          const std::function<Point()>& where) {
     auto* button = new QPushButton(QString::fromUtf8(text), m_inside);

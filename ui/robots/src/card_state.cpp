@@ -229,7 +229,7 @@ CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
     card.action = QStringLiteral("last: %1").arg(card.action);
   }
   const QString advice = adviceOf(robot);
-  if (!advice.isEmpty()) card.action += QStringLiteral(" \u2192 ") + advice;
+  if (!advice.isEmpty()) card.action += adviceMark + advice;
   if (robot.link) {
     card.detail = linkText(*robot.link);
     card.detailTip = linkTip(robot);

@@ -208,12 +208,10 @@ void RobotCard::paintLamps(QPainter& painter) const {
     const auto index = static_cast<std::size_t>(i);
     const LampState state = m_state.lamps[index].state;
     const QRect box = lampRect(i);
-    QFont font = themeFont(TypeRole::Small, true);
     if (state == LampState::Working) {
       drawRoundBox(painter, box, 2, m_collapsed ? theme().workingMark : theme().workingGround);
       painter.setPen(theme().workingText);
     } else if (state == LampState::Silent) {
-      font.setStrikeOut(true);
       painter.setPen(theme().errorText);
       painter.setBrush(theme().errorGround);
       painter.drawRoundedRect(sharp(box), 2, 2);
@@ -228,8 +226,12 @@ void RobotCard::paintLamps(QPainter& painter) const {
       painter.setPen(theme().disabledText);
     }
     if (m_collapsed) continue;
-    painter.setFont(font);
+    painter.setFont(themeFont(TypeRole::Small, true));
     drawWords(painter, box, Qt::AlignCenter, QString(QLatin1Char(CardState::letters[index])));
+    if (state != LampState::Silent) continue;
+    const int inset = box.width() / 4;
+    const int middle = box.center().y();
+    painter.drawLine(box.left() + inset, middle, box.right() - inset, middle);
   }
 }
 
@@ -255,7 +257,12 @@ void RobotCard::paintFoot(QPainter& painter) const {
   painter.setFont(themeFont(TypeRole::Body));
   painter.setPen(m_state.timedOut ? theme().disabledText : theme().text);
   const QRect room = row.adjusted(0, 0, -taken, 0);
-  drawWords(painter, room, Qt::AlignLeft | Qt::AlignVCenter, m_state.action, Qt::ElideRight);
+  // Advice gives way as a whole, because its value without the words says nothing.
+  QString action = m_state.action;
+  if (painter.fontMetrics().horizontalAdvance(action) > room.width()) {
+    action = action.section(adviceMark, 0, 0);
+  }
+  drawWords(painter, room, Qt::AlignLeft | Qt::AlignVCenter, action, Qt::ElideRight);
 }
 
 const CardValue* RobotCard::value(const QString& name) const {

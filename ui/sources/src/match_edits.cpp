@@ -66,6 +66,7 @@ MatchEdits::MatchEdits(MatchController* match)
     for (const link::ScenarioRobot& entry : scenario.robots) {
       m_robots.emplace(entry.identity.id, entry);
     }
+    m_advisors = scenario.advisors;
     takePhysics(scenario.settings.physics);
   });
 }
@@ -370,6 +371,42 @@ void MatchEdits::setModel(const std::vector<RobotId>& ids, const sim::RobotModel
 
 void MatchEdits::setRuntime(RobotId id, const link::RuntimeChoice& choice) {
   change(runtimeField, {{id, choice}}, QStringLiteral("Change the runtime of %1"));
+}
+
+void MatchEdits::adviseTeam(TeamColor team, const std::optional<link::AdvisorOptions>& advisor) {
+  const auto before = m_advisors;
+  if (advisor) {
+    m_advisors[team] = *advisor;
+  } else {
+    m_advisors.erase(team);
+  }
+  m_match->post({QStringLiteral("Could not change the advisor of the team"),
+                 [team, advisor](link::SimulatedMatch& match) {
+                   return match.robots().setAdvisor(team, advisor);
+                 },
+                 [this, before] {
+                   m_advisors = before;
+                   emit robotsChanged();
+                 },
+                 {},
+                 link::Changed::No});
+  emit robotsChanged();
+}
+
+void MatchEdits::setAdvised(TeamColor team, bool on) {
+  if (on == isAdvised(team)) return;
+  std::optional<link::AdvisorOptions> before, after;
+  if (on) {
+    after.emplace();
+  } else {
+    before = m_advisors.at(team);  // with its numbers
+  }
+  const std::string_view name = info(team).name;
+  const QString who = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+  perform({on ? QStringLiteral("Turn on the advisor of team ") + who
+              : QStringLiteral("Turn off the advisor of team ") + who,
+           [this, team, after] { adviseTeam(team, after); },
+           [this, team, before] { adviseTeam(team, before); }});
 }
 
 void MatchEdits::takePhysics(const std::string& name) {

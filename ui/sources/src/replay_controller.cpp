@@ -6,6 +6,7 @@
 #include <atomic>
 #include <limits>
 
+#include <robotlink/experiment/run_player.h>
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_events.h>
@@ -104,6 +105,7 @@ struct ReplayController::File {
   bool broken = false;
   bool live = false;   ///< moments are made of datagrams, which only the file holds
   bool paged = false;  ///< its rows do not fit
+  bool unrepeatable = false;
   std::atomic<double> whole = -std::numeric_limits<double>::infinity();  ///< readRows()
   double start = 0.0;
   QStringList notes;
@@ -163,6 +165,10 @@ bool ReplayController::isBroken() const {
   return m_file && m_file->broken;
 }
 
+bool ReplayController::isUnrepeatable() const {
+  return m_file && m_file->unrepeatable;
+}
+
 std::string ReplayController::attachedScenario() const {
   return m_file ? m_file->scenario : std::string();
 }
@@ -219,6 +225,7 @@ void ReplayController::open(const QString& path) {
         file->scenario = std::move(*scenario);
       }
       file->broken = !file->session.complete();
+      file->unrepeatable = !link::isRunRepeatable(path.toStdString()).value_or(true);
     }
     m_toUi.post([this, file, problem, path, mine] {
       if (mine != m_generation) return;

@@ -159,6 +159,18 @@ void addTeamMenu(QMenu* menu, MatchController* controller, const std::vector<Rob
         addChoice(group, team, capitalised(color.name), chosen), &QAction::triggered, controller,
         [controller, ids, to = color.color] { controller->edits()->setTeam(ids, to); });
   }
+  if (ids.empty()) return;
+  const TeamColor its = controller->edits()->robot(ids.front())->identity.team;
+  const auto isMate = [its](const link::ScenarioRobot& r) { return r.identity.team == its; };
+  if (!allOf(*controller, ids, isMate)) return;
+  team->addSeparator();
+  QAction* advisor = team->addAction(QStringLiteral("Advisor"));
+  advisor->setToolTip(QStringLiteral("The team's robots think ahead before they decide"));
+  advisor->setCheckable(true);
+  advisor->setChecked(controller->edits()->isAdvised(its));
+  QObject::connect(advisor, &QAction::triggered, controller,
+                   [controller, its](bool on) { controller->edits()->setAdvised(its, on); });
+  team->setToolTipsVisible(true);
 }
 
 void addNumberMenu(QMenu* menu, MatchController* controller, RobotId id) {

@@ -17,9 +17,13 @@ using telemetry::SeriesBucket;
 
 constexpr double silence = 10.0;  // s; what stands there after it is history
 
+/// Missing values are the same, too.
+bool sameValue(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
 bool same(const SeriesBucket& a, const SeriesBucket& b) {
-  const auto equal = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
-  return equal(a.min, b.min) && equal(a.max, b.max) && equal(a.last, b.last) &&
+  return sameValue(a.min, b.min) && sameValue(a.max, b.max) && sameValue(a.last, b.last) &&
          (a.samples == 0) == (b.samples == 0);
 }
 
@@ -63,13 +67,11 @@ bool VariablesModel::read(VariableNode& variable, int sparkPixels) const {
   bool changed = newest.has_value() != variable.known;
   variable.known = newest.has_value();
   if (!newest) return changed;
-  const bool sameValue =
-      newest->value == variable.value || (std::isnan(newest->value) && std::isnan(variable.value));
-  changed = changed || !sameValue;
+  changed = changed || !sameValue(newest->value, variable.value);
   variable.value = newest->value;
   if (variable.info.kind == ColumnKind::Number) {
     const double rate = changePerSecond(view, variable.column, *newest);
-    changed = changed || rate != variable.ratePerSecond;
+    changed = changed || !sameValue(rate, variable.ratePerSecond);
     variable.ratePerSecond = rate;
   }
   if (const auto last = view.lastChange(variable.column)) variable.lastChange = *last;

@@ -10,6 +10,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 #include <ui/base/words_filter.h>
 
@@ -75,7 +76,15 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* windo
   column->setSpacing(gap);
   column->addWidget(m_words);
   column->addWidget(m_list, 1);
-  const auto first = [this] { m_list->setCurrentIndex(m_filter->index(best(), 0)); };
+  auto* empty = makeEmptyLabel(this, QStringLiteral("paletteEmpty"));
+  column->addWidget(empty, 1);
+  const auto first = [this, empty] {
+    const bool found = m_filter->rowCount() > 0;
+    m_list->setVisible(found);
+    empty->setVisible(!found);
+    empty->setText(QStringLiteral("Nothing matches “%1”.").arg(m_words->text().trimmed()));
+    m_list->setCurrentIndex(m_filter->index(best(), 0));
+  };
   connect(m_words, &QLineEdit::textChanged, this, [this, first](const QString& text) {
     m_filter->setWords(text);
     first();
@@ -115,13 +124,14 @@ void CommandPalette::changeEvent(QEvent* event) {
   if (event->type() == QEvent::ActivationChange && !isActiveWindow() && isVisible()) close();
 }
 
-// The first that is exactly what was typed, or ends with it: "log" is meant by "View: Log" rather
-// than by "Save log".
+// The first that is exactly what was typed, or ends with it: "log" means "View: Log" rather than
+// "Save log", and "export" means "Timeline: Export…" rather than "Export picture…".
 int CommandPalette::best() const {
   const QString typed = m_words->text().trimmed();
   if (typed.isEmpty()) return 0;
   for (int row = 0; row < m_filter->rowCount(); ++row) {
-    const QString text = m_filter->index(row, 0).data().toString();
+    QString text = m_filter->index(row, 0).data().toString();
+    if (text.endsWith(QChar(0x2026))) text.chop(1);
     if (!text.endsWith(typed, Qt::CaseInsensitive)) continue;
     const qsizetype before = text.size() - typed.size() - 1;
     if (before < 0 || !text[before].isLetterOrNumber()) return row;

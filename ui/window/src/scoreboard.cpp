@@ -104,7 +104,14 @@ void Scoreboard::paintEvent(QPaintEvent*) {
   painter.setPen(theme().innerLine);
   painter.setBrush(theme().button);
   painter.drawRoundedRect(tag, 3, 3);
-  word(place.adjusted(px(6), 0, -px(6), 0), m_state.state, tagFont, Qt::AlignHCenter);
+  const QRect inside = place.adjusted(px(6), 0, -px(6), 0);
+  QString state = m_state.state;
+  // The transport shows the pause, too, so it is what makes room.
+  const QString paused = QStringLiteral(" · paused");
+  if (QFontMetrics(tagFont).horizontalAdvance(state) > inside.width() && state.endsWith(paused)) {
+    state.chop(paused.size());
+  }
+  word(inside, state, tagFont, Qt::AlignHCenter);
 }
 
 }  // namespace pitchboard::ui

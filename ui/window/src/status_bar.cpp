@@ -161,7 +161,13 @@ void StudioStatusBar::showSource() {
         QStringLiteral("%1 of %2")
             .arg(momentText(m_context.timeline->shownTime(), 2, m_context.timeline->clock()),
                  momentText(m_context.timeline->now(), 0, m_context.timeline->clock())));
-    m_processes->clear();
+    const bool unrepeatable = m_context.replay->isUnrepeatable();
+    m_processes->setText(unrepeatable ? QStringLiteral("Run is not repeatable") : QString());
+    m_processes->setToolTip(
+        unrepeatable
+            ? QStringLiteral("A program decided that the match did not wait for. Playing the run "
+                             "again gives another result.")
+            : QString());
   } else {
     showMatch(*frame);
   }
@@ -236,8 +242,11 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
                                           .arg(frame.settings->seed));
   switch (m_context.controller->cognition()) {
     case link::Cognition::Separate:
-      m_processes->setText(frame.inLockStep ? QStringLiteral("Separate processes, in lock-step")
-                                            : QStringLiteral("Separate processes, running freely"));
+      m_processes->setText(
+          !frame.waitsFor.empty()
+              ? QStringLiteral("Lock-step waits for %1").arg(QString::fromStdString(frame.waitsFor))
+          : frame.inLockStep ? QStringLiteral("Separate processes, in lock-step")
+                             : QStringLiteral("Separate processes, running freely"));
       break;
     case link::Cognition::Inline:
       m_processes->setText(QStringLiteral("Processes run inside the studio"));

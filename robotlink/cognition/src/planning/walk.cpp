@@ -13,7 +13,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double planPeriod = 0.2;       // s: 5 Hz
 constexpr double robotClearance = 0.12;  // m between two bodies
 constexpr double roomyClearance = 0.30;  // of who has time
 constexpr double postClearance = 0.06;
@@ -62,7 +61,7 @@ std::optional<Act> Walk::step(const Surroundings& world, const Target& target) {
     if (std::abs(facing) < target.facing) return std::nullopt;
     return acts::turn(facing);
   }
-  if (m_path.points.empty() || world.now - m_planned >= planPeriod - 1e-9 ||
+  if (m_path.points.empty() || world.now - m_planned >= m_planPeriod - 1e-9 ||
       distance(m_plannedFor, target.pose.position) > 0.15) {
     plan(world, target);
   }

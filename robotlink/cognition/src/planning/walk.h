@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Walks to a target round everything that is known to stand in the way; plans five times a second.
+// Walks to a target round everything that is known to stand in the way.
 // Chooses among walking forward, sideways and backward the gait that gets it there first, turns
 // included: this body turns slowly (18 degrees a second). Studio frame; metres, radians, seconds.
 // Use from one thread.
@@ -27,11 +27,15 @@ struct Surroundings {
 
 class Walk {
  public:
+  static constexpr double usualPlanPeriod = 0.2;  ///< s between two plans
+
   /// `field` has this robot's radius; of the others it knows that of their league.
-  Walk(const sim::FieldSpec& field, double othersRadius, const sim::RobotModel& body)
+  Walk(const sim::FieldSpec& field, double othersRadius, const sim::RobotModel& body,
+       double planPeriod = usualPlanPeriod)
       : m_field(field),
         m_othersRadius(othersRadius),
         m_body(body),
+        m_planPeriod(planPeriod),
         m_planner(field.halfLength() + field.border - field.robotRadius,
                   field.halfWidth() + field.border - field.robotRadius) {}
 
@@ -49,6 +53,7 @@ class Walk {
   sim::FieldSpec m_field;
   double m_othersRadius;
   sim::RobotModel m_body;
+  double m_planPeriod;
   PathPlanner m_planner;
   Path m_path;
   double m_planned = -1e9;

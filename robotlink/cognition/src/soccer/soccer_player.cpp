@@ -10,6 +10,10 @@
 namespace pitchboard::link {
 namespace {
 
+// Paths are what a rollout takes most time for, and a path of a moment ago leads round nearly the
+// same.
+constexpr double planPeriod = 0.5;  // s
+
 using AnyBehaviour = std::variant<Striker, Supporter, Keeper, Idle>;
 
 Result<AnyBehaviour> behaviourOf(const BehaviourChoice& choice) {
@@ -47,7 +51,7 @@ Result<SoccerPlayer> SoccerPlayer::create(const SoccerPlayerOptions& options) {
   return SoccerPlayer(std::make_unique<Parts>(
       Parts{WorldModel(field, options.model, options.behaviour.parameters, options.facesLeft),
             std::move(behaviour),
-            Walk(field, options.field.robotRadius, options.model),
+            Walk(field, options.field.robotRadius, options.model, planPeriod),
             {}}));
 }
 

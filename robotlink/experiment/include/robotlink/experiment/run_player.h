@@ -75,6 +75,10 @@ Result<RunResult> recordAgain(const std::string& folder, const Experiment& exper
                               std::size_t number, const std::string& path,
                               const PlaySettings& settings);
 
+/// Returns whether a run that was recorded in this file gives the same result when it is played
+/// again, as its results folder says. Empty for a file that is not a run's session.
+std::optional<bool> isRunRepeatable(const std::string& session);
+
 struct PlayedRun {
   RunResult result;
   double wallSeconds = 0.0, simulatedSeconds = 0.0;

@@ -73,6 +73,7 @@ struct MatchFrame {
   std::optional<double> slowestTeamProgram;
   bool nobodyPlays = false;         ///< SimulatedMatch::nobodyPlays()
   bool inLockStep = true;           ///< the match waits for separate processes in every tick
+  std::string waitsFor;             ///< "B2 decision": delays lock-step; empty: none does
   std::string finishedBy;           ///< "goal", "ball_out", "duration"; empty unless finished
   std::uint64_t droppedEvents = 0;  ///< events that nobody took in time
   std::uint64_t droppedLogLines = 0;

@@ -9,6 +9,8 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include <robotlink/match/match_options.h>
 #include <robotlink/match/robot_slots.h>
@@ -66,6 +68,18 @@ class ProcessPace {
   bool hasAttached(const ProcessStatus& program) const;
   /// Lets team programs run for this time while the match stands still.
   void letTeamProgramsRun(std::chrono::duration<double> time);
+  /// A process that the match had to wait for in lock-step, long enough to be noticed.
+  struct Wait {
+    RobotId robot;
+    std::string process;
+    Time at;
+  };
+  void tellWait(Wait wait) { m_wait = std::move(wait); }
+  /// Returns the last such wait if it was less than three seconds ago, otherwise null.
+  const Wait* waitedFor(Time now) const {
+    constexpr std::chrono::seconds shown{3};
+    return m_wait && now - m_wait->at < shown ? &*m_wait : nullptr;
+  }
   /// Reports, as an event, that the robot's program did not finish its cycle in time.
   void tellLateCycle(const RobotSlot& slot);
   bool standsStill() const { return m_still; }
@@ -89,6 +103,7 @@ class ProcessPace {
   std::uint64_t m_ticks = 0;  // played
   double m_awaited = 0.0;     // s for which the match has waited for programs at ×1
   std::optional<Time> m_awaitedAt;
+  std::optional<Wait> m_wait;
   Time m_measured{};  // when m_reached was measured
   double m_measuredSeconds = 0.0;
 };

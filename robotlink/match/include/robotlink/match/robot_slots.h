@@ -111,6 +111,8 @@ class RobotSlots {
   Result<void> setBehaviour(RobotId id, const std::string& behaviour);
   /// Changes the robot's runtime and restarts all of its processes.
   Result<void> setRuntime(RobotId id, const RuntimeChoice& choice);
+  /// Lets the robots of a team think ahead with these numbers, or no longer (docs/advisor.md).
+  Result<void> setAdvisor(TeamColor team, const std::optional<AdvisorOptions>& advisor);
   /// Changes team and shirt of the robot with this id and restarts its processes. Error Conflict if
   /// another robot has this shirt.
   Result<void> setIdentity(const sim::RobotIdentity& identity);

@@ -21,6 +21,9 @@ struct Lamp {
   bool operator==(const Lamp&) const = default;
 };
 
+/// Stands between what a robot does and what its advisor suggests.
+inline const QString adviceMark = QStringLiteral(" \u2192 ");
+
 enum class TagKind { None, Warning, Error };
 
 /// An additional value on a card, such as "VISION_BALL_DIST", "83.2", "cm".
@@ -47,8 +50,8 @@ struct CardState {
   QString tagTip;  ///< tool tip that explains the tag in a sentence
   TagKind tagKind = TagKind::None;
   bool tagIsBattery = false;  ///< the tag repeats what the red battery shows
-  QString action;
-  QString detail;  ///< simulated: distance walked; live: state of the link
+  QString action;             ///< and what an advisor suggests, after adviceMark
+  QString detail;             ///< simulated: distance walked; live: state of the link
   QString detailTip;
   bool live = false;                          ///< a live robot
   bool timedOut = false;                      ///< offline: the card is grey

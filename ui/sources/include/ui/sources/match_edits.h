@@ -86,6 +86,9 @@ class MatchEdits : public QObject {
   /// Changes the shirt number; emits `failed` if a team-mate has it.
   void setNumber(RobotId id, int number);
   void setBehaviour(const std::vector<RobotId>& ids, const QString& behaviour);
+  /// Returns whether the team thinks ahead (docs/advisor.md).
+  bool isAdvised(TeamColor team) const { return m_advisors.contains(team); }
+  void setAdvised(TeamColor team, bool on);
   /// Changes the robot model. Changes of the same robots within a second become one command.
   void setModel(const std::vector<RobotId>& ids, const sim::RobotModel& model);
   /// Changes the physics model, with which the match continues (Simulation::setPhysics()).
@@ -127,8 +130,8 @@ class MatchEdits : public QObject {
   /// Another match was started, and undo brings the old one back. `done` is such as "Match
   /// restarted".
   void replaced(const QString& done);
-  /// Team, number, behaviour, runtime or model of a robot changed, by an edit, by undo, or back to
-  /// the old value because the match refused the edit.
+  /// Team, number, behaviour, runtime, advisor or model of a robot changed, by an edit, by undo, or
+  /// back to the old value because the match refused the edit.
   void robotsChanged();
   void physicsChanged();
   /// `time` is the simulated time in s after which it was written.
@@ -163,12 +166,14 @@ class MatchEdits : public QObject {
   void erase(RobotId id);
   void placeRobots(const std::vector<RobotPlacement>& placements, Pose RobotPlacement::*where);
   void placeBall(Point position, Velocity velocity = {});
+  void adviseTeam(TeamColor team, const std::optional<link::AdvisorOptions>& advisor);
   void takePhysics(const std::string& name);
   void switchPhysics(const std::string& name);
 
   MatchController* m_match;
   QUndoStack* m_undoStack;
   std::map<RobotId, link::ScenarioRobot> m_robots;  // present or about to be
+  std::map<TeamColor, link::AdvisorOptions> m_advisors;
   std::string m_physics;
   bool m_locked = false, m_toldLocked = false;
   bool m_replacing = false;  // an edit opens a match: what was done before can still be undone

@@ -32,6 +32,9 @@ class ReplayController : public FrameSource {
   telemetry::SessionInfo info() const;
   /// Returns whether the file is truncated or damaged and can be repaired.
   bool isBroken() const;
+  /// Returns whether the file is a run of an experiment that would end differently if it were
+  /// played again.
+  bool isUnrepeatable() const;
   /// Returns the scenario of the session as JSON; empty if it has none.
   std::string attachedScenario() const;
   /// Returns the groups of the file as soon as it is open, before series() has their rows.

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What advice is worth in whole matches. At moments at which a robot would think, each candidate is
+// played in rollouts, and in the match itself, where the robot is told it for three seconds; eight
+// seconds later goals count, or what the position is worth. Prints the table of docs/advisor.md:
+// the gain over what the behaviour does anyway. `advice_gains [situations] [runs] [rollouts]
+// [seed]`.
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+#include "../support/rollout_agreement.h"
+#include "candidates.h"
+#include "game_belief.h"
+#include "position_value.h"
+#include "thought.h"
+
+namespace pitchboard::tests {
+namespace {
+
+using link::Advice, link::AdviceKind, link::Candidates, link::Question, link::SimulatedMatch;
+
+constexpr double toldFor = 3.0, playedFor = 8.0, horizon = 5.0;  // s
+constexpr double pause = 15.0;  // s between two questions of a robot
+constexpr int ofMatch = 25;     // questions of one match
+
+struct Thinking {
+  explicit Thinking(const link::ProcessOptions& its)
+      : options(its), reader(its), rollouts(rollout::Rollouts::create(setupFor(its)).value()) {}
+  link::ProcessOptions options;
+  link::SituationReader reader;
+  link::OpponentMemory opponents;
+  rollout::Rollouts rollouts;
+  double asked = -pause;  // s
+};
+
+/// Mean with its standard error.
+struct Mean {
+  double sum = 0.0, squares = 0.0;
+  int count = 0;
+  void add(double value) {
+    sum += value;
+    squares += value * value;
+    ++count;
+  }
+  double mean() const { return sum / count; }
+  double error() const {
+    if (count < 2) return 0.0;
+    return std::sqrt(std::max(0.0, squares / count - mean() * mean()) / (count - 1));
+  }
+};
+
+struct Row {
+  Mean rollouts, matches;
+};
+
+Point turned(const Point& place, bool attacksLeft) {
+  return attacksLeft ? Point{-place.x, -place.y} : place;
+}
+
+/// For the team of robot `id`.
+double valueNow(const SimulatedMatch& match, const Thinking& who) {
+  const bool attacksLeft = who.reader.attacksLeft();
+  const auto& bodies = std::get<sim::RigidBodyState>(match.simulation().state().physics);
+  link::Position end;
+  end.ball = turned(bodies.ball.position, attacksLeft);
+  end.velocity = {attacksLeft ? -bodies.ball.velocity.x : bodies.ball.velocity.x,
+                  attacksLeft ? -bodies.ball.velocity.y : bodies.ball.velocity.y};
+  for (std::size_t i = 0; i < bodies.robots.size(); ++i) {
+    const bool isOwn = match.robots().all()[i]->facesLeft == attacksLeft;
+    double& least = isOwn ? end.near : end.theirsNear;
+    least =
+        std::min(least, distance(turned(bodies.robots[i].pose.position, attacksLeft), end.ball));
+  }
+  return positionValue(who.options.field, end);
+}
+
+/// How the match goes on when the robot is told this, with other random numbers.
+double playOn(SimulatedMatch& match, const link::Moment& moment, const Thinking& who,
+              Advice advice) {
+  constexpr int ticksOfThought = 24;  // until it says what it thought
+  const link::AdvisorVariables v;
+  const sim::WorldState& state = match.simulation().state();
+  if (!match.restore(moment)) std::abort();
+  advice.place = who.reader.toStudio(advice.place);
+  const sim::Score before = state.score;
+  const int perSecond = static_cast<int>(moment.state.settings.tickRate);
+  int goals = 0, stamp = 0;
+  for (int tick = 1; tick <= playedFor * perSecond && goals == 0; ++tick) {
+    const bool isTold = tick % perSecond == ticksOfThought && tick < toldFor * perSecond;
+    if (isTold && advice.kind != AdviceKind::None) {
+      link::Blackboard& board = *match.blackboard(who.options.robot);
+      v.write(board, who.options.field, advice);
+      board.write(v.stamp, ++stamp);
+    }
+    match.tick();
+    goals = (state.score.left - before.left) - (state.score.right - before.right);
+  }
+  std::vector<link::MatchEvent> events;
+  match.takeEvents(events);
+  if (goals != 0) return who.reader.attacksLeft() ? -goals : goals;
+  return valueNow(match, who);
+}
+
+const char* wordsOf(AdviceKind kind) {
+  constexpr std::array words{"as usual",       "strong kick",    "weak kick or pass", "dribble",
+                             "go to the ball", "leave the ball", "stand elsewhere"};
+  return words[static_cast<std::size_t>(kind)];
+}
+
+class Comparison {
+ public:
+  Comparison(int runs, int many) : m_runs(runs), m_many(many) {}
+
+  void compare(SimulatedMatch& match, link::Moment moment, Thinking& who,
+               const rollout::Belief& belief, const Candidates& candidates, std::uint64_t seed) {
+    const auto fast = [&](std::size_t candidate) {
+      std::vector<double> values;
+      rollout::PlayOptions play;
+      play.seconds = horizon;
+      play.advice = candidates[candidate];
+      play.advised = link::ownPlayer;
+      for (int j = 0; j < m_many; ++j) {
+        std::array<double, rollout::columnCount> row{};
+        const std::uint64_t one = seed + static_cast<std::uint64_t>(j);
+        if (!who.rollouts.play(belief, {&one, 1}, play, row)) std::abort();
+        values.push_back(link::valueOfRow(row, who.options.field));
+      }
+      return values;
+    };
+    const auto whole = [&](std::size_t candidate) {
+      std::vector<double> values;
+      for (int j = 0; j < m_runs; ++j) {
+        moment.state.settings.seed = seed + static_cast<std::uint64_t>(j);
+        values.push_back(playOn(match, moment, who, candidates[candidate]));
+      }
+      return values;
+    };
+    const auto meanOf = [](const std::vector<double>& values) {
+      double sum = 0.0;
+      for (const double value : values) sum += value;
+      return sum / static_cast<double>(values.size());
+    };
+    link::Thought thought(belief, candidates, seed + 500000, 72, horizon);
+    while (!thought.isDone()) thought.playOne(who.rollouts, who.options.field);
+    const std::size_t best = thought.result().best;
+    const double usualFast = meanOf(fast(0)), usualWhole = meanOf(whole(0));
+    for (std::size_t i = 1; i < candidates.size(); ++i) {
+      const double gain = meanOf(fast(i)) - usualFast, real = meanOf(whole(i)) - usualWhole;
+      for (Row* row : {&m_rows[wordsOf(candidates[i].kind)], i == best ? &m_suggested : nullptr}) {
+        if (row == nullptr) continue;
+        row->rollouts.add(gain);
+        row->matches.add(real);
+      }
+    }
+  }
+
+  void print() const {
+    std::printf("| candidate | times | gain in rollouts | gain in whole matches |\n");
+    const auto print = [](const char* name, const Row& row) {
+      if (row.matches.count == 0) return;
+      std::printf("| %s | %d | %+.3f ± %.3f | %+.3f ± %.3f |\n", name, row.matches.count,
+                  row.rollouts.mean(), row.rollouts.error(), row.matches.mean(),
+                  row.matches.error());
+    };
+    for (const auto& [name, row] : m_rows) print(name.c_str(), row);
+    print("what the advisor suggests", m_suggested);
+  }
+
+ private:
+  int m_runs, m_many;
+  std::map<std::string, Row> m_rows;
+  Row m_suggested;
+};
+
+/// Asks the robots of one match; returns how often.
+int askMatch(std::uint64_t seed, int most, Comparison& comparison) {
+  link::Scenario scenario = link::loadScenario("match").value();
+  scenario.settings.seed = seed;
+  auto match = SimulatedMatch::create(scenario, {}).value();
+  auto other = SimulatedMatch::create(scenario, {}).value();
+  std::vector<std::unique_ptr<Thinking>> robots;
+  for (const auto& slot : match.robots().all()) {
+    link::ProcessOptions options;
+    options.robot = slot->id;
+    options.behaviour = slot->behaviour;
+    options.field = scenario.settings.field;
+    options.model = scenario.robots[robots.size()].model;
+    options.facesLeft = slot->facesLeft;
+    robots.push_back(std::make_unique<Thinking>(options));
+  }
+  int asked = 0;
+  constexpr int ticksOfCycle = 6, lastTick = 60 * 500;
+  for (int tick = 1; tick < lastTick && asked < most; ++tick) {
+    match.tick();
+    if (tick % ticksOfCycle != 0) continue;
+    const double now = tick / scenario.settings.tickRate;
+    for (std::size_t i = 0; i < robots.size() && asked < most; ++i) {
+      Thinking& who = *robots[i];
+      const link::Situation& situation = who.reader.read(match.robots().all()[i]->board, now);
+      who.opponents.update(situation.opponents, now);
+      if (now < who.asked + pause || link::isKick(situation.doing)) continue;
+      const link::Thinker thinker{who.options.field, who.options.model,
+                                  who.options.behaviour == "keeper"};
+      const Question question = questionOf(situation, thinker);
+      const Candidates candidates = candidatesFor(question, situation, thinker, {});
+      if (candidates.size() < 2) continue;
+      who.asked = now;
+      ++asked;
+      comparison.compare(other, situationOf(match).moment, who,
+                         beliefOf(situation, who.opponents, now, who.options), candidates,
+                         1000 * (1000 * seed + static_cast<std::uint64_t>(asked)));
+    }
+  }
+  return asked;
+}
+
+}  // namespace
+}  // namespace pitchboard::tests
+
+int main(int argc, char** argv) {
+  const auto number = [&](int i, int usual) { return argc > i ? std::atoi(argv[i]) : usual; };
+  pitchboard::tests::Comparison comparison(number(2, 16), number(3, 36));
+  int left = number(1, 300);
+  for (auto seed = static_cast<std::uint64_t>(number(4, 1000)); left > 0; ++seed) {
+    left -=
+        pitchboard::tests::askMatch(seed, std::min(left, pitchboard::tests::ofMatch), comparison);
+  }
+  comparison.print();
+}
