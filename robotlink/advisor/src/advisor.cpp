@@ -120,7 +120,7 @@ class Advisor final : public CognitiveProcess {
       if (before != OpponentModel{}) m_mind.learned = before;
     }
     m_mind.watch.update(situation, now, m_options.field, m_options.model, m_mind.learned);
-    const auto words = m_mind.learned.toWords();
+    const auto words = m_mind.learned.asWords();
     for (std::size_t i = 0; i < words.size(); ++i) {
       writeIfPresent(board, m_variables.learned[i], words[i]);
     }

@@ -53,7 +53,7 @@ Result<OpponentModel> opponentsFromJson(std::string_view text, std::string_view 
     readEvidence(file, "pace", read.pace);
   }
   if (report.failed()) return tl::unexpected(report.error());
-  return OpponentModel::fromWords(read.toWords());
+  return OpponentModel::fromWords(read.asWords());
 }
 
 Result<OpponentModel> loadOpponents(const std::string& path) {

@@ -89,7 +89,7 @@ template struct Evidence<keeperModels>;
 template struct Evidence<aimModels>;  // of pace, too
 static_assert(paceModels == aimModels);
 
-std::array<std::int32_t, OpponentModel::words> OpponentModel::toWords() const {
+std::array<std::int32_t, OpponentModel::words> OpponentModel::asWords() const {
   std::array<std::int32_t, words> out{};
   std::size_t at = 0;
   const auto put = [&](std::uint16_t number) {
@@ -154,7 +154,8 @@ void learnAim(OpponentModel& model, const sim::FieldSpec& field, const Point& fr
   constexpr double forward = 0.5;  // m per metre
   if (dx < forward * length(Point{dx, dy})) return;
   const double left = field.halfLength() - from.x;
-  if (left <= 0.0) return;
+  constexpr double far = 4.0;  // m: from there nobody aims at the goal
+  if (left <= 0.0 || left > far) return;
   const double y = from.y + left * dy / dx;  // where it crosses their opponents' goal line
   const double half = field.goalWidth / 2 - field.goalPostRadius - field.ballRadius;
   constexpr double error = 0.1;      // rad: kick, and the ways that were seen
@@ -172,12 +173,13 @@ void learnAim(OpponentModel& model, const sim::FieldSpec& field, const Point& fr
 
 void learnPace(OpponentModel& model, double share, double sigma) {
   // One that hardly moves stands, turns or waits, however fast it is.
-  constexpr double moves = 0.35;
+  constexpr double moves = 0.25;
   if (share < moves) return;
-  // It walks straight at its full speed, or does something between.
-  constexpr double straight = 0.6, walksAt = 0.9, spread = 0.15;
-  constexpr double other = 0.02;  // density of what the rest of the sum does not explain
-  constexpr double weight = 0.5;  // two walks of one robot are much alike
+  // It goes somewhere, with turns, or does something between. As the kid-size robots of matches
+  // come forward: over four seconds little more than half of what their gait could.
+  constexpr double straight = 0.6, walksAt = 0.57, spread = 0.2;
+  constexpr double other = 0.02;   // density of what the rest of the sum does not explain
+  constexpr double weight = 0.25;  // walks of one robot are much alike
   std::array<double, paceModels> logs{};
   for (std::size_t i = 0; i < paceModels; ++i) {
     const double full = paces[i];

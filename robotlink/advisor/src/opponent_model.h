@@ -52,7 +52,7 @@ struct OpponentModel {
 
   static constexpr std::size_t words = (keeperModels + aimModels + paceModels) / 2;
   /// Two numbers of 16 bits in each word.
-  std::array<std::int32_t, words> toWords() const;
+  std::array<std::int32_t, words> asWords() const;
   /// Numbers that add() cannot have made are taken for the largest.
   static OpponentModel fromWords(const std::array<std::int32_t, words>& all);
 
@@ -68,7 +68,8 @@ struct OpponentModel {
 /// Their keeper stood at `place` while the ball was at `ball`.
 void learnKeeper(OpponentModel& model, const sim::FieldSpec& field, const Point& place,
                  const Point& ball);
-/// A ball that an opponent had rolled from `from` to `to`. Only if it rolled forward.
+/// A ball that an opponent had rolled from `from` to `to`. Says something only if it rolled forward
+/// and from where a kick reaches the goal.
 void learnAim(OpponentModel& model, const sim::FieldSpec& field, const Point& from,
               const Point& to);
 /// An opponent moved this fast on average, as a share of `full` m/s; `sigma` of the same unit.

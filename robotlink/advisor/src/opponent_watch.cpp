@@ -85,11 +85,13 @@ void OpponentWatch::watchWalks(double time, const sim::RobotModel& model, Oppone
       m_walks, [&](const Walk& walk) { return time - walk.seen > forgotten || walk.since > time; });
 }
 
-/// Kicks: a ball with an opponent that has rolled far a moment later.
+/// Kicks: a ball that has rolled far a moment after nobody of the own team was at it. An opponent
+/// at the ball is seen too seldom to ask for one.
 void OpponentWatch::watchBall(const Situation& now, double time, const sim::FieldSpec& field,
                               OpponentModel& learned) {
-  constexpr double atBall = 0.6, ours = 0.55;   // m
-  constexpr double way = 1.0, jump = 0.6;       // m: rolled; put there by the referee
+  constexpr double ours = 0.55;                 // m
+  constexpr double way = 0.8, rests = 0.25;     // m that it rolls; that it may seem to roll
+  constexpr double jump = 0.6;                  // m: put there by the referee
   constexpr double waits = 0.8, longest = 2.0;  // s
   if (!now.seesBall || !now.ball) return;
   const Point ball = *now.ball;
@@ -98,7 +100,6 @@ void OpponentWatch::watchBall(const Situation& now, double time, const sim::Fiel
   };
   bool isOurs = isNear(ours)(now.pose.position);
   for (const auto& mate : now.mates) isOurs = isOurs || (mate && isNear(ours)(mate->position));
-  const bool isTheirs = std::ranges::any_of(now.opponents, isNear(atBall));
   if (m_roll) {
     Roll& roll = *m_roll;
     const double age = time - roll.since;
@@ -112,11 +113,11 @@ void OpponentWatch::watchBall(const Situation& now, double time, const sim::Fiel
       learnAim(learned, field, theirs(roll.from), theirs(ball));
       m_roll.reset();
       return;
-    } else if (isTheirs && age > waits) {
+    } else if (age > waits && distance(roll.from, ball) < rests) {
       m_roll.reset();
     }
   }
-  if (!m_roll && isTheirs && !isOurs) m_roll = Roll{ball, ball, time, time};
+  if (!m_roll && !isOurs) m_roll = Roll{ball, ball, time, time};
 }
 
 }  // namespace pitchboard::link
