@@ -258,7 +258,7 @@ class Reader {
     if (!node) return;
     AdvisorOptions options;
     if (node->kind == JsonNode::Kind::Object) {
-      const JsonObject object(m_report, *node, team.pathOf("advisor"), 
+      const JsonObject object(m_report, *node, team.pathOf("advisor"),
                               {"rollouts", "horizon", "learns", "memory"});
       options.rollouts = object.integer("rollouts", options.rollouts, 4, 5000);
       options.horizon = object.number("horizon", options.horizon, {0.5, 30, "seconds"});
