@@ -142,7 +142,7 @@ void reportEnd(const link::LiveDetails& details, std::uint64_t left) {
   for (std::size_t i = 0; i < telemetry::textErrorCount; ++i) {
     const auto error = static_cast<telemetry::TextError>(i);
     if (team.errors.count(error) == 0) continue;
-    std::fprintf(stderr, "\n  %s: %llu, e.g. %s", std::string(errorWords(error)).c_str(),
+    std::fprintf(stderr, "\n  %s: %llu, e.g. %s", std::string(errorText(error)).c_str(),
                  static_cast<unsigned long long>(team.errors.count(error)),
                  team.errors.sample(error).c_str());
   }

@@ -41,7 +41,7 @@ class ProcessNews : public link::TickObserver {
     for (const link::MatchEvent& event : events) {
       using Kind = link::MatchEventKind;
       constexpr std::array told{Kind::ProcessDied,        Kind::ProcessEnded,
-                                Kind::ProcessRestarted,   Kind::ProcessSilent,
+                                Kind::ProcessRestarted,   Kind::ProcessNotResponding,
                                 Kind::ProcessGivenUp,     Kind::ProcessRealTime,
                                 Kind::ProcessNotAttached, Kind::CycleLate};
       if (std::ranges::find(told, event.kind) == told.end()) continue;

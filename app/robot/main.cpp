@@ -8,7 +8,7 @@
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/processes/guard.h>
 #include <robotlink/processes/keeper.h>
-#include <robotlink/processes/match_turns.h>
+#include <robotlink/processes/lock_step_slots.h>
 
 #include "arguments.h"
 #include "management.h"
@@ -28,8 +28,8 @@ Result<link::Blackboard> joinBlackboard(int key) {
 
 Result<void> run(const link::ProcessInfo& info, CLI::App& command, Arguments& arguments) {
   TRY(settle(command, arguments));
-  if (arguments.matchTurns) {
-    arguments.process.turns = TRY(link::ProcessTurns::join(*arguments.matchTurns));
+  if (arguments.lockStepSlot) {
+    arguments.process.lockStepSlot = TRY(link::LockStepSlot::join(*arguments.lockStepSlot));
   }
   const auto make = [&] { return info.make(arguments.process); };
   auto process = TRY(make());
@@ -48,9 +48,9 @@ Result<void> run(const link::ProcessInfo& info, CLI::App& command, Arguments& ar
   std::fflush(stdout);
   const RobotId robot = arguments.process.robot;
   link::CognitionDebugSender* const shown = display ? &*display : nullptr;
-  if (arguments.process.turns) {
-    return takeTurnsUntilAsked(std::move(process), make, board, robot, *arguments.process.turns,
-                               shown);
+  if (arguments.process.lockStepSlot) {
+    return runInLockStep(std::move(process), make, board, robot, *arguments.process.lockStepSlot,
+                         shown);
   }
   runUntilAsked(*process, board, robot, shown);
   return {};

@@ -170,7 +170,7 @@ class TestLiveFrame : public QObject {
     status.recoveries = 2;
     status.lost = 11;
     status.conflict = true;
-    status.processes[3] = {telemetry::HeartbeatState::Silent, 0.1, 8s};
+    status.processes[3] = {telemetry::HeartbeatState::NotResponding, 0.1, 8s};
     status.battery = telemetry::batteryAt(15.9, telemetry::usualBattery);
     const RobotFrame robot = Received({status}).frame().robots.at(0);
     const telemetry::LinkHealth& health = *robot.link;
@@ -185,7 +185,7 @@ class TestLiveFrame : public QObject {
     QCOMPARE(health.recoveries, status.recoveries);
     QCOMPARE(health.lost, status.lost);
     QVERIFY(health.conflict && robot.battery->low);
-    QVERIFY(robot.lamps[3].state == telemetry::HeartbeatState::Silent);
+    QVERIFY(robot.lamps[3].state == telemetry::HeartbeatState::NotResponding);
     QCOMPARE(robot.lamps[3].since, status.processes[3].since);
   }
 
@@ -288,12 +288,12 @@ class TestLiveFrame : public QObject {
     QVERIFY(memory.note(reader, 1.0)[1].state == HeartbeatState::Working);
     vision = 0.0;
     QVERIFY(memory.note(reader, 1.9)[1].state == HeartbeatState::Working);
-    QVERIFY(memory.note(reader, 2.5)[1].state == HeartbeatState::Silent);
+    QVERIFY(memory.note(reader, 2.5)[1].state == HeartbeatState::NotResponding);
     const auto& lamps = memory.note(reader, 10.5);
     QCOMPARE(telemetry::secondsOf(lamps[1].since), 8.0);
     QVERIFY(lamps[0].state == HeartbeatState::Unknown);
     memory.jump();
-    QVERIFY(memory.note(reader, 3.0)[1].state == HeartbeatState::Silent);
+    QVERIFY(memory.note(reader, 3.0)[1].state == HeartbeatState::NotResponding);
     memory.saw(1, 2.5);
     QVERIFY(memory.note(reader, 3.0)[1].state == HeartbeatState::Working);
   }

@@ -165,8 +165,9 @@ class TestLiveReplay : public QObject {
     QVERIFY(any([](const RobotFrame& r) { return r.link->jitter > 0.0; }));
     QVERIFY(any([](const RobotFrame& r) { return r.link->errorCount > 0; }));
     QVERIFY(any([](const RobotFrame& r) { return r.battery && r.battery->low; }));
-    QVERIFY(any(
-        [](const RobotFrame& r) { return r.lamps[1].state == telemetry::HeartbeatState::Silent; }));
+    QVERIFY(any([](const RobotFrame& r) {
+      return r.lamps[1].state == telemetry::HeartbeatState::NotResponding;
+    }));
     // The referee told the colours, which nobody knew at first.
     const RobotFrame& first = m_frames.front().robots[0];
     QVERIFY(any([&](const RobotFrame& r) {

@@ -69,7 +69,7 @@ class TestLiveRows : public QObject {
     QCOMPARE(info.columns[1].category, std::string("Belief"));
     QVERIFY(info.columns[7].kind == ColumnKind::Flag);
     QVERIFY(info.columns[12].kind == ColumnKind::Enumeration);
-    QCOMPARE(info.columns[12].labels.at(8), pitchboard::actionWords(8));
+    QCOMPARE(info.columns[12].labels.at(8), pitchboard::actionLabel(8));
     QCOMPARE(info.attributes.at("number"), std::string("3"));
     QCOMPARE(info.attributes.at("sender"), std::string("10.0.0.1"));
   }

@@ -147,7 +147,7 @@ class TestMoments : public QObject {
     }
     // Back at the first moment, no process has worked yet, whatever was shown before.
     for (const auto& lamp : frames.frameAt(m_match->store, 0.0).robots[0].lamps) {
-      QVERIFY(lamp.state != telemetry::HeartbeatState::Silent);
+      QVERIFY(lamp.state != telemetry::HeartbeatState::NotResponding);
     }
   }
 

@@ -24,7 +24,7 @@ ManagedProcess python(std::vector<std::string> arguments) {
   ManagedProcess process;
   arguments.insert(arguments.begin(), "python3");
   process.spec = {RobotId{1}, "own", std::move(arguments)};
-  process.spec.foreign = true;
+  process.spec.isTeamProgram = true;
   process.ownTime = true;
   process.restart.policy = RestartPolicy::Never;
   return process;

@@ -281,7 +281,7 @@ class TestSimulatedMatch : public QObject {
       match.tick();
       if (match.simulation().state().tick % 30 != 0) continue;  // robots have just heard
       const sim::GameState& before = *match.simulation().state().game;
-      const bool setPlay = before.restart.isTold();
+      const bool setPlay = before.restart.isAnnounced();
       if (!(setPlay && !inSetPlay) && states.contains(before.state)) continue;
       states.insert(before.state);
       inSetPlay = inSetPlay || setPlay;

@@ -48,7 +48,7 @@ Table endsTable(const ExperimentSummary& s) {
       if (std::ranges::find(ends, end) == ends.end()) ends.push_back(end);
     }
   }
-  for (const std::string& end : ends) table.head.push_back(endWords(end));
+  for (const std::string& end : ends) table.head.push_back(endText(end));
   const bool some = std::ranges::any_of(
       s.conditions, [](const ConditionSummary& one) { return one.unrepeatable > 0; });
   if (some) {

@@ -61,10 +61,10 @@ constexpr std::array<TeamMetric, robotValueCount> robotTable{{
     {"belief_error_m", "m", "Belief error"},
 }};
 
-struct EndWord {
+struct EndText {
   const char *endedBy, *words;
 };
-constexpr std::array<EndWord, 7> ends{{{"goal", "goal"},
+constexpr std::array<EndText, 7> ends{{{"goal", "goal"},
                                        {"goal_against", "goal against"},
                                        {"ball_out", "ball out"},
                                        {"fell", "fell"},
@@ -110,8 +110,8 @@ std::vector<MetricInfo> metricsOf(const Experiment& experiment) {
   return out;
 }
 
-std::string endWords(const std::string& endedBy) {
-  const auto found = std::ranges::find(ends, endedBy, &EndWord::endedBy);
+std::string endText(const std::string& endedBy) {
+  const auto found = std::ranges::find(ends, endedBy, &EndText::endedBy);
   return found == ends.end() ? endedBy : found->words;
 }
 

@@ -74,7 +74,7 @@ const LampMemory::Lamps& LampMemory::note(const RobotReader& reader, double time
     if (time - m_seen[i] <= flagMemory) {
       now = HeartbeatState::Working;
     } else if (now == HeartbeatState::Working) {
-      now = HeartbeatState::Silent;
+      now = HeartbeatState::NotResponding;
     }
     if (now != m_lamps[i].state) m_since[i] = time;
     const std::chrono::duration<double> since(std::max(0.0, time - m_since[i]));

@@ -15,7 +15,7 @@
 #include <robotlink/live/board_columns.h>
 
 #include "board_map.h"
-#include "board_words.h"
+#include "board_meanings.h"
 
 namespace pitchboard::link {
 namespace {
@@ -259,7 +259,7 @@ void BoardRowKeeper::take(const std::string& board, const telemetry::GroupInfo& 
   for (const BoardRow& row : rows) m_sink->append(now.id, {row.time, row.words, row.values});
 }
 
-void BoardRowKeeper::giveWay(const std::map<std::string, Name>& names) {
+void BoardRowKeeper::releaseNames(const std::map<std::string, Name>& names) {
   std::erase_if(m_groups, [&names](const auto& known) { return !names.contains(known.first); });
   for (auto& [board, known] : m_groups) {
     if (known.info.name == names.at(board).name) continue;

@@ -295,7 +295,7 @@ void LivePipeline::addBoards(MatchFrame& frame, AttachedRobots* attached, WallTi
     name.attributes["sent"] = senders[i].first.text();
   }
   // Messages and variables may exchange their names.
-  m_boardRows.giveWay(names);
+  m_boardRows.releaseNames(names);
   if (robots != m_boardNames) {
     m_boardNames = std::move(robots);
     noteTeams({});
@@ -321,7 +321,7 @@ void LivePipeline::reportSent(WallTime now) {
   for (const SentStatus& sent : all) {
     names[boardOf(sent)] = {sent.name + " agent", {{"link", sent.name}}};
   }
-  m_sentHealth.giveWay(names);
+  m_sentHealth.releaseNames(names);
   m_sentHealth.rename(names);
   for (const SentStatus& sent : all) {
     const telemetry::LinkHealth& link = sent.link;

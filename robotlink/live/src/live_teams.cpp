@@ -58,7 +58,7 @@ Result<void> chooseOurTeam(LiveOptions& options, std::string_view text) {
 int ourNumber(const LiveOptions& options, const telemetry::RefereeState* referee) {
   if (options.ourTeam != 0 || !options.ourColour || referee == nullptr) return options.ourTeam;
   for (const telemetry::RefereeTeam& team : referee->teams) {
-    if (teamColorNamed(telemetry::colourWords(team.colour)) == options.ourColour)
+    if (teamColorNamed(telemetry::colourLabel(team.colour)) == options.ourColour)
       return team.number;
   }
   return 0;
@@ -67,7 +67,7 @@ int ourNumber(const LiveOptions& options, const telemetry::RefereeState* referee
 Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee) {
   const auto toldOf = [referee](int number) -> std::optional<TeamColor> {
     const auto* team = referee != nullptr && number > 0 ? referee->team(number) : nullptr;
-    return team == nullptr ? std::nullopt : teamColorNamed(telemetry::colourWords(team->colour));
+    return team == nullptr ? std::nullopt : teamColorNamed(telemetry::colourLabel(team->colour));
   };
   const std::vector<TeamSetup>& setups = options.team.teams;
   const int chosen = ourNumber(options, referee);

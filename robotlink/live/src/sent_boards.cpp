@@ -15,7 +15,7 @@
 #include <telemetry/wire/arrival_stats.h>
 #include <telemetry/wire/sequence_stats.h>
 
-#include "board_words.h"
+#include "board_meanings.h"
 
 namespace pitchboard::link {
 namespace {

@@ -120,7 +120,7 @@ void FrameBuilder::takeProcesses(const RobotSlots& robots) {
   for (const ProcessStatus& one : processes.statuses()) {
     byRobot[one.robot].push_back({one.id, one.name, one.state, one.pid, one.restarts, one.detail,
                                   one.lastLines, one.started, one.cpu, one.memoryBytes,
-                                  one.heartbeatAge, one.foreign, one.speed, one.achieved,
+                                  one.heartbeatAge, one.isTeamProgram, one.speed, one.achieved,
                                   whyRealTime(one.clock), one.missedCycles});
   }
   // In the order of the robot's runtime profile, whichever was started last.

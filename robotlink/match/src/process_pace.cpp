@@ -79,7 +79,7 @@ double ProcessPace::teamProgramPace(double wanted, double now) {
   bool any = false, unknown = false;
   std::optional<double> slowest;
   for (const ProcessStatus& one : m_slots.processes().statuses()) {
-    if (!one.foreign || one.pid == 0 || cooperates(one)) continue;
+    if (!one.isTeamProgram || one.pid == 0 || cooperates(one)) continue;
     any = true;
     if (one.clock != ProcessClock::Match) {
       most = std::min(most, 1.0);  // slower does not help it either
@@ -197,7 +197,7 @@ bool ProcessPace::hasAttached(const ProcessStatus& program) const {
 
 void ProcessPace::letTeamProgramsRun(std::chrono::duration<double> time) {
   ProcessManager& processes = m_slots.processes();
-  if (std::ranges::none_of(processes.statuses(), &ProcessStatus::foreign)) return;
+  if (std::ranges::none_of(processes.statuses(), &ProcessStatus::isTeamProgram)) return;
   processes.setPaused(false, std::chrono::steady_clock::now());
   std::this_thread::sleep_for(time);
   processes.setPaused(m_still, std::chrono::steady_clock::now());

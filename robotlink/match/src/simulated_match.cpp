@@ -311,7 +311,8 @@ bool SimulatedMatch::isRepeatable() const {
                      std::ranges::find(others, slot->id, &sim::RobotIdentity::id) != others.end();
     return !own || (slot->cooperates && !slot->hasMissedCycle);
   };
-  return std::ranges::all_of(robots().all(), repeats) && (pace().inLockStep() || !robots().turns());
+  return std::ranges::all_of(robots().all(), repeats) &&
+         (pace().inLockStep() || !robots().lockStepSlots());
 }
 
 MatchResult SimulatedMatch::result() const {

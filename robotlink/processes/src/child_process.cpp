@@ -49,7 +49,7 @@ ChildProcess::ChildProcess(Spawned child, UniqueFd keeper, pid_t pid)
 Result<ChildProcess> ChildProcess::start(const ChildSpec& spec, const std::string& robotProgram) {
   SpawnRequest request{spec.command, spec.directory, spec.environment};
   request.inherited = spec.inherited;
-  if (!spec.foreign) {
+  if (!spec.isTeamProgram) {
     Spawned child = TRY(spawn(request));
     const pid_t pid = child.pid;
     return ChildProcess(std::move(child), {}, pid);

@@ -43,7 +43,7 @@ std::vector<std::string> namesIn(std::string_view text) {
 
 }  // namespace
 
-std::vector<std::string> commandWords(std::string_view text) {
+std::vector<std::string> splitCommand(std::string_view text) {
   std::vector<std::string> words;
   std::string word;
   bool quoted = false, any = false;
@@ -98,7 +98,7 @@ Result<ManagementConfig> managementFromIni(const IniFile& file,
       list = &entry;
       if (config.processes.empty()) return refuse("names no process");
     } else if (entry.name.starts_with(commandKey) && entry.name.size() > commandKey.size()) {
-      std::vector<std::string> words = commandWords(entry.value);
+      std::vector<std::string> words = splitCommand(entry.value);
       if (words.empty()) return refuse("names no program");
       config.commands[entry.name.substr(commandKey.size())] = std::move(words);
     } else {

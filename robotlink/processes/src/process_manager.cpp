@@ -12,7 +12,7 @@
 #include <set>
 #include <thread>
 
-#include <base/duration_words.h>
+#include <base/duration_text.h>
 #include <base/system_reason.h>
 #include <base/try.h>
 #include <robotlink/blackboard/system_v.h>
@@ -38,7 +38,7 @@ Ticks ticks(Seconds seconds) {
 }  // namespace
 
 std::string inSeconds(Seconds seconds) {
-  if (seconds >= std::chrono::minutes(1)) return durationWords(seconds.count());
+  if (seconds >= std::chrono::minutes(1)) return durationText(seconds.count());
   char text[32];
   std::snprintf(text, sizeof text, "%.3g s", seconds.count());
   return text;
@@ -50,7 +50,7 @@ ProcessManager::ProcessManager(std::string robotProgram)
 ProcessManager::~ProcessManager() {
   stopAll();
   if (!m_guard) return;
-  tellGuard(guardWords::done);
+  tellGuard(guardMessages::done);
   // It ends at once; only one that was stopped would keep us.
   const auto last = std::chrono::steady_clock::now() + killPatience;
   while (::waitpid(m_guardPid, nullptr, WNOHANG) == 0 && std::chrono::steady_clock::now() < last) {
@@ -84,7 +84,7 @@ Result<void> ProcessManager::keepGuard() {
 void ProcessManager::guardSegment(const Blackboard& board) {
   if (!m_guard || !board.created()) return;
   if (const auto info = SystemVSegments::info(board.key())) {
-    tellGuard(guardWords::segment(info->key, info->shmid));
+    tellGuard(guardMessages::segment(info->key, info->shmid));
   }
 }
 
@@ -124,7 +124,7 @@ Result<int> ProcessManager::add(const ManagedProcess& process, Blackboard& board
   entry.status.id = m_nextId++;
   entry.status.robot = robot;
   entry.status.name = process.spec.name;
-  entry.status.foreign = process.spec.foreign;
+  entry.status.isTeamProgram = process.spec.isTeamProgram;
   changed();
   if (waits || (process.delay > 0.0 && !isFirst)) return entry.status.id;
   if (auto started = startNow(entry, now); !started) {
@@ -301,7 +301,7 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
   status.started = now;
   status.detail.clear();
   if (again) ++status.restarts;
-  if (m_paused && spec.foreign) entry.child->signal(SIGSTOP);
+  if (m_paused && spec.isTeamProgram) entry.child->signal(SIGSTOP);
   addNews(entry, again ? ProcessNewsKind::Restarted : ProcessNewsKind::Started);
   askForSpeed(entry, now);
   return {};

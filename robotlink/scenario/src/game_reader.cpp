@@ -4,7 +4,7 @@
 #include <simcore/world/parameters.h>
 
 #include "game_json.h"
-#include "game_words.h"
+#include "game_names.h"
 
 namespace pitchboard::link {
 namespace {

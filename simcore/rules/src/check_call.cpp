@@ -35,8 +35,8 @@ Allowed checkState(const GameState& game, const RefereeRules& rules, PlayState s
     return false;
   }();
   if (!possible) {
-    return refused("The referee cannot go from " + std::string(wordsOf(from)) + " to " +
-                   std::string(wordsOf(state)) + ".");
+    return refused("The referee cannot go from " + std::string(labelOf(from)) + " to " +
+                   std::string(labelOf(state)) + ".");
   }
   if (state == PlayState::Set && from != PlayState::Ready && shootOutDecided(game, rules)) {
     return refused("The shoot-out is decided.");
@@ -92,7 +92,7 @@ Result<void> checkCall(const GameState& game, const RefereeRules& rules,
       }
       return {};
     case CallKind::NextStep:
-      if (!game.restart.isTold()) return refused("There is no set play to continue.");
+      if (!game.restart.isAnnounced()) return refused("There is no set play to continue.");
       return {};
     case CallKind::DropBall:
       if (!playing) return refused("A drop ball is possible only in PLAYING.");

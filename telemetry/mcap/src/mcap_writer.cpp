@@ -68,7 +68,7 @@ struct McapWriter::Impl {
   /// Whole records of the data section.
   Result<void> write(std::string_view records) {
     if (failed) return tl::unexpected(*failed);
-    const auto room = file.keepRoom(records.size() + summary.size() + spareRoom);
+    const auto room = file.keepFreeSpace(records.size() + summary.size() + spareRoom);
     if (!room) return fail(room.error());
     if (auto written = file.write(records); !written) return fail(written.error());
     whole = file.size();

@@ -429,7 +429,7 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
     if (!process.known) continue;
     out.since = since(now, status.timedOut ? robot.last : process.since);
     if (status.timedOut) continue;
-    out.state = process.filter.working() ? HeartbeatState::Working : HeartbeatState::Silent;
+    out.state = process.filter.working() ? HeartbeatState::Working : HeartbeatState::NotResponding;
   }
   if (robot.volts) status.battery = batteryAt(*robot.volts, m_options.battery, robot.highestVolts);
   if (robot.charge) {

@@ -9,7 +9,7 @@
 
 #include <telemetry/wire/lenient_json.h>
 
-#include "profile_words.h"
+#include "profile_names.h"
 
 namespace pitchboard::telemetry {
 namespace {
@@ -205,7 +205,7 @@ struct MonitorSnapshot {
     });
     each(json, "extras", DecodedText::maxExtras, [&](std::size_t, const MonitorJson& key) {
       robot.extras.push_back(key.is_string()
-                                 ? key.get<std::string>().substr(0, profile_words::maxNameBytes)
+                                 ? key.get<std::string>().substr(0, profile_names::maxNameBytes)
                                  : std::string());
     });
     robot.decoder = usual.decoderOf(robot.key.team);

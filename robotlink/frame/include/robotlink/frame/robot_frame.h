@@ -35,7 +35,7 @@ struct ProcessSummary {
   double cpu = 0.0;                                 ///< share of a core in the last second
   std::uint64_t memoryBytes = 0;
   std::optional<double> heartbeatAge{};  ///< s since the last sign of life; nothing if unwatched
-  bool foreign = false;                  ///< it is a team program
+  bool isTeamProgram = false;            ///< it is a team program
   double speed = 0.0;                    ///< speed that it should keep, times real time; 0: ours
   double achieved = 0.0;                 ///< speed that it reaches; 0 if not known yet
   std::string whyRealTime;               ///< why its clocks keep real time; empty if they do not

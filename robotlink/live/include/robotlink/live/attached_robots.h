@@ -115,7 +115,7 @@ class BoardRowKeeper {
             std::span<const BoardRow> rows);
   /// Forgets boards that are not among these; a new one may go on with their groups. The groups of
   /// those that are called otherwise from now on give their names back...
-  void giveWay(const std::map<std::string, Name>& names);
+  void releaseNames(const std::map<std::string, Name>& names);
   /// ...and get the new ones.
   void rename(const std::map<std::string, Name>& names);
 

@@ -11,7 +11,7 @@
 //             A process is judged only once it has set the variable for the first time, because it
 //             may block before its first cycle.
 //   Sleeps    The kernel's count of the process's sleeps has to grow.
-//   Caller    The caller knows better, because it gives the process its turns: setSilent().
+//   Caller    The caller knows better, because it gives the process its turns: setResponding().
 //   Nobody    The process is never considered silent.
 // A process that somebody else stopped (SIGSTOP) is silent, too. For team programs whose clocks
 // follow the match, the time limit is in match time.
@@ -79,7 +79,7 @@ struct ProcessStatus {
   double cpu = 0.0;                                   ///< share of a core during the last second
   std::uint64_t memoryBytes = 0;
   std::optional<double> heartbeatAge{};     ///< s since the last sign of life; empty: not watched
-  bool foreign = false;                     ///< it is a team program
+  bool isTeamProgram = false;               ///< it is a team program
   ProcessClock clock = ProcessClock::Real;  ///< team programs only
   double speed = 0.0;  ///< times real time: the speed a team program has to keep; 0: not one
   /// The speed that a team program reaches, times real time. It is below `speed` if the program
@@ -100,7 +100,7 @@ enum class ProcessNewsKind : std::uint8_t {
   Restarted,
   Ended,
   Died,
-  Silent,
+  NotResponding,
   GivenUp,
   RealTime  ///< its clocks show real time although the speed is not ×1; reported once
 };
@@ -164,7 +164,7 @@ class ProcessManager {
   void restart(int id, Time now);
   void kill(int id);
   /// For Watch::Caller: tells whether the process owes a sign of life.
-  void setSilent(int id, bool silent, Time now);
+  void setResponding(int id, bool responding, Time now);
 
   /// Stops or continues team programs together with the match. Clocks that show real time advance
   /// meanwhile, as after suspending a computer.
@@ -215,7 +215,7 @@ class ProcessManager {
     std::string programStamp, newStamp;   // of the program's file when it was started, and since
     std::unique_ptr<ProgramClock> clock;  // null: its clocks keep real time
     bool sawLibrary = false;              // in the program
-    bool toldRealTime = false;
+    bool warnedOfRealTime = false;
   };
   Entry* find(int id);
   Result<void> startDue(Time now);
@@ -233,10 +233,10 @@ class ProcessManager {
   void askForSpeed(Entry& entry, Time now);
   void steer(Entry& entry, Time now) const;
   void showSign(Entry& entry, Time now) const;
-  bool isSilent(const Entry& entry, Time now) const;
+  bool isOverdue(const Entry& entry, Time now) const;
   static double ownSeconds(const Entry& entry, Time now);
   void lookForLibrary(Entry& entry, Time now);
-  void silenced(Entry& entry, Time now, const std::string& detail);
+  void reportOverdue(Entry& entry, Time now, const std::string& detail);
   void addNews(const Entry& entry, ProcessNewsKind kind, const std::string& detail = {});
   void tellGuard(const std::string& line);
   void changed() { ++m_version; }

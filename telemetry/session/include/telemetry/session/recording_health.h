@@ -13,9 +13,9 @@ namespace pitchboard::telemetry {
 
 enum class RecordingTrouble {
   None,
-  Dropped,     ///< something is missing in the file
-  LittleRoom,  ///< the disk is full in a few minutes
-  DiskBehind,  ///< the disk does not answer in time
+  Dropped,      ///< something is missing in the file
+  LittleSpace,  ///< the disk is full in a few minutes
+  DiskBehind,   ///< the disk does not answer in time
 };
 
 /// The most urgent one.
@@ -26,6 +26,6 @@ std::string troubleText(const SessionStatus& status);
 std::optional<double> secondsLeft(const SessionStatus& status);
 /// "room for 3 h 20 min", or "52.3 GB free" while the rate is not known; empty when the system does
 /// not say how much is free.
-std::string roomText(const SessionStatus& status);
+std::string freeSpaceText(const SessionStatus& status);
 
 }  // namespace pitchboard::telemetry

@@ -16,10 +16,10 @@ int setPlayCode(telemetry::League league, int version, int size, sim::SetPlay pl
 sim::SetPlay setPlayOf(telemetry::League league, int version, int size, int code);
 
 /// The set play in a packet, and the number of the team that takes it.
-struct ToldSetPlay {
+struct AnnouncedSetPlay {
   sim::SetPlay kind = sim::SetPlay::None;
   std::optional<int> team;
 };
-ToldSetPlay setPlayIn(const telemetry::RefereeState& packet);
+AnnouncedSetPlay setPlayIn(const telemetry::RefereeState& packet);
 
 }  // namespace pitchboard::link
