@@ -87,7 +87,7 @@ behaviours() {
 }
 agent() {
   # The robots of a match stand in for real ones; the agent reads their blackboards.
-  "$bin/pitchboard-cli" simulate --scenario match-3v3 --cognition external --match 0 --speed 1 --duration 60 >/dev/null 2>&1 &
+  "$bin/pitchboard-cli" simulate --scenario match-3v3 --cognition separate --match 0 --speed 1 --duration 60 >/dev/null 2>&1 &
   sleep 2
   for robot in 1 2 3; do "$bin/pitchboard-agent" --robot "$robot" --to 127.0.0.1 2>/dev/null & done
   echo '{"name": "Our team", "number": 12, "colour": "blue"}' >ours.json

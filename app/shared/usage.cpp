@@ -314,7 +314,7 @@ std::string completionsOf(const CLI::App& app) {
 }
 
 /// A line of the `case` for this command and those below it. Built-in choices such as
-/// inline|external|none complete the value of an option.
+/// inline|separate|none complete the value of an option.
 void addCompletions(const CLI::App& app, std::string& commands, std::string& values,
                     std::string& names) {
   const std::string name = fullName(app);

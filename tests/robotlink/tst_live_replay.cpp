@@ -326,7 +326,7 @@ class TestLiveReplay : public QObject {
     ReportContent content;
     content.statistics = s;
     const QString page = QString::fromStdString(reportHtml(content));
-    QVERIFY(page.contains(QStringLiteral("How they were heard")));
+    QVERIFY(page.contains(QStringLiteral("Connection")));
     QVERIFY(!page.contains(QStringLiteral("No robot was recorded")));
   }
 

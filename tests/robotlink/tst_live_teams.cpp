@@ -44,6 +44,36 @@ LiveOptions twoTeams() {
 class TestLiveTeams : public QObject {
   Q_OBJECT
  private slots:
+  /// 12.4 V are low for a battery of five cells, but not for the three cells of a DARwIn-OP.
+  void theRobotModelOfASetupSaysWhenABatteryIsLow() {
+    LiveOptions options = twoTeams();
+    options.team.teams.pop_back();
+    const auto lowWith = [&options](const std::string& model) {
+      options.team.teams[0].model = model;
+      if (!validate(options)) qFatal("a model is unknown");
+      LivePipeline pipeline(options, start);
+      pipeline.take(from("10.0.0.3", 1243, words));
+      const MatchFrame frame = pipeline.frame(start, nullptr);
+      return frame.robots.at(0).battery->low;
+    };
+    QVERIFY(lowWith(""));
+    QVERIFY(!lowWith("darwin-op"));
+    QVERIFY(lowWith("kid-size"));
+    // The model is kept in files and recordings.
+    options.team.teams[0].model = "darwin-op";
+    QCOMPARE(setupOf(teamSetupText(options.team.teams[0]).c_str()).model, std::string("darwin-op"));
+    const LiveState state(options);
+    LiveState again{LiveOptions()};
+    QVERIFY(again.restore(state.text(options, 0.0, start), start));
+    QCOMPARE(again.options.team.teams.at(0).model, std::string("darwin-op"));
+
+    options.team.teams[0].model = "darwin";
+    const auto refused = validate(options);
+    QVERIFY(!refused);
+    QVERIFY2(refused.error().text().starts_with("Ours, model: there is no"),
+             refused.error().text().c_str());
+  }
+
   void twoTeamsAreHeardApart() {
     const LiveOptions options = twoTeams();
     TeamMonitor monitor(options.profile, monitorOptions(options));

@@ -50,7 +50,7 @@ constexpr std::array<TeamMetric, teamValueCount> teamTable{{
     {"removals_stuck", "", "Removals from a stuck ball"},
     {"removals_leaving", "", "Removals for leaving the field"},
     {"longest_stuck_s", "s", "Longest time that a robot was stuck"},
-    {"illegal_transitions", "", "Changes of state that no rules know"},
+    {"illegal_transitions", "", "Illegal state transitions"},
     {"ready_s", "s", "A READY"},
 }};
 static_assert(teamTable.back().name != nullptr, "every TeamValue needs its row");
@@ -104,8 +104,9 @@ std::vector<MetricInfo> metricsOf(const Experiment& experiment) {
   }
   // A measured time differs from run to run, which those of reference processes must not.
   if (experiment.hasTeamPrograms()) {
-    out.push_back({"times_real_time", "", "Played, times real time", false});
-    out.push_back({"own_programs_kept", "", "What own programs kept of that (1 = all)", false});
+    out.push_back({"times_real_time", "", "Speed (times real time)", false});
+    out.push_back(
+        {"own_programs_kept", "", "Share of that speed that team programs reached", false});
   }
   return out;
 }

@@ -50,7 +50,7 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
     {Kind::SecondSender, "second-sender", "is also sent by another program", Shape::None, 0, false,
      true, ""},
     {Kind::BatteryLow, "battery-low", "has a low battery", Shape::Warning, 4, false, true, ""},
-    {Kind::AddressChanged, "address-changed", "has another address", Shape::None, 0, false, false,
+    {Kind::AddressChanged, "address-changed", "changed its address", Shape::None, 0, false, false,
      ""},
     {Kind::ClockSet, "clock-set", "the computer's clock was set", Shape::None, 0, false, true,
      "studio"},
@@ -148,7 +148,7 @@ std::string predicateOf(const MatchEvent& event) {
       return wordsAnd(event) +
              (event.value ? ", version " + std::to_string(*event.value) : std::string());
     case Kind::SecondReferee:
-      return wordsAnd(event, "; shown is ");
+      return wordsAnd(event, "; showing ");
     case Kind::RobotReceived:
       return wordsAnd(event, " from ");
     case Kind::SecondSender:
@@ -160,7 +160,7 @@ std::string predicateOf(const MatchEvent& event) {
                                           : std::string());
     case Kind::ClockSet:
       return wordsAnd(event) + " by " + (event.value.value_or(0) > 0 ? "+" : "") +
-             std::to_string(event.value.value_or(0)) + " s; times in Live go on as before";
+             std::to_string(event.value.value_or(0)) + " s; timestamps in Live are not affected";
     case Kind::Penalised:
       return wordsAnd(event) +
              (event.value.value_or(0) > 0 ? ", " + durationText(*event.value) : std::string());
@@ -168,6 +168,8 @@ std::string predicateOf(const MatchEvent& event) {
     case Kind::ProcessRestarted:
       return std::string(info(event.kind).words) +
              (event.value ? " (process " + std::to_string(*event.value) + ')' : std::string());
+    case Kind::ProcessEnded:
+      return event.detail.empty() ? "stopped" : wordsAnd(event);
     case Kind::ProcessNotAttached:
       return wordsAnd(event, " ");
     case Kind::PortLost:

@@ -110,7 +110,7 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
       // The decoder has left out a ball that is not seen.
       return meaning == FieldMeaning::BallSeen ? std::nullopt : robot.value(meaning);
     };
-    buildRobot(reader, {}, options.field, false, out);
+    buildRobot(reader, {}, options.field, options.team.battery, false, out);
     out.battery = robot.battery;
     out.action = out.decided.value_or(0);
   }

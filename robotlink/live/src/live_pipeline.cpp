@@ -94,6 +94,7 @@ void RowFan::append(GroupId group, const telemetry::RowView& row) {
 
 LivePipeline::LivePipeline(LiveOptions options, WallTime zero)
     : m_options(std::move(options)),
+      m_monitorOptions(monitorOptions(m_options)),
       m_zero(zero),
       m_state(m_options),
       m_rows(m_fan, rowsOptions(m_options, m_teams, zero)),
@@ -122,7 +123,8 @@ void LivePipeline::useCatalogs() {
 void LivePipeline::setOptions(LiveOptions options, WallTime now) {
   const LiveOptions old = std::exchange(m_options, std::move(options));
   if (!(old.profile == m_options.profile)) m_state.monitor.setProfile(m_options.profile);
-  m_state.setTeams(monitorOptions(m_options));
+  m_monitorOptions = monitorOptions(m_options);
+  m_state.setTeams(m_monitorOptions);
   m_state.referee.setOptions(LiveState::refereeOptions(m_options));
   useCatalogs();
   noteTeams(m_state.monitor.renamings());
@@ -262,10 +264,10 @@ void LivePipeline::addBoards(MatchFrame& frame, AttachedRobots* attached, WallTi
   std::vector<RobotFrame> boards;
   if (attached != nullptr) {
     attached->takeRows(keep);
-    boards = attached->robots(m_options.field);
+    boards = attached->robots(m_options.field, m_options.team.battery);
   }
   m_sent.takeRows(keep);
-  for (RobotFrame& robot : m_sent.robots(now, m_options.field)) {
+  for (RobotFrame& robot : m_sent.robots(now, m_options.field, m_monitorOptions)) {
     robot.identity.team = drawnColour(m_options, robot.key, frame.teams);
     robot.ownName = ownNameOf(m_options, robot.key);
     boards.push_back(std::move(robot));

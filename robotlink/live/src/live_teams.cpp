@@ -5,6 +5,8 @@
 #include <charconv>
 
 #include <robotlink/blackboard/variable_meanings.h>
+#include <robotlink/frame/build_robot.h>
+#include <robotlink/models/robot_models.h>
 #include <telemetry/wire/gamecontroller.h>
 
 #include "live_frame.h"
@@ -36,6 +38,14 @@ telemetry::Surroundings surroundingsOf(const sim::FieldSpec& field) {
 telemetry::MonitorOptions monitorOptions(const LiveOptions& options) {
   telemetry::MonitorOptions made = options.team;
   made.field = surroundingsOf(options.field);
+  made.teamBatteries.clear();
+  for (std::size_t i = 0; i < options.team.teams.size(); ++i) {
+    const std::string& name = options.team.teams[i].model;
+    if (name.empty()) continue;
+    // validate() has refused unknown models. A recording may name a file of another computer.
+    const auto model = loadRobotModel(name);
+    if (model) made.teamBatteries[static_cast<int>(i) + 1] = batteryLimitsOf(*model);
+  }
   return made;
 }
 

@@ -160,7 +160,8 @@ void FrameBuilder::fillRobot(const SimulatedMatch& match, RobotFrame& out) {
   out.boardKey = board->key();
   out.behaviour = match.robots().find(out.slot())->behaviour;
   out.lamps = m_lamps[out.slot()].note(reader, m_playing);
-  buildRobot(reader, advice, match.simulation().state().settings.field, true, out);
+  buildRobot(reader, advice, match.simulation().state().settings.field,
+             batteryLimitsOf(*match.robots().model(out.slot())), true, out);
 }
 
 void FrameBuilder::fillSpeed(const SimulatedMatch& match, Time now, bool still, MatchFrame& out) {

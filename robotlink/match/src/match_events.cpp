@@ -93,7 +93,7 @@ void MatchEvents::notAttached(const sim::WorldState& state, RobotId robot,
 
 void MatchEvents::lateCycle(const sim::WorldState& state, RobotId robot, const std::string& why) {
   MatchEvent event = ofProcess(MatchEventKind::CycleLate, state, robot, "");
-  event.detail = why + "; the match goes on without it and is not repeatable";
+  event.detail = why + "; the match continues without it and is not repeatable";
   add(std::move(event));
 }
 

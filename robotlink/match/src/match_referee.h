@@ -28,7 +28,7 @@ class MatchReferee {
   /// Robots answer what they obey: to this port of the sender, or 0 for that of the version.
   void answerTo(int port) { m_answerPort = port; }
 
-  /// After a tick: takes what an external referee has said, and sends what is due. True when
+  /// After a tick: takes what a GameController has said, and sends what is due. True when
   /// robots hear the referee now: packet() is news. A tick that is played `again` hears and sends
   /// nothing.
   bool tick(sim::Simulation& simulation, bool again = false);

@@ -151,7 +151,7 @@ bool ProcessPace::awaitsFirstCycle(RobotSlot& slot, Time now) {
   if (waited < std::max(leastPatience, Seconds(RobotSlots::silentAfter(slot)))) return true;
   slot.hasMissedCycle = true;
   m_events.lateCycle(m_base.simulation.state(), slot.id,
-                     "it has not said that it is there after " + inSeconds(waited));
+                     "it has not finished its first cycle after " + inSeconds(waited));
   return false;
 }
 
@@ -182,7 +182,7 @@ bool ProcessPace::isAwaited(const RobotSlot& slot, SlotProcess& process, Time no
   process.settled = true;
   m_events.notAttached(m_base.simulation.state(), slot.id, process.profile.name,
                        "after " + inSeconds(waited) + "; the match " +
-                           (process.startTick == 0 ? "starts" : "goes on") + " without it");
+                           (process.startTick == 0 ? "starts" : "continues") + " without it");
   return false;
 }
 

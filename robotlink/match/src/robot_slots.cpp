@@ -244,7 +244,7 @@ Result<void> RobotSlots::setRuntime(RobotId id, const RuntimeChoice& choice) {
     if (slot.board.key() == 0 && slot.runtime.hasOwn() && choice.isChosen()) {
       return failure(
           ErrorCode::Unsupported,
-          "this match runs inside one program, where no other one reaches its blackboards; "
+          "this match runs inside one program, so other programs cannot reach its blackboards; "
           "start it with separate processes");
     }
     slot.choice = choice;
@@ -424,8 +424,7 @@ Result<IntVar> RobotSlots::cycleOf(const RobotSlot& slot) const {
       name ? m_base.catalog->withExtension().intVar(*name) : std::optional<IntVar>();
   if (variable) return *variable;
   return failure(ErrorCode::NotFound,
-                 name ? "waits for \"" + *name +
-                            "\", which is no whole-number variable of this variable catalog"
+                 name ? "waits for \"" + *name + "\", which is not an int variable of this catalog"
                       : name.error().message,
                  "the runtime profile " + slot.runtime.name + ", cycle");
 }
@@ -453,7 +452,7 @@ Result<void> RobotSlots::startMissing(RobotSlot& slot, std::vector<SlotProcess*>
 
 void RobotSlots::forget(SlotProcess& process) {
   if (process.id != 0) m_processes->removeOne(process.id);
-  if (process.place >= 0) m_lockStepSlots->giveBack(process.place);
+  if (process.lockStepSlot >= 0) m_lockStepSlots->release(process.lockStepSlot);
 }
 
 Result<void> RobotSlots::start(RobotSlot& slot, SlotProcess& process) {
@@ -558,10 +557,10 @@ Result<void> RobotSlots::describeTeamProgram(const RobotSlot& slot, const Profil
   if (!profile.heartbeat.empty()) {
     const auto variable = m_base.catalog->intVar(profile.heartbeat);
     if (!variable) {
-      return failure(ErrorCode::NotFound,
-                     "listens for \"" + profile.heartbeat +
-                         "\", which is no whole-number variable of this variable catalog",
-                     "the runtime profile " + slot.runtime.name + ", process " + profile.name);
+      return failure(
+          ErrorCode::NotFound,
+          "listens for \"" + profile.heartbeat + "\", which is not an int variable of this catalog",
+          "the runtime profile " + slot.runtime.name + ", process " + profile.name);
     }
     managed.heartbeat = *variable;
     managed.watch = ManagedProcess::Watch::Variable;

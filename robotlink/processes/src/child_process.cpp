@@ -90,7 +90,7 @@ std::optional<ChildProcess::End> ChildProcess::poll(std::vector<std::string>& li
   }
   readOutput(lines, bytesAtEnd);
   if (!m_partial.empty()) endLine(lines);
-  if (unknown) return End{"ended, and the system did not say how", true};
+  if (unknown) return End{"ended for an unknown reason", true};
   return End{describe(end), end.si_code != CLD_EXITED || end.si_status != 0};
 }
 

@@ -62,13 +62,13 @@ Result<void> ProcessManager::keepGuard() {
   if (m_guard) return {};
   if (m_program.empty()) {
     return failure(ErrorCode::InvalidArgument,
-                   "the robots' processes cannot be started: the path of pitchboard-robot is not "
+                   "cannot start the robots' processes: the path of pitchboard-robot is not "
                    "known; use inline cognition or give the path");
   }
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
     return failure(ErrorCode::SystemError,
-                   "the robots' processes cannot be guarded: " + systemReason(errno));
+                   "cannot start the guard of the robots' processes: " + systemReason(errno));
   }
   UniqueFd ours(ends[0]);
   const UniqueFd its(ends[1]);
@@ -341,8 +341,7 @@ void ProcessManager::planRestart(Entry& entry, Time now, ProcessNews news) {
   if (rule.giveUpAfter > 0 && entry.inARow >= rule.giveUpAfter) {
     status.state = ProcessState::GivenUp;
     m_news.push_back(std::move(news));
-    addNews(entry, ProcessNewsKind::GivenUp,
-            std::to_string(entry.inARow) + " restarts did not help");
+    addNews(entry, ProcessNewsKind::GivenUp, std::to_string(entry.inARow) + " restarts failed");
     return;
   }
   ++entry.inARow;
@@ -367,7 +366,7 @@ void ProcessManager::stop(int id) {
   if (!entry) return;
   if (entry->child) {
     end({entry});
-    ended(*entry, {}, false, "it was asked to", true);
+    ended(*entry, {}, false, "", true);
   } else {
     entry->status.state = ProcessState::Stopped;
     entry->status.detail.clear();

@@ -51,7 +51,7 @@ class Walk {
       const auto found = m_robots.find(event.robot);
       if (found == m_robots.end()) continue;
       RobotSummary::Link& link = *found->second.out.link;
-      if (event.kind == MatchEventKind::RobotOffline) ++link.silences;
+      if (event.kind == MatchEventKind::RobotOffline) ++link.outages;
       if (event.kind == MatchEventKind::Penalised) ++link.penalties;
     }
     for (auto& [id, robot] : m_robots) {

@@ -69,8 +69,8 @@ Result<void> checkCall(const GameState& game, const RefereeRules& rules,
   const bool needsRobot = call.kind == CallKind::Penalise || call.kind == CallKind::Pardon ||
                           call.kind == CallKind::Card;
   if (needsRobot && player == nullptr) {
-    return failure(ErrorCode::NotFound, "Robot " + std::to_string(call.robot.value) +
-                                            " plays in neither of the two teams.");
+    return failure(ErrorCode::NotFound,
+                   "Robot " + std::to_string(call.robot.value) + " belongs to neither team.");
   }
   const bool playing = game.state == PlayState::Playing;
   const bool finished = game.state == PlayState::Finished;
@@ -98,7 +98,7 @@ Result<void> checkCall(const GameState& game, const RefereeRules& rules,
       if (!playing) return refused("A drop ball is possible only in PLAYING.");
       return {};
     case CallKind::Penalise:
-      if (call.penalty == PenaltyKind::None) return refused("Choose the reason of the penalty.");
+      if (call.penalty == PenaltyKind::None) return refused("Choose a reason for the penalty.");
       return {};
     case CallKind::Pardon:
       if (player->penalty == PenaltyKind::None) {

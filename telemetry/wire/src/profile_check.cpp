@@ -72,7 +72,7 @@ std::string valueProblem(const Profile& profile, const ProfileField& field) {
            unitsOf(field.meaning) + ".";
   }
   if (profile.format != MessageFormat::Binary) return {};
-  if (field.as == WireType::None) return "A field of a binary message says \"at\" and \"as\".";
+  if (field.as == WireType::None) return "A field of a binary message needs \"at\" and \"as\".";
   if ((field.as == WireType::Text) != (field.type == FieldType::Text)) {
     return "A field of the type text, and no other, is read as text.";
   }
@@ -117,8 +117,8 @@ Result<void> validateAt(const Profile& profile, const std::vector<std::string>& 
   const bool fromMessage = profile.robotFrom.source == RobotFrom::Source::Message;
   if (fromMessage && !used.contains(FieldMeaning::Robot)) {
     return tl::unexpected(
-        problemOf("No field has the meaning \"robot\", so messages could not be told apart; a "
-                  "message without a number says \"robotFrom\".",
+        problemOf("No field has the meaning \"robot\", so robots could not be distinguished; a "
+                  "message without a number needs \"robotFrom\".",
                   whole + ": fields"));
   }
   if (!fromMessage && used.contains(FieldMeaning::Robot)) {

@@ -431,9 +431,10 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
     if (status.timedOut) continue;
     out.state = process.filter.working() ? HeartbeatState::Working : HeartbeatState::NotResponding;
   }
-  if (robot.volts) status.battery = batteryAt(*robot.volts, m_options.battery, robot.highestVolts);
+  const BatteryLimits& limits = m_options.batteryOf(robot.key.team);
+  if (robot.volts) status.battery = batteryAt(*robot.volts, limits, robot.highestVolts);
   if (robot.charge) {
-    status.battery = batteryOf(*robot.charge, robot.volts.value_or(0.0), m_options.battery);
+    status.battery = batteryOf(*robot.charge, robot.volts.value_or(0.0), limits);
   }
   status.decoder = robot.decoder;
   status.values = robot.values;

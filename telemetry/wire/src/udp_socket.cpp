@@ -23,7 +23,7 @@ void setOption(int descriptor, int option, int value) {
 std::string reason(int error) {
   switch (error) {
     case EADDRINUSE:
-      return "another program uses it and does not share it";
+      return "another program is using it";
     case EADDRNOTAVAIL:
       return "no network interface of this computer has that address";
     case EACCES:

@@ -192,8 +192,7 @@ Result<std::unique_ptr<CognitiveProcess>> makeCommunication(const ProcessOptions
   const auto address = TRY(telemetry::parseAddress(options.udpAddress));
   auto sender = TRY(telemetry::UdpSender::to(address));
   if (!(options.telemetryPeriod >= listenPeriod && options.telemetryPeriod <= 60.0)) {
-    return failure(ErrorCode::InvalidArgument,
-                   "telemetry can be sent every 0.05 to 60 seconds, not more often or seldom");
+    return failure(ErrorCode::InvalidArgument, "the telemetry period must be 0.05 to 60 seconds");
   }
   std::unique_ptr<RefereeListener> referee;
   if (options.refereeTeam) {

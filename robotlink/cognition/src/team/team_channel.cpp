@@ -130,7 +130,7 @@ Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& addre
   }
   auto sender = TRY(telemetry::UdpSender::to(*to));
   UniqueFd socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  if (!socket) return tl::unexpected<Error>(systemError("The system gives no UDP socket"));
+  if (!socket) return tl::unexpected<Error>(systemError("Cannot open a UDP socket"));
   const int on = 1;
   // Several robots of one computer listen on the same port.
   ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);

@@ -93,7 +93,7 @@ class RobotSlots {
   const sim::RobotIdentity& identityOf(RobotId id) const;
   /// Returns null if there is no such robot.
   const sim::RobotModel* model(RobotId id) const;
-  /// Returns for how long the robot's programs may be silent, in seconds.
+  /// Returns the time in s after which the robot's programs count as not responding.
   static double silentAfter(const RobotSlot& slot);
   /// Returns whether programs outside this one can write to the blackboard of any robot.
   bool haveTeamPrograms() const;

@@ -28,6 +28,7 @@ struct TeamSetup {
   std::vector<std::string> senders;             ///< allowed addresses and networks; empty: all
   std::string profileName = "published";        ///< a built-in profile, or a file beside the setup
   Profile profile = publishedProfile();
+  std::string model;                  ///< robot model: sets when a battery is low; may be empty
   bool attacksLeft = false;           ///< the team attacks the left goal
   std::map<int, std::string> robots;  ///< names of its robots, by number
   bool operator==(const TeamSetup&) const = default;
