@@ -50,7 +50,7 @@ std::vector<RobotReplyView> repliesOf(const telemetry::RefereeTracker& tracker,
   return views;
 }
 
-/// As it is heard: from whom, how long ago, and what else is known.
+/// Returns the referee as received: its sender, the age of the packet, and what else is known.
 RefereeView receivedView(const telemetry::RefereeTracker& tracker, const Teams& teams, int ourTeam,
                          telemetry::WallTime now) {
   RefereeView view = viewOf(*tracker.state(), teams);

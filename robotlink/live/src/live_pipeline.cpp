@@ -21,7 +21,7 @@ using telemetry::WallTime;
 
 constexpr double reportPeriod = 0.25;  // s
 constexpr double snapshotPeriod =
-    15.0;  // s; a moment of a recording is made from the books before it
+    15.0;  // s; moments of a recording are rebuilt from the last snapshot before them
 constexpr double sentReportPeriod = 1.0;  // s
 constexpr std::size_t maxQueued = 10'000;
 
@@ -375,7 +375,7 @@ LiveDetails LivePipeline::details(WallTime now) const {
   return details;
 }
 
-/// What an observer hears after it, is not in the books.
+/// Later calls of the observer are not part of the snapshot.
 void LivePipeline::sendSnapshot(WallTime now) {
   const double time = seconds(now);
   m_nextSnapshot = time + snapshotPeriod;

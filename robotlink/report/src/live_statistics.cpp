@@ -66,7 +66,7 @@ class Walk {
       if (place < m_last.teams.size()) m_sums.team(s.team).name = m_last.teams[place].name;
       m_sums.add(s);
     }
-    // Both teams of the referee, also the one of which no robot is heard.
+    // Both teams of the referee, even if no robot of one of them was received.
     for (std::size_t i = 0; m_last.referee && i < m_last.referee->teams.size(); ++i) {
       const RefereeTeamView& side = m_last.referee->teams[i];
       const auto colour = teamColorNamed(side.colour);

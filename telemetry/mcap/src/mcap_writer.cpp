@@ -295,7 +295,7 @@ Result<void> McapWriter::finish() {
   if (!written) {
     impl.file.cutAt(impl.whole);
   } else {
-    impl.file.cutAt(impl.file.size());  // gives back the room that was kept
+    impl.file.cutAt(impl.file.size());  // releases the reserved space
     if (impl.disk) written = impl.disk->finish();
   }
   impl.disk.reset();

@@ -70,7 +70,7 @@ SequenceStats sequenceFrom(const MonitorJson* json) {
 
 }  // namespace
 
-/// How robots write whose books do not say it: as their team does.
+/// The profile of robots whose saved state names none: that of their team.
 class UsualProfiles {
  public:
   UsualProfiles(const Profile& profile, const MonitorOptions& options)

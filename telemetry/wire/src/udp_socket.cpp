@@ -16,7 +16,7 @@ WallTime wallTime(const timespec& time) {
 }
 
 void setOption(int descriptor, int option, int value) {
-  // Each of these is a wish; without it less is known about the datagrams.
+  // Each of these options may fail; then less is known about the datagrams.
   (void)setsockopt(descriptor, SOL_SOCKET, option, &value, sizeof value);
 }
 

@@ -58,7 +58,7 @@ QString clockText(double seconds) {
 }
 
 QString durationText(double seconds, int decimals) {
-  return QString::fromStdString(durationWords(seconds, decimals));
+  return QString::fromStdString(pitchboard::durationText(seconds, decimals));
 }
 
 QString countText(qulonglong value) {

@@ -134,7 +134,7 @@ Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& addre
   const int on = 1;
   // Several robots of one computer listen on the same port.
   ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  // Bound to the loopback broadcast address, nothing from outside is heard.
+  // Bound to the loopback broadcast address, it receives nothing from outside.
   const sockaddr_in here =
       telemetry::socketAddress(onlyHere ? *to : telemetry::Address{INADDR_ANY}, port);
   if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&here), sizeof here) != 0) {

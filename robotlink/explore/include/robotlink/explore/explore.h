@@ -69,7 +69,7 @@ struct ExploreResult {
   const ExploredTime& last() const { return times.back(); }
   /// The best action is better than every other one.
   bool isClear() const;
-  /// "Supports is best." or "No difference can be told between ..."; empty without actions.
+  /// "Supports is best." or "No significant difference between ..."; empty without actions.
   std::string verdict() const;
 };
 
