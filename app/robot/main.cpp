@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
+#include <cctype>
 #include <cstdio>
 
 #include <app/command_line.h>
@@ -68,7 +69,8 @@ void printList() {
     std::printf("  %-14s %s\n", std::string(info.name).c_str(),
                 std::string(info.description).c_str());
   }
-  std::puts("Their numbers, for --behaviour '{\"name\": \"striker\", \"kick_distance\": 0.04}':");
+  std::puts(
+      "Their parameters, for --behaviour '{\"name\": \"striker\", \"kick_distance\": 0.04}':");
   const link::BehaviourParameters usual;
   for (const link::BehaviourParameter& number : link::behaviourParameters) {
     std::string of;
@@ -79,6 +81,12 @@ void printList() {
                 number.written(usual.*number.member), *number.unit.symbol ? " " : "",
                 number.unit.symbol, number.least, number.most, of.c_str(), number.meaning);
   }
+}
+
+std::string asSentence(std::string_view description) {
+  std::string text(description);
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 int parseAndRun(int argc, char** argv) {
@@ -94,7 +102,7 @@ int parseAndRun(int argc, char** argv) {
   const auto add = [&](std::string_view name, std::string_view description,
                        std::string_view example) {
     CLI::App* command = app.add_subcommand(
-        std::string(name), std::string(description) + "\nExample: " + std::string(example));
+        std::string(name), asSentence(description) + "\nExample: " + std::string(example));
     addOptions(*command, arguments);
     return command;
   };

@@ -197,7 +197,7 @@ class TestCliSimulate : public QObject {
     const Run alone = simulate({"--answer-referee", "0", "--duration", "1"});
     QVERIFY(alone.exitCode != 0 && alone.err.contains("--obey-referee"));
     const Run negative = simulate({"--seed", "-1", "--duration", "1"});
-    QVERIFY2(negative.exitCode == 2 && negative.err.contains("--seed: must be 0 or more"),
+    QVERIFY2(negative.exitCode == 2 && negative.err.contains("--seed must be 0 or more"),
              negative.err.constData());
   }
 
