@@ -314,7 +314,7 @@ class TestUnchangedProcess : public QObject {
 
   // Played faster than a team's program can think, the match slows down to it when the user wants,
   // and is as fast as it was asked to be when not.
-  void theMatchWaitsForOwnProgramsWhenAsked() {
+  void theMatchWaitsForTeamProgramsWhenAsked() {
     constexpr double wanted = 400.0;
     auto runner = startWith(R"json({"version": 1, "name": "slow", "processes": [{"name":
       "decision", "command": ["python3", "-c",

@@ -105,7 +105,7 @@ class TestLiveReplay : public QObject {
     m_path = m_folder.filePath("live.mcap").toStdString();
     LiveWatch watch(options);
     QTRY_COMPARE(watch.details().network.ports.size(), std::size_t{robots + 1});
-    // It has heard somebody before recording begins.
+    // It has received a robot before recording begins.
     TestSocket robot1, robot2, robot3, twin, referee;
     const auto port = [&](int robot) {
       return static_cast<std::uint16_t>(options.portBase + robot);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Team setups: who is heard as whose robot, in which colour, under which name its curves stand.
+// Team setups: the team, the colour and the name of a received robot.
 #include <QTemporaryDir>
 #include <QtTest>
 
@@ -74,7 +74,7 @@ class TestLiveTeams : public QObject {
              refused.error().text().c_str());
   }
 
-  void twoTeamsAreHeardApart() {
+  void twoTeamsAreDistinguished() {
     const LiveOptions options = twoTeams();
     TeamMonitor monitor(options.profile, monitorOptions(options));
     QCOMPARE(monitor.take(from("10.0.0.3", 1243, words)), TeamMonitor::Verdict::Used);
@@ -147,7 +147,7 @@ class TestLiveTeams : public QObject {
     QVERIFY(chooseOurTeam(options, "red"));
     QCOMPARE(options.ourTeam, 0);
     QCOMPARE(robotName({0, 3, 0}, teamsOf(options, nullptr)), std::string("R3"));
-    // Once a referee is heard, the number is that of the team with this colour.
+    // Once a referee is received, the number is that of the team with this colour.
     RefereeState state;
     state.teams[0].number = 12;
     state.teams[0].colour = 0;

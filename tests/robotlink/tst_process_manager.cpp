@@ -224,7 +224,7 @@ class TestProcessManager : public QObject {
     QTRY_COMPARE(count(Kind::NotResponding), 1);
   }
 
-  void withoutAHeartbeatASilentProcessIsNoAlarm() {
+  void withoutAHeartbeatAProcessIsNotReported() {
     ManagedProcess process = shell("exec sleep 600");
     process.silentAfter = RestartRule::Seconds(0.05);
     const int id = add(process);

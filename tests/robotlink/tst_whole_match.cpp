@@ -206,7 +206,7 @@ class TestWholeMatch : public QObject {
     QVERIFY(executed > 10);
   }
 
-  void itsPacketsAreHeardOnTheMatchsPort() {
+  void itsPacketsArriveOnTheMatchsPort() {
     constexpr std::uint32_t loopbackBroadcast = 0x7fffffff;  // 127.255.255.255
     const TestSocket ear(loopbackBroadcast);
     QVERIFY(ear.good());

@@ -71,7 +71,7 @@ class TestTeamMonitor : public QObject {
     QCOMPARE(restored.status(start + 4s).robots[0].errorCount, std::uint64_t{3});
   }
 
-  void aSilentProcessIsKnownSince() {
+  void aProcessThatStopsRespondingIsKnownSince() {
     TeamMonitor monitor;
     for (int i = 0; i < 5; ++i) give(monitor, text(1, 1), start + i * 1s);
     WallTime silentAt{};
