@@ -57,18 +57,29 @@ chart() {
 import re, sys
 page = open(sys.argv[1]).read()
 style = "".join(re.findall(r"<style>(.*?)</style>", page, re.S))
+colours = dict(re.findall(r"--(\w+): ([^;]+);", style.split("@media")[0]), c="#2f6fc6")  # those of the light theme
+style = re.sub(r"var\(--(\w+)\)", lambda name: colours[name[1]], "\n".join(re.findall(r"^\.(?:axis|grid|curve|area|bar).*$", style, re.M)))
 svg = re.findall(r"<svg.*?</svg>", page, re.S)[int(sys.argv[2])]
 if "xmlns" not in svg.split(">")[0]:
     svg = svg.replace("<svg", '<svg xmlns="http://www.w3.org/2000/svg"', 1)
-print(svg.replace(">", "><style>%s</style>" % style.replace("&", "&amp;").replace("<", "&lt;"), 1))
+svg = re.sub(r"var\(--(\w+)\)", lambda name: colours[name[1]], svg)
+print(svg.replace(">", "><style>svg { font-family: sans-serif } %s</style>" % style, 1))
 END
   rsvg-convert --background-color white --width 880 chart.svg -o "$3.png"
 }
-# terminal NAME COMMAND: what a command prints, as in a terminal.
+# terminal NAME COMMAND: what a command prints, as in a terminal; at most 30 lines.
 terminal() {
-  { echo "\$ ${*:2}"; bash -c "PATH=$bin:\$PATH; ${*:2}" 2>&1; } >terminal.txt
-  convert -background '#232629' -fill '#eff0f1' -font DejaVu-Sans-Mono -pointsize 15 \
-    label:@terminal.txt -bordercolor '#232629' -border 16 "$1.png"
+  { echo "\$ ${*:2}" | sed "s,$root/,,; s, | sed .*,,"; bash -c "PATH=$bin:\$PATH; ${*:2}" 2>&1 | head -30; } >terminal.txt
+  python3 - terminal.txt >terminal.svg <<'END'
+import html, sys
+lines = open(sys.argv[1]).read().splitlines()
+width, height = 32 + round(8.43 * max(map(len, lines))), 24 + 18 * len(lines)
+print('<svg xmlns="http://www.w3.org/2000/svg" width="%d" height="%d"><rect width="100%%" height="100%%" fill="#232629"/>' % (width, height))
+for i, line in enumerate(lines):
+    print('<text xml:space="preserve" x="16" y="%d" font-family="DejaVu Sans Mono" font-size="14" fill="#eff0f1">%s</text>' % (28 + 18 * i, html.escape(line)))
+print("</svg>")
+END
+  rsvg-convert terminal.svg -o "$1.png"
 }
 recording() {
   [ -f match.mcap ] || "$bin/pitchboard-cli" record --scenario match-3v3 --seed 7 --duration 2:00 -o match.mcap >/dev/null
@@ -199,7 +210,7 @@ experiments() {
 }
 
 advisor() {
-  studio --scenario match-3v3 --advisor blue --cognition inline --play-to 2520
+  studio --scenario match-3v3 --advisor blue --cognition inline --play-to 2098
   sleep 4
   find "Advisor's candidates"
   find "Ball in 5 s"
@@ -213,8 +224,7 @@ explore() {
 }
 calibrate() {
   "$bin/pitchboard-cli" record --scenario calibration-drill --duration 1:30 -o drill.mcap >/dev/null
-  "$bin/pitchboard-cli" calibrate drill.mcap --robot B1 -o b1.json --report b1.html >/dev/null
-  chart b1.html 0 calibrate
+  terminal calibrate "pitchboard-cli calibrate drill.mcap --robot B1 -o b1.json --force"
 }
 learning() {
   "$bin/pitchboard-cli" record --scenario calibration-drill --duration 1:30 -o learn.mcap >/dev/null
@@ -240,21 +250,18 @@ tutorial-lost-ball() {
   find "B1/VISION_BALL_DIST"
   find "B1/VISION_LOST"
   drag 720 621 420
-  click 700 855
+  click 900 855 # B1 has lost the ball
   shoot tutorial-lost-ball
 }
 cli() { terminal cli "pitchboard-cli simulate --scenario match-3v3 --duration 60"; }
-conformance() {
-  # The path of a robot in a recorded trace, and what it did.
-  terminal conformance "cd $root && pitchboard-cli conformance tests/data/traces/i_action_0*.json"
-}
+conformance() { terminal conformance "pitchboard-cli conformance $root/tests/data/traces/i_action_08_B?.json | sed 's,.*/,,'"; }
 file-formats() {
   recording
   terminal file-formats "pitchboard-cli inspect match.mcap"
 }
 worlds() {
-  python3 - "$bin/pitchboard-cli" >worlds.mvg <<'END'
-# The ball in 64 worlds of match-3v3 that differ in their seeds, for 20 s, on a field of 9 m by 6 m, 80 pixels a metre.
+  python3 - "$bin/pitchboard-cli" >worlds.svg <<'END'
+# The ball in 64 worlds of match-3v3 that differ in their seeds, for 60 s, on a field of 9 m by 6 m, 80 pixels a metre.
 import json, subprocess, sys
 
 count = 64
@@ -274,18 +281,20 @@ ball = names.index("ball_x"), names.index("ball_y")
 px = lambda x: 440 + 80 * x
 py = lambda y: 320 - 80 * y
 paths = [[] for _ in range(count)]
-for _ in range(80):
+for _ in range(240):
     ask(do="step", ticks=15)
     for path, row in zip(paths, ask(do="read", what="game")["values"]):
         path.append("%g,%g" % (px(row[ball[0]]), py(row[ball[1]])))
 worlds.stdin.close()
-print("fill none stroke #c3cec6 stroke-width 4")
-print("rectangle %g,%g %g,%g line %g,%g %g,%g circle %g,%g %g,%g" % (px(-4.5), py(3), px(4.5), py(-3), px(0), py(3), px(0), py(-3), px(0), py(0), px(0.75), py(0)))
-print("stroke rgba(240,163,94,0.6) stroke-width 2")
+print('<svg xmlns="http://www.w3.org/2000/svg" width="880" height="640"><rect width="880" height="640" fill="#33453a"/>')
+print('<g fill="none" stroke="#c3cec6" stroke-width="4"><rect x="80" y="80" width="720" height="480"/>')
+print('<path d="M440 80v480"/><circle cx="440" cy="320" r="60"/></g>')
+print('<g fill="none" stroke="#f0a35e" stroke-opacity="0.6" stroke-width="2">')
 for path in paths:
-    print("polyline " + " ".join(path))
+    print('<polyline points="%s"/>' % " ".join(path))
+print("</g></svg>")
 END
-  convert -size 880x640 xc:'#33453a' -draw "$(cat worlds.mvg)" worlds.png
+  rsvg-convert worlds.svg -o worlds.png
 }
 
 [ $# -gt 0 ] || set -- studio-dark studio-light scenario referee drawings blackboard behaviours agent rollouts processes live plots replay experiments \
