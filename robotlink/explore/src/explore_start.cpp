@@ -232,7 +232,7 @@ class StartMaker {
     }
     if (told.clock && *told.clock > 0.0) game.secondsLeft = *told.clock;
     if (told.state != sim::PlayState::Playing) {
-      note("The game is in " + std::string(wordsOf(told.state)) +
+      note("The game is in " + std::string(labelOf(told.state)) +
            ". Rollouts have no referee: all robots play at once.");
       return {};
     }
