@@ -49,8 +49,9 @@ const std::vector<std::string>& furtherKeys() {
 /// What a recording does not show.
 const std::vector<const char*>& hiddenKeys() {
   static const std::vector<const char*> keys{
-      "radius",     "mass",       "fall_impulse", "foot_side", "foot_width",     "kick_reach",
-      "kick_outer", "kick_inner", "head_speed",   "pan_limit", "camera_forward", "camera_height"};
+      "radius",         "mass",          "fall_impulse", "foot_side",   "foot_width",
+      "kick_reach",     "kick_outer",    "kick_inner",   "head_speed",  "pan_limit",
+      "camera_forward", "camera_height", "battery_full", "battery_low", "battery_empty"};
   return keys;
 }
 
@@ -283,9 +284,9 @@ std::vector<std::string> calibrationKeys() {
 Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::RobotModel& base,
                               const CalibrationOptions& options,
                               const CalibrationProgress& progress) {
-  if (logs.empty()) return failure(ErrorCode::InvalidArgument, "there is no recording");
+  if (logs.empty()) return failure(ErrorCode::InvalidArgument, "no recording was given");
   if (!(options.holdOut >= 0.0 && options.holdOut <= 0.5)) {
-    return failure(ErrorCode::InvalidArgument, "the part that is held out must be 0 to 0.5");
+    return failure(ErrorCode::InvalidArgument, "the held-out share must be 0 to 0.5");
   }
   Calibration out;
   out.robot = logs.front().robot;
@@ -294,7 +295,7 @@ Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::R
   std::vector<CalibrationLog> fitted;
   for (const CalibrationLog& log : logs) {
     if (log.rows.size() < 2) {
-      return failure(ErrorCode::InvalidArgument, "there are no rows", log.session);
+      return failure(ErrorCode::InvalidArgument, "the recording has no rows", log.session);
     }
     out.sessions.push_back(log.session);
     out.notes.insert(out.notes.end(), log.notes.begin(), log.notes.end());
@@ -315,7 +316,7 @@ Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::R
   fitPercepts(filters, fitted, motion, out);
   fitKicks(filters, fitted, motion, out);
   tellLeftOut(filters, fitted, motion, out);
-  for (const char* key : hiddenKeys()) out.kept[key] = "a recording does not show it";
+  for (const char* key : hiddenKeys()) out.kept[key] = "a recording does not contain it";
   if (out.values.empty()) {
     return failure(ErrorCode::NotFound,
                    "nothing could be estimated: the recording has too little of robot " +

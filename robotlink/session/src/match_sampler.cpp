@@ -139,6 +139,12 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
                        {"key", std::to_string(sampled.key)},
                        {"imu180", identity.imuStartsAt180 ? "1" : "0"},
                        {"behaviour", sampled.behaviour}};
+    const sim::RobotModel& model = *match.robots().model(identity.id);
+    for (const auto& [key, volts] : {std::pair("battery_full", model.batteryFull),
+                                     {"battery_low", model.batteryLow},
+                                     {"battery_empty", model.batteryEmpty}}) {
+      info.attributes[key] = shortest(volts);
+    }
     telemetry::setOrder(info, orderOf(keyOf(identity), teams));
     const std::string& team = teams[static_cast<std::size_t>(identity.team) + 1].name;
     if (!team.empty()) info.attributes["team_name"] = team;
