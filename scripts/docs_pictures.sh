@@ -114,7 +114,7 @@ blackboard() {
 }
 behaviours() {
   studio --scenario match-3v3 --play-to 900
-  find "Particles of localization"
+  find "Localization particles"
   find "Planned path"
   shoot behaviours
   convert behaviours.png -crop 716x492+301+104 +repage behaviours.png

@@ -2,12 +2,12 @@
 #include <robotlink/calibrate/calibrate.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include <base/angles.h>
+#include <robotlink/report/distributions.h>
 #include <simcore/world/action_codes.h>
 #include <simcore/world/parameters.h>
 
@@ -198,12 +198,11 @@ void tellSpreads(std::span<const MotionFilter> filters, std::span<const Calibrat
     double mean = 0.0, squares = 0.0;
     for (const double one : all) mean += one / n;
     for (const double one : all) squares += (one - mean) * (one - mean);
-    const boost::math::chi_squared distribution(n - 1.0);
     const double speed = std::exp(fit.logs[parameter]);
     const auto sigma = [&](double freedom) { return speed * std::sqrt(squares / freedom); };
     out.told.push_back({std::string(motionParameters[parameter].key) + ": spread between stints",
-                        sigma(n - 1.0), sigma(boost::math::quantile(distribution, 0.975)),
-                        sigma(boost::math::quantile(distribution, 0.025)), all.size(), "stints"});
+                        sigma(n - 1.0), sigma(chiSquaredQuantile(n - 1.0, 0.975)),
+                        sigma(chiSquaredQuantile(n - 1.0, 0.025)), all.size(), "stints"});
   }
 }
 

@@ -49,7 +49,9 @@ class ProcessesDock : public QStackedWidget {
         m_source(source),
         m_model(new ProcessesModel(this)),
         m_page(new QWidget(this)),
-        m_asNow(new QLabel(QStringLiteral("Processes are shown as they are now."), m_page)),
+        m_asNow(new QLabel(
+            QStringLiteral("You are viewing the past; processes are shown as they are now."),
+            m_page)),
         m_table(new QTableView(m_page)),
         m_empty(makeEmptyLabel(this, QStringLiteral("noProcesses"))) {
     constexpr Beat::Milliseconds least{250}, most{1000};

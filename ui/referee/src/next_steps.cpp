@@ -21,7 +21,7 @@ NextStep calling(CallKind kind, const char* text, const char* tip) {
 
 NextStep skipToKickOff() {
   return {std::nullopt, QStringLiteral("Skip to kick-off"),
-          QStringLiteral("Plays at full speed until the ball may be kicked off"), true};
+          QStringLiteral("Plays at full speed until kick-off"), true};
 }
 
 NextStep nextOfSetPlay(sim::Restart::Step step) {
@@ -74,11 +74,11 @@ std::vector<NextStep> nextSteps(const link::RefereeDesk& desk) {
       if (!shootOut && desk.rules.automatic) steps.push_back(skipToKickOff());
       break;
     case PlayState::Ready:
-      steps.push_back(toState(PlayState::Set, "SET", "Robots stand"));
+      steps.push_back(toState(PlayState::Set, "SET", "Robots stand still"));
       if (desk.rules.automatic) steps.push_back(skipToKickOff());
       break;
     case PlayState::Set:
-      steps.push_back(toState(PlayState::Playing, "PLAYING", "The whistle"));
+      steps.push_back(toState(PlayState::Playing, "PLAYING", "Starts play"));
       break;
     case PlayState::Playing:
       if (game.restart.isAnnounced()) steps.push_back(nextOfSetPlay(game.restart.step));

@@ -273,7 +273,7 @@ class RefereePanel : public QScrollArea {
     penaltyRow(1)->addWidget(m_card);
     addForChosen(
         "Take off", "Ctrl+Alt+U",
-        "Off the field as a substitute; Pardon lets it, or another, come on",
+        "Takes the robot off as a substitute. Pardon brings it or another one on",
         [] { return RefereeCall{.kind = CallKind::Penalise, .penalty = PenaltyKind::Substitute}; });
   }
 

@@ -164,10 +164,10 @@ void StudioStatusBar::showSource() {
     const bool unrepeatable = m_context.replay->isUnrepeatable();
     m_processes->setText(unrepeatable ? QStringLiteral("Run is not repeatable") : QString());
     m_processes->setToolTip(
-        unrepeatable
-            ? QStringLiteral("A program decided that the match did not wait for. Playing the run "
-                             "again gives another result.")
-            : QString());
+        unrepeatable ? QStringLiteral(
+                           "A program took decisions without the match waiting for it. Playing the "
+                           "run again gives another result.")
+                     : QString());
   } else {
     showMatch(*frame);
   }

@@ -173,11 +173,10 @@ void TransportBar::addSkip() {
     m_skips << action;
     return action;
   };
-  connect(make("skipToKickOff", "Skip to &kick-off",
-               "Plays at full speed until the ball may be kicked off"),
+  connect(make("skipToKickOff", "Skip to &kick-off", "Plays at full speed until kick-off"),
           &QAction::triggered, m_context.controller, &MatchController::skipToKickOff);
   connect(make("skipToEvent", "Skip to next &event",
-               "Plays at full speed until something happens that the timeline marks"),
+               "Plays at full speed until the next event on the timeline"),
           &QAction::triggered, this,
           [this] { m_context.controller->skipToEvent(m_context.timeline->eventFilter()); });
   auto* button = new QToolButton(this);
