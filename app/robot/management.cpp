@@ -36,7 +36,7 @@ std::string sentenceOf(const link::ProcessNews& news) {
   const std::string again =
       news.restartIn < 0
           ? std::string()
-          : "; it starts again in " + link::inSeconds(link::RestartRule::Seconds(news.restartIn));
+          : "; restarting in " + link::inSeconds(link::RestartRule::Seconds(news.restartIn));
   switch (news.kind) {
     case Kind::Started:
     case Kind::Restarted:

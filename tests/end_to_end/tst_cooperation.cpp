@@ -120,9 +120,9 @@ class TestCooperation : public QObject {
     QTest::addColumn<QByteArray>("told");
     QTest::newRow("hangs") << QByteArray("time.sleep(1000)") << true
                            << QByteArray(
-                                  "no cycle finished for 0.3 s; the match goes on without it");
+                                  "no cycle finished for 0.3 s; the match continues without it");
     QTest::newRow("ends") << QByteArray("sys.exit(0)") << true
-                          << QByteArray("the match goes on without it and is not repeatable");
+                          << QByteArray("the match continues without it and is not repeatable");
     QTest::newRow("never cooperates") << QByteArray("pass") << false << QByteArray();
   }
   void aLateOneIsNamed() {

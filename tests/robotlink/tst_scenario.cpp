@@ -112,9 +112,9 @@ class TestScenario : public QObject {
     };
     row("no referee", R"("game": {"state": "set"})", "game: a game, penalties and cards need");
     row("state", R"("referee": "humanoid-2021", "game": {"state": "playin"})",
-        "game.state: there is no state of the game \"playin\"; did you mean \"playing\"?");
+        "game.state: there is no game state \"playin\"; did you mean \"playing\"?");
     row("score twice", R"("referee": "humanoid-2021", "game": {}, "score": {"left": 1})",
-        "score: is said in \"game\"");
+        "score: belongs inside \"game\"");
     row("robot", R"("referee": "humanoid-2021", "game": {"touch": {"robot": "B7"}})",
         "game.touch.robot: there is no robot \"B7\"");
     row("place", R"("referee": "humanoid-2021", "game": {"ball_still": {"x": 1}})",
