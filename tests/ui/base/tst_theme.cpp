@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/base/scoreboard_state.h>
+#include <QComboBox>
 #include <QPainter>
+#include <QStandardItemModel>
 #include <QStyleOptionButton>
 #include <QtTest>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <ui/base/elided_words.h>
 #include <ui/base/quick_painting.h>
 #include <ui/base/robot_words.h>
+#include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 
 namespace tst_theme {
@@ -273,6 +276,44 @@ class TestTheme : public QObject {
         QVERIFY2(best >= 3.0, qPrintable(QString::number(best)));
       }
     }
+  }
+
+  void cellsAndBoxesKeepTheirNumbers() {
+    setTheme(*qApp, ThemeChoice::Dark);
+    const QString text = QStringLiteral("D silent 4 min 20 s");
+    const auto drawn = [](QWidget& widget, int wide) {
+      widget.ensurePolished();
+      widget.resize(wide, 24);
+      return widget.grab().toImage();
+    };
+    const int wide = QFontMetrics(qApp->font()).horizontalAdvance(text) - 20;
+    // A narrow cell looks like one that holds the shortened text.
+    const auto cell = [&](const QString& shown) {
+      QStandardItemModel model(1, 1);
+      model.setData(model.index(0, 0), shown);
+      QTableView table;
+      styleTable(&table);
+      table.horizontalHeader()->hide();
+      table.setModel(&model);
+      return drawn(table, wide);
+    };
+    const double room = wide - 2 * (qApp->style()->pixelMetric(QStyle::PM_FocusFrameHMargin) + 1);
+    const QString cut = elidedWords(QFontMetricsF(qApp->font()), text, room);
+    QVERIFY(cut != text && cut.endsWith(QStringLiteral("4 min 20 s")));
+    QCOMPARE(cell(text), cell(cut));
+    const auto box = [&](const QString& shown) {
+      QComboBox combo;
+      combo.addItem(shown);
+      return drawn(combo, wide + 30);
+    };
+    // As many letters as fit, and the number.
+    QVERIFY(box(text) != box(QStringLiteral("D silent")));
+    bool found = false;
+    for (double fits = room; fits > 0 && !found; fits -= 1.0) {
+      const QString shorter = elidedWords(QFontMetricsF(qApp->font()), text, fits);
+      found = shorter.endsWith(QStringLiteral("4 min 20 s")) && box(text) == box(shorter);
+    }
+    QVERIFY(found);
   }
 
   void aPastMomentIsNotPausedAndTheClockEndsAtZero() {

@@ -94,7 +94,7 @@ const KeyRow keyTable[] = {
     {nullptr, "Click", keysOfPlots, "Show that moment everywhere"},
     {nullptr, "Drag, wheel", keysOfPlots, "Move, zoom in time"},
     {nullptr, "Ctrl+wheel, Shift+drag", keysOfPlots, "Zoom the values, zoom into a box"},
-    {nullptr, "Double click", keysOfPlots, "Show everything"},
+    {nullptr, "Double-click", keysOfPlots, "Show everything"},
     {nullptr, "Wheel on the numbers", keysOfPlots, "Scroll the plots"},
 
     {nullptr, "Tab, Shift+Tab", keysOfPanels, "Next, previous control"},
