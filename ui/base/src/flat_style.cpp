@@ -175,7 +175,7 @@ void FlatStyle::drawControl(ControlElement element, const QStyleOption* option, 
     return;
   }
   QStyleOptionComboBox shown = *combo;
-  int room = subControlRect(CC_ComboBox, combo, SC_ComboBoxEditField, widget).width() - 2;
+  int room = subControlRect(CC_ComboBox, combo, SC_ComboBoxEditField, widget).width();
   if (!combo->currentIcon.isNull()) room -= combo->iconSize.width() + textGap();
   shown.currentText = elidedWords(QFontMetricsF(painter->font()), combo->currentText, room);
   QProxyStyle::drawControl(element, &shown, painter, widget);

@@ -98,7 +98,7 @@ const KeyRow keyTable[] = {
     {nullptr, "Wheel on the numbers", keysOfPlots, "Scroll the plots"},
 
     {nullptr, "Tab, Shift+Tab", keysOfPanels, "Next, previous control"},
-    {nullptr, "Enter", keysOfPanels, "Press a button, select a robot, plot a variable"},
+    {nullptr, "Enter", keysOfPanels, "Press a button, select a robot, plot"},
     {nullptr, "F2, *", keysOfPanels, "Edit the value, mark as favourite (Variables)"},
     {nullptr, "Ctrl+C", keysOfPanels, "Copy the selected lines"},
 };

@@ -26,7 +26,8 @@ class CellDelegate : public QStyledItemDelegate {
     initStyleOption(&cell, index);
     const QStyle* style = cell.widget ? cell.widget->style() : QApplication::style();
     const int margin = style->pixelMetric(QStyle::PM_FocusFrameHMargin, &cell, cell.widget) + 1;
-    cell.text = elidedWords(QFontMetricsF(cell.font), cell.text, cell.rect.width() - 2 * margin);
+    const QRect room = style->subElementRect(QStyle::SE_ItemViewItemText, &cell, cell.widget);
+    cell.text = elidedWords(QFontMetricsF(cell.font), cell.text, room.width() - 2 * margin);
     style->drawControl(QStyle::CE_ItemViewItem, &cell, painter, cell.widget);
   }
 };
