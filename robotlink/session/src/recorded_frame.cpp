@@ -219,6 +219,15 @@ RobotFrame RecordedFrames::robotOf(std::size_t group, double time, LampMemory& l
   robot.ownName = attribute(info, "name");
   if (!attribute(info, "key").empty()) robot.boardKey = attributeNumber(info, "key");
   robot.behaviour = attribute(info, "behaviour");
+  const auto number = [&info](const char* name, double value) {
+    const std::string_view text = attribute(info, name);
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+  };
+  robot.radius = number("radius", robot.radius);
+  robot.fieldOfView =
+      radiansFromDegrees(number("field_of_view", degreesFromRadians(robot.fieldOfView)));
+  robot.visionRange = number("vision_range", robot.visionRange);
   const bool truth = l.trueX.present() && l.trueY.present();
   if (truth) {
     const double yaw = l.trueYaw.readOr(row, 0.0);
@@ -234,11 +243,6 @@ RobotFrame RecordedFrames::robotOf(std::size_t group, double time, LampMemory& l
                       l.lastUnknown.readInt(row)};
   if (l.isBoard()) {
     // As Live showed it.
-    const auto number = [&info](const char* name, double value) {
-      const std::string_view text = attribute(info, name);
-      std::from_chars(text.data(), text.data() + text.size(), value);
-      return value;
-    };
     const double rate = number("rate", l.attached ? AttachedBoard().rate : 0.0);
     const double timeout =
         number("timeout", std::max(1.0, 2.0 / std::max(rate, AttachedBoard::slowest)));

@@ -72,6 +72,25 @@ class TestGeometry : public QObject {
     QVERIFY2(wide >= scaled(canvas, 18) - 0.5, qPrintable(QString::number(wide)));
   }
 
+  void robotsKeepTheirSizeInThePast() {
+    Studio s({1280, 800});
+    s.controller.open(link::loadScenario("kick-off").value(), true);
+    s.controller.runTo(60);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 60);
+    const sim::RobotSnapshot now = s.controller.frame()->robots[0];
+    const RobotKey first = s.controller.frame()->robots[0].key;
+    const auto* canvas = s.window.field()->findChild<QGraphicsView*>();
+    const auto* scene = static_cast<FieldScene*>(canvas->scene());
+    QVERIFY(now.radius > 0.0);  // its model's, not the field's
+    QTRY_COMPARE(scene->radius(first), now.radius);
+    s.timeline()->seek(0.5);
+    QTRY_COMPARE(scene->frame()->origin, link::FrameOrigin::Recorded);
+    const link::RobotFrame* past = scene->frame()->robot(first);
+    QCOMPARE(scene->radius(first), now.radius);
+    QVERIFY(std::abs(past->fieldOfView - now.fieldOfView) < 1e-9);
+    QCOMPARE(past->visionRange, now.visionRange);
+  }
+
   void thePenaltyStripHidesNobody() {
     Studio s({960, 600});
     s.controller.open(link::loadScenario("kick-off").value(), true);
@@ -93,9 +112,9 @@ class TestGeometry : public QObject {
     QVERIFY2(!s.window.field()->hasRobotIn(box), qPrintable(strip->text()));
     QVERIFY(!box.intersects(past->geometry()));
     // Every number is inside, in two lines if need be.
-    const QRect text = strip->fontMetrics().boundingRect(
-        QRect(0, 0, box.width() - 8, 1000), strip->wordWrap() ? Qt::TextWordWrap : 0,
-        strip->text());
+    const QRect text =
+        strip->fontMetrics().boundingRect(QRect(0, 0, box.width() - 8, 1000),
+                                          strip->wordWrap() ? Qt::TextWordWrap : 0, strip->text());
     QVERIFY2(text.width() <= box.width() && text.height() <= box.height(),
              qPrintable(strip->text()));
   }
