@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Makes docs/images/*.png from the program itself: scripts/docs_pictures.sh [NAME...]
-# Commit them when the window has changed. Needs a release build, xvfb, xdotool, imagemagick and optipng. Robots and a referee of
+# Commit them when the window has changed. Needs a release build, xvfb, xdotool, imagemagick, librsvg2-bin and optipng. Robots and a referee of
 # live.png are played by this script on the published ports, so no studio may be listening.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -47,6 +47,29 @@ shoot() {
   import -window root "$1.png"
   kill "$window" && wait "$window" 2>/dev/null || true
 }
+# page PAGE FILE: writes the block of a documentation page that has this file name.
+page() {
+  sed -n "/^\`\`\`[a-z]* ${2//\//\\/}\$/,/^\`\`\`\$/{/^\`\`\`/d;p}" "$root/docs/$1" >"$(basename "$2")"
+}
+# chart FILE.html N NAME: the N-th chart of a report, as a picture.
+chart() {
+  python3 - "$1" "$2" >chart.svg <<'END'
+import re, sys
+page = open(sys.argv[1]).read()
+style = "".join(re.findall(r"<style>(.*?)</style>", page, re.S))
+svg = re.findall(r"<svg.*?</svg>", page, re.S)[int(sys.argv[2])]
+if "xmlns" not in svg.split(">")[0]:
+    svg = svg.replace("<svg", '<svg xmlns="http://www.w3.org/2000/svg"', 1)
+print(svg.replace(">", "><style>%s</style>" % style.replace("&", "&amp;").replace("<", "&lt;"), 1))
+END
+  rsvg-convert --background-color white --width 880 chart.svg -o "$3.png"
+}
+# terminal NAME COMMAND: what a command prints, as in a terminal.
+terminal() {
+  { echo "\$ ${*:2}"; bash -c "PATH=$bin:\$PATH; ${*:2}" 2>&1; } >terminal.txt
+  convert -background '#232629' -fill '#eff0f1' -font DejaVu-Sans-Mono -pointsize 15 \
+    label:@terminal.txt -bordercolor '#232629' -border 16 "$1.png"
+}
 recording() {
   [ -f match.mcap ] || "$bin/pitchboard-cli" record --scenario match-3v3 --seed 7 --duration 2:00 -o match.mcap >/dev/null
 }
@@ -87,7 +110,7 @@ behaviours() {
 }
 agent() {
   # The robots of a match stand in for real ones; the agent reads their blackboards.
-  "$bin/pitchboard-cli" simulate --scenario match-3v3 --cognition external --match 0 --speed 1 --duration 60 >/dev/null 2>&1 &
+  "$bin/pitchboard-cli" simulate --scenario match-3v3 --cognition separate --match 0 --speed 1 --duration 60 >/dev/null 2>&1 &
   sleep 2
   for robot in 1 2 3; do "$bin/pitchboard-agent" --robot "$robot" --to 127.0.0.1 2>/dev/null & done
   echo '{"name": "Our team", "number": 12, "colour": "blue"}' >ours.json
@@ -175,7 +198,98 @@ experiments() {
   shoot experiments
 }
 
-[ $# -gt 0 ] || set -- studio-dark studio-light scenario referee drawings blackboard behaviours agent rollouts processes live plots replay experiments
+advisor() {
+  studio --scenario match-3v3 --advisor blue --cognition inline --play-to 2520
+  sleep 4
+  find "Advisor's candidates"
+  find "Ball in 5 s"
+  shoot advisor
+  convert advisor.png -crop 716x492+301+104 +repage advisor.png
+}
+explore() {
+  studio --scenario match-3v3 --cognition inline --play-to 2100
+  find "Explore from this moment"
+  shoot explore 20
+}
+calibrate() {
+  "$bin/pitchboard-cli" record --scenario calibration-drill --duration 1:30 -o drill.mcap >/dev/null
+  "$bin/pitchboard-cli" calibrate drill.mcap --robot B1 -o b1.json --report b1.html >/dev/null
+  chart b1.html 0 calibrate
+}
+learning() {
+  "$bin/pitchboard-cli" record --scenario calibration-drill --duration 1:30 -o learn.mcap >/dev/null
+  "$bin/pitchboard-cli" calibrate learn.mcap --robot B1 -o b1.json --force >/dev/null
+  page learning.md our-team.json
+  sed -i 's/"generations": 2/"generations": 6/' our-team.json
+  "$bin/pitchboard-cli" learn our-team.json --out learned >/dev/null
+  chart learned/report.html 0 learning
+}
+tutorial-compare() {
+  page tutorial-compare.md compare.json
+  "$bin/pitchboard-cli" experiment compare.json --out compared >/dev/null
+  chart compared/report.html 0 tutorial-compare
+}
+tutorial-failing-test() {
+  page tutorial-failing-test.md tests/keeper.json
+  python3 -c 'import json; json.dump(json.load(open("keeper.json"))["scenario"], open("shot.json", "w"))'
+  "$bin/pitchboard" --render-scenario shot.json --picture tutorial-failing-test.png --size 800x600
+}
+tutorial-lost-ball() {
+  recording
+  studio --session match.mcap
+  find "B1/VISION_BALL_DIST"
+  find "B1/VISION_LOST"
+  drag 720 621 420
+  click 700 855
+  shoot tutorial-lost-ball
+}
+cli() { terminal cli "pitchboard-cli simulate --scenario match-3v3 --duration 60"; }
+conformance() {
+  # The path of a robot in a recorded trace, and what it did.
+  terminal conformance "cd $root && pitchboard-cli conformance tests/data/traces/i_action_0*.json"
+}
+file-formats() {
+  recording
+  terminal file-formats "pitchboard-cli inspect match.mcap"
+}
+worlds() {
+  python3 - "$bin/pitchboard-cli" >worlds.mvg <<'END'
+# The ball in 64 worlds of match-3v3 that differ in their seeds, for 20 s, on a field of 9 m by 6 m, 80 pixels a metre.
+import json, subprocess, sys
+
+count = 64
+worlds = subprocess.Popen([sys.argv[1], "simulate", "--stdio"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+
+def ask(**request):
+    worlds.stdin.write(json.dumps(request) + "\n")
+    worlds.stdin.flush()
+    return json.loads(worlds.stdout.readline())
+
+
+ask(do="create", scenario="match-3v3", worlds=count, noise="realistic")
+columns = [column[0] if isinstance(column, list) else column for column in ask(do="columns")["game"]]
+names = [column["name"] if isinstance(column, dict) else column for column in columns]
+ball = names.index("ball_x"), names.index("ball_y")
+px = lambda x: 440 + 80 * x
+py = lambda y: 320 - 80 * y
+paths = [[] for _ in range(count)]
+for _ in range(80):
+    ask(do="step", ticks=15)
+    for path, row in zip(paths, ask(do="read", what="game")["values"]):
+        path.append("%g,%g" % (px(row[ball[0]]), py(row[ball[1]])))
+worlds.stdin.close()
+print("fill none stroke #c3cec6 stroke-width 4")
+print("rectangle %g,%g %g,%g line %g,%g %g,%g circle %g,%g %g,%g" % (px(-4.5), py(3), px(4.5), py(-3), px(0), py(3), px(0), py(-3), px(0), py(0), px(0.75), py(0)))
+print("stroke rgba(240,163,94,0.6) stroke-width 2")
+for path in paths:
+    print("polyline " + " ".join(path))
+END
+  convert -size 880x640 xc:'#33453a' -draw "$(cat worlds.mvg)" worlds.png
+}
+
+[ $# -gt 0 ] || set -- studio-dark studio-light scenario referee drawings blackboard behaviours agent rollouts processes live plots replay experiments \
+  advisor explore calibrate learning tutorial-compare tutorial-failing-test tutorial-lost-ball cli conformance file-formats worlds
 for name in "$@"; do
   "$name"
   convert "$name.png" -colors 200 "png8:$name.8.png"

@@ -264,8 +264,8 @@ class TestManagement : public QObject {
 
   void words() {
     using Words = std::vector<std::string>;
-    QCOMPARE(commandWords("  a  b\t\"c d\"e \"\" "), (Words{"a", "b", "c de", ""}));
-    QCOMPARE(commandWords(""), Words{});
+    QCOMPARE(splitCommand("  a  b\t\"c d\"e \"\" "), (Words{"a", "b", "c de", ""}));
+    QCOMPARE(splitCommand(""), Words{});
   }
 };
 

@@ -272,7 +272,7 @@ class TestMatchSampler : public QObject {
       const auto& column = rig.column("B1", name);
       QVERIFY(column.kind == ColumnKind::Enumeration);
       QCOMPARE(column.labels.size(), std::size_t{23});
-      QCOMPARE(column.labels.at(22), actionWords(22));
+      QCOMPARE(column.labels.at(22), actionLabel(22));
     }
     // What a team-mate told is its intention, not its action.
     const auto& told = rig.column("B1", "COM_ACTION_ROBOT1");

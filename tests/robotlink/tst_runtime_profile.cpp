@@ -285,7 +285,7 @@ class TestRuntimeProfile : public QObject {
   }
 
   // What the referee says reaches a robot of somebody else as it reaches one of ours.
-  void aRobotOfSomebodyElseHearsTheReferee() {
+  void aRobotOfSomebodyElseReceivesTheReferee() {
     QTemporaryDir folder;
     QFile file(folder.filePath("hears.json"));
     QVERIFY(file.open(QIODevice::WriteOnly));

@@ -2,12 +2,12 @@
 #include <robotlink/calibrate/calibrate.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include <base/angles.h>
+#include <robotlink/report/distributions.h>
 #include <simcore/world/action_codes.h>
 #include <simcore/world/parameters.h>
 
@@ -49,8 +49,9 @@ const std::vector<std::string>& furtherKeys() {
 /// What a recording does not show.
 const std::vector<const char*>& hiddenKeys() {
   static const std::vector<const char*> keys{
-      "radius",     "mass",       "fall_impulse", "foot_side", "foot_width",     "kick_reach",
-      "kick_outer", "kick_inner", "head_speed",   "pan_limit", "camera_forward", "camera_height"};
+      "radius",         "mass",          "fall_impulse", "foot_side",   "foot_width",
+      "kick_reach",     "kick_outer",    "kick_inner",   "head_speed",  "pan_limit",
+      "camera_forward", "camera_height", "battery_full", "battery_low", "battery_empty"};
   return keys;
 }
 
@@ -197,12 +198,11 @@ void tellSpreads(std::span<const MotionFilter> filters, std::span<const Calibrat
     double mean = 0.0, squares = 0.0;
     for (const double one : all) mean += one / n;
     for (const double one : all) squares += (one - mean) * (one - mean);
-    const boost::math::chi_squared distribution(n - 1.0);
     const double speed = std::exp(fit.logs[parameter]);
     const auto sigma = [&](double freedom) { return speed * std::sqrt(squares / freedom); };
     out.told.push_back({std::string(motionParameters[parameter].key) + ": spread between stints",
-                        sigma(n - 1.0), sigma(boost::math::quantile(distribution, 0.975)),
-                        sigma(boost::math::quantile(distribution, 0.025)), all.size(), "stints"});
+                        sigma(n - 1.0), sigma(chiSquaredQuantile(n - 1.0, 0.975)),
+                        sigma(chiSquaredQuantile(n - 1.0, 0.025)), all.size(), "stints"});
   }
 }
 
@@ -284,9 +284,9 @@ std::vector<std::string> calibrationKeys() {
 Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::RobotModel& base,
                               const CalibrationOptions& options,
                               const CalibrationProgress& progress) {
-  if (logs.empty()) return failure(ErrorCode::InvalidArgument, "there is no recording");
+  if (logs.empty()) return failure(ErrorCode::InvalidArgument, "no recording was given");
   if (!(options.holdOut >= 0.0 && options.holdOut <= 0.5)) {
-    return failure(ErrorCode::InvalidArgument, "the part that is held out must be 0 to 0.5");
+    return failure(ErrorCode::InvalidArgument, "the held-out share must be 0 to 0.5");
   }
   Calibration out;
   out.robot = logs.front().robot;
@@ -295,7 +295,7 @@ Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::R
   std::vector<CalibrationLog> fitted;
   for (const CalibrationLog& log : logs) {
     if (log.rows.size() < 2) {
-      return failure(ErrorCode::InvalidArgument, "there are no rows", log.session);
+      return failure(ErrorCode::InvalidArgument, "the recording has no rows", log.session);
     }
     out.sessions.push_back(log.session);
     out.notes.insert(out.notes.end(), log.notes.begin(), log.notes.end());
@@ -316,7 +316,7 @@ Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::R
   fitPercepts(filters, fitted, motion, out);
   fitKicks(filters, fitted, motion, out);
   tellLeftOut(filters, fitted, motion, out);
-  for (const char* key : hiddenKeys()) out.kept[key] = "a recording does not show it";
+  for (const char* key : hiddenKeys()) out.kept[key] = "a recording does not contain it";
   if (out.values.empty()) {
     return failure(ErrorCode::NotFound,
                    "nothing could be estimated: the recording has too little of robot " +

@@ -145,6 +145,12 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
                        {"radius", shortest(robot.radius)},
                        {"field_of_view", shortest(degreesFromRadians(robot.fieldOfView))},
                        {"vision_range", shortest(robot.visionRange)}};
+    const sim::RobotModel& model = *match.robots().model(identity.id);
+    for (const auto& [key, volts] : {std::pair("battery_full", model.batteryFull),
+                                     {"battery_low", model.batteryLow},
+                                     {"battery_empty", model.batteryEmpty}}) {
+      info.attributes[key] = shortest(volts);
+    }
     telemetry::setOrder(info, orderOf(keyOf(identity), teams));
     const std::string& team = teams[static_cast<std::size_t>(identity.team) + 1].name;
     if (!team.empty()) info.attributes["team_name"] = team;

@@ -10,7 +10,7 @@ void BadMessagesModel::add(std::vector<Row>& rows, const QString& who,
   for (std::size_t i = 0; i < telemetry::textErrorCount; ++i) {
     const auto error = static_cast<telemetry::TextError>(i);
     if (errors.count(error) == 0) continue;
-    const std::string_view words = telemetry::errorWords(error);
+    const std::string_view words = telemetry::errorText(error);
     rows.push_back({who, QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size())),
                     errors.count(error), QString::fromStdString(errors.sample(error))});
   }

@@ -22,7 +22,7 @@ QString stateText(const link::ProcessSummary& status) {
       return QStringLiteral("waiting to start");
     case State::Running:
       return QStringLiteral("running");
-    case State::Silent:
+    case State::NotResponding:
       return with(QStringLiteral("silent"));
     case State::Restarting:
       return with(QStringLiteral("restarting"));
@@ -130,7 +130,7 @@ QVariant ProcessesModel::data(const QModelIndex& index, int role) const {
   }
   if (role == Qt::ForegroundRole && index.column() == State) {
     switch (row.status.state) {
-      case State::Silent:
+      case State::NotResponding:
       case State::Restarting:
         return theme().warningText;
       case State::GivenUp:

@@ -81,9 +81,9 @@ std::vector<NextStep> nextSteps(const link::RefereeDesk& desk) {
       steps.push_back(toState(PlayState::Playing, "PLAYING", "Starts play"));
       break;
     case PlayState::Playing:
-      if (game.restart.isTold()) steps.push_back(nextOfSetPlay(game.restart.step));
+      if (game.restart.isAnnounced()) steps.push_back(nextOfSetPlay(game.restart.step));
       steps.push_back(calling(CallKind::Stop, "Stop", "Play is stopped"));
-      if (!shootOut && !game.restart.isTold()) {
+      if (!shootOut && !game.restart.isAnnounced()) {
         steps.push_back(calling(CallKind::DropBall, "Drop ball", "READY, nobody's kick-off"));
       }
       steps.push_back(shootOut ? toState(PlayState::Finished, "End shot", "No goal")
@@ -103,7 +103,7 @@ QString playText(const link::RefereeDesk& desk) {
   const sim::GameState& game = desk.game;
   using Step = sim::Restart::Step;
   if (game.setPlay() == sim::SetPlay::None) return {};
-  const std::string_view words = wordsOf(game.setPlay());
+  const std::string_view words = labelOf(game.setPlay());
   QString text = QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
   if (game.setPlayTeam() >= 0) {
     text += QStringLiteral(" for ") +

@@ -95,7 +95,7 @@ std::vector<link::RefereePlayerView> playersOf(const link::MatchFrame& frame,
     if (one == nullptr) continue;
     link::RefereePlayerView& player = players.emplace_back();
     player.number = robot.identity.number;
-    if (one->penalty != sim::PenaltyKind::None) player.penalty = wordsOf(one->penalty);
+    if (one->penalty != sim::PenaltyKind::None) player.penalty = labelOf(one->penalty);
     player.secondsLeft = std::max(0, sim::secondsOf(one->ticksLeft, frame.settings->tickRate));
     player.warnings = one->warnings;
     player.yellow = one->yellow;

@@ -30,7 +30,7 @@ QString runsText(const link::RobotFrame& robot) {
 /// have slowed down to it.
 bool keepsRealTime(const link::ProcessSummary& program) {
   const bool meant = program.whyRealTime == link::whyRealTime(link::ProcessClock::Real);
-  return program.foreign && !program.whyRealTime.empty() && (!meant || program.speed != 1.0);
+  return program.isTeamProgram && !program.whyRealTime.empty() && (!meant || program.speed != 1.0);
 }
 
 /// What is wrong with the separate processes of the robot; the least of it is one that is slow.
@@ -42,7 +42,7 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
       card.tag = QStringLiteral("%1 given up").arg(name);
       return;
     }
-    if (one.state == link::ProcessState::Silent) {
+    if (one.state == link::ProcessState::NotResponding) {
       card.tagKind = TagKind::Warning;
       card.tag = QStringLiteral("%1 silent").arg(name);
     } else if (card.tag.isEmpty() && keepsRealTime(one)) {
@@ -50,7 +50,7 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
       card.tag = QStringLiteral("%1 keeps real time").arg(name);
       card.tagTip = QStringLiteral("%1 %2 keeps real time: %3")
                         .arg(card.name, name, QString::fromStdString(one.whyRealTime));
-    } else if (card.tag.isEmpty() && one.foreign && one.achieved > 0.0 &&
+    } else if (card.tag.isEmpty() && one.isTeamProgram && one.achieved > 0.0 &&
                one.achieved < 0.95 * one.speed) {
       card.tagKind = TagKind::Warning;
       card.tag = QStringLiteral("%1 reaches ×%2").arg(name).arg(one.achieved, 0, 'f', 1);
@@ -97,7 +97,7 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
     card.tagKind = kind;
     card.tag = text;
   };
-  const auto silent = std::ranges::find(card.lamps, LampState::Silent, &Lamp::state);
+  const auto silent = std::ranges::find(card.lamps, LampState::NotResponding, &Lamp::state);
   const sim::RobotStatistics& statistics = robot.statistics;
   if (robot.timedOut()) {
     put(TagKind::Error,
@@ -217,7 +217,8 @@ CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
   for (std::size_t i = 0; i < card.lamps.size(); ++i) {
     const telemetry::ProcessHeartbeat& lamp = robot.lamps[i];
     const double seconds = std::min(telemetry::secondsOf(lamp.since), 1e6);
-    card.lamps[i] = {lamp.state, lamp.state == LampState::Silent ? static_cast<int>(seconds) : 0};
+    card.lamps[i] = {lamp.state,
+                     lamp.state == LampState::NotResponding ? static_cast<int>(seconds) : 0};
   }
   if (robot.decided || !robot.link) card.action = actionText(robot.decided.value_or(robot.action));
   if (card.timedOut && !card.action.isEmpty()) {

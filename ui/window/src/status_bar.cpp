@@ -184,7 +184,7 @@ void StudioStatusBar::showMemory() {
   if (m_context.recording->isRecording()) {
     const telemetry::SessionStatus status = m_context.recording->status();
     const QString trouble = QString::fromStdString(telemetry::troubleText(status));
-    const QString room = QString::fromStdString(telemetry::roomText(status));
+    const QString room = QString::fromStdString(telemetry::freeSpaceText(status));
     QString text = QStringLiteral("recording %1, %2 MB")
                        .arg(longMomentText(status.seconds))
                        .arg(static_cast<double>(status.bytes) / 1e6, 0, 'f', 1);

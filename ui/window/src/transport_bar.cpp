@@ -271,7 +271,7 @@ void TransportBar::showRecord() {
   m_record->setToolTip(
       on ? QStringLiteral("Stop recording into %1\n%2")
                .arg(m_context.recording->path(),
-                    QString::fromStdString(telemetry::roomText(m_context.recording->status())))
+                    QString::fromStdString(telemetry::freeSpaceText(m_context.recording->status())))
          : QStringLiteral("Record everything into a new file in %1")
                .arg(m_context.recording->folder()));
   m_record->setEnabled(on || m_context.recording->isPossible());
