@@ -389,7 +389,7 @@ void CalibrateDialog::showValues() {
              {QString::fromStdString(value.key), fourDigits(w.value),
               QStringLiteral("%1 to %2").arg(fourDigits(w.low), fourDigits(w.high)),
               shortUnit(w.unit), base ? fourDigits(*base) : QStringLiteral("–"),
-              QStringLiteral("%1 %2").arg(value.samples).arg(QString::fromStdString(value.of))});
+              QString::fromStdString(link::samplesText(value))});
     }
   }
   for (const auto& [key, reason] : m_calibration->kept) {
