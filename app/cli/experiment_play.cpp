@@ -57,13 +57,6 @@ Result<void> recordRuns(const link::Experiment& experiment, const link::Experime
   return {};
 }
 
-/// Left-aligned text of so many characters, whatever their bytes.
-std::string padded(const std::string& text, std::size_t width) {
-  const auto shown = static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-  return text + std::string(shown < width ? width - shown : 0, ' ');
-}
-
 void printTable(const link::TournamentTable& table) {
   std::size_t width = 4;
   for (const auto& team : table.teams) width = std::max(width, team.name.size());

@@ -183,6 +183,8 @@ class TestMatchSampler : public QObject {
       QCOMPARE(view->info().attributes.at("robot"), std::to_string(robot.identity.id.value));
       QCOMPARE(view->info().attributes.at("team"), std::string(info(robot.identity.team).name));
       QCOMPARE(view->info().attributes.at("number"), std::to_string(robot.identity.number));
+      QCOMPARE(std::stod(view->info().attributes.at("radius")), robot.radius);
+      QCOMPARE(std::stod(view->info().attributes.at("vision_range")), robot.visionRange);
       QCOMPARE(view->info().attributes.at("imu180"),
                std::string(robot.identity.imuStartsAt180 ? "1" : "0"));
       // Every word of the blackboard.

@@ -235,6 +235,10 @@ RobotFrame RecordedFrames::robotOf(std::size_t group, double time, LampMemory& l
   robot.ownName = attribute(info, "name");
   if (!attribute(info, "key").empty()) robot.boardKey = attributeNumber(info, "key");
   robot.behaviour = attribute(info, "behaviour");
+  robot.radius = numberOr(info, "radius", robot.radius);
+  robot.fieldOfView =
+      radiansFromDegrees(numberOr(info, "field_of_view", degreesFromRadians(robot.fieldOfView)));
+  robot.visionRange = numberOr(info, "vision_range", robot.visionRange);
   const bool truth = l.trueX.present() && l.trueY.present();
   if (truth) {
     const double yaw = l.trueYaw.readOr(row, 0.0);

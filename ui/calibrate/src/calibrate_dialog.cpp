@@ -195,6 +195,7 @@ QWidget* CalibrateDialog::makeForm() {
   m_progress = new QProgressBar(form);
   m_progress->setObjectName(QStringLiteral("calibrateProgress"));
   m_progress->setRange(0, 1000);
+  m_progress->setFormat(QStringLiteral("%p %"));
   m_progress->hide();
   m_message = new QLabel(form);
   m_message->setObjectName(QStringLiteral("calibrateMessage"));
@@ -236,10 +237,10 @@ QWidget* CalibrateDialog::makeForm() {
 QWidget* CalibrateDialog::makeResults() {
   m_results = new QTabWidget(this);
   m_results->setObjectName(QStringLiteral("calibrateResults"));
-  m_values =
-      makeTable({QStringLiteral("Number"), QStringLiteral("Value"), QStringLiteral("95 % interval"),
-                 QStringLiteral("Unit"), QStringLiteral("Base model"), QStringLiteral("From")},
-                "calibrateValues", m_results);
+  m_values = makeTable(
+      {QStringLiteral("Parameter"), QStringLiteral("Value"), QStringLiteral("95 % interval"),
+       QStringLiteral("Unit"), QStringLiteral("Base model"), QStringLiteral("From")},
+      "calibrateValues", m_results);
   m_kept = makeTable({QStringLiteral("Parameter"), QStringLiteral("Why the base value is kept")},
                      "calibrateKept", m_results);
   m_predictions = new PredictionsView(m_results);
@@ -388,7 +389,7 @@ void CalibrateDialog::showValues() {
              {QString::fromStdString(value.key), fourDigits(w.value),
               QStringLiteral("%1 to %2").arg(fourDigits(w.low), fourDigits(w.high)),
               shortUnit(w.unit), base ? fourDigits(*base) : QStringLiteral("–"),
-              QStringLiteral("%1 %2").arg(value.samples).arg(QString::fromStdString(value.of))});
+              QString::fromStdString(link::samplesText(value))});
     }
   }
   for (const auto& [key, reason] : m_calibration->kept) {

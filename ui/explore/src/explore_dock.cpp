@@ -86,6 +86,7 @@ class ExploreDock : public ScrolledForm {
     m_progress = new QProgressBar(form);
     m_progress->setObjectName(QStringLiteral("exploreProgress"));
     m_progress->setRange(0, 100);
+    m_progress->setFormat(QStringLiteral("%p %"));
     running->addWidget(m_progress, 1);
     m_cancel = new QPushButton(QStringLiteral("Cancel"), form);
     m_cancel->setObjectName(QStringLiteral("exploreCancel"));

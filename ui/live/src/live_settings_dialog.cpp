@@ -176,7 +176,7 @@ QWidget* LiveSettingsDialog::makeRobots() {
   m_colours = new QComboBox(widget);
   m_colours->addItem(QStringLiteral("team colour"), false);
   m_colours->addItem(QStringLiteral("by robot number"), true);
-  form->addRow(QStringLiteral("Colour"), m_colours);
+  form->addRow(QStringLiteral("Robot colours"), m_colours);
   m_field = new QComboBox(widget);
   for (const sim::FieldSpec& field : sim::builtInFields()) {
     m_field->addItem(QStringLiteral("%1: %2 × %3 m")
@@ -196,7 +196,7 @@ QWidget* LiveSettingsDialog::makeReferee() {
                             QStringLiteral("All GameControllers so far use 3838"));
   m_refereeVersion = new QComboBox(widget);
   m_refereeVersion->setObjectName(QStringLiteral("refereeVersion"));
-  m_refereeVersion->addItem(QStringLiteral("highest version received"), 0);
+  m_refereeVersion->addItem(QStringLiteral("highest received"), 0);
   constexpr int versions[] = {7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20};
   for (const int version : versions) {
     m_refereeVersion->addItem(QStringLiteral("only %1").arg(version), version);

@@ -107,7 +107,7 @@ ProfileEditor::ProfileEditor(const Profile& profile, const QString& file, QWidge
       QStringLiteral("Value = scale × received number + offset"));
   m_table->horizontalHeaderItem(Labels)->setToolTip(
       QStringLiteral("Labels of codes: 0 = stop, 1 = walk"));
-  const std::pair<int, int> widths[] = {{Name, 150},  {Type, 64},     {Unit, 52},    {Scale, 56},
+  const std::pair<int, int> widths[] = {{Name, 150},  {Type, 84},     {Unit, 52},    {Scale, 56},
                                         {Offset, 56}, {Category, 96}, {Meaning, 150}};
   for (const auto& [at, wide] : widths) m_table->setColumnWidth(at, scaled(this, wide));
   m_table->setSelectionBehavior(QAbstractItemView::SelectRows);

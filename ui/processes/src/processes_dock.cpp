@@ -59,7 +59,7 @@ class ProcessesDock : public QStackedWidget {
     m_table->setModel(m_model);
     m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     styleTable(m_table);
-    const int widths[ProcessesModel::columns] = {56, 110, 260, 64, 64, 64, 60, 76, 80, 220};
+    const int widths[ProcessesModel::columns] = {56, 110, 240, 64, 84, 64, 60, 76, 80, 220};
     for (int column = 0; column < ProcessesModel::columns; ++column) {
       m_table->setColumnWidth(column, scaled(m_table, widths[column]));
     }

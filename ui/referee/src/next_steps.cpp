@@ -86,8 +86,8 @@ std::vector<NextStep> nextSteps(const link::RefereeDesk& desk) {
       if (!shootOut && !game.restart.isAnnounced()) {
         steps.push_back(calling(CallKind::DropBall, "Drop ball", "READY, nobody's kick-off"));
       }
-      steps.push_back(shootOut ? toState(PlayState::Finished, "End the shot", "No goal")
-                               : toState(PlayState::Finished, "End the half", "FINISHED"));
+      steps.push_back(shootOut ? toState(PlayState::Finished, "End shot", "No goal")
+                               : toState(PlayState::Finished, "End half", "FINISHED"));
       break;
     case PlayState::Finished:
       steps = afterTheEnd(game);

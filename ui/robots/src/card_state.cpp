@@ -9,6 +9,7 @@
 #include <robotlink/processes/process_manager.h>
 #include <robotlink/scenario/scenario.h>
 #include <simcore/world/published_frame.h>
+#include <ui/base/referee_words.h>
 #include <ui/base/robot_words.h>
 
 namespace pitchboard::ui {
@@ -104,13 +105,7 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
   } else if (robot.link && robot.link->conflict) {
     put(TagKind::Error, QStringLiteral("two senders"));
   } else if (robot.penalty) {
-    // "pickup or incapable": the seconds must not be cut off.
-    const QString words =
-        QString::fromStdString(robot.penalty->words).section(QStringLiteral(" or "), 0, 0);
-    put(TagKind::Warning,
-        robot.penalty->secondsLeft > 0
-            ? QStringLiteral("%1 %2").arg(words, durationText(robot.penalty->secondsLeft))
-            : words);
+    put(TagKind::Warning, penaltyTag(robot.penalty->words, robot.penalty->secondsLeft));
   } else if (silent != card.lamps.end()) {
     put(TagKind::Error,
         QStringLiteral("%1 silent %2")
