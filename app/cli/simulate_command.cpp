@@ -209,7 +209,7 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       "simulate",
       "Play a match and print how it ended.\n"
       "Examples: pitchboard-cli simulate --scenario match-3v3 --seed 7 --noise paper --json\n"
-      "          pitchboard-cli simulate --scenario my.json --cognition external --speed 1\n"
+      "          pitchboard-cli simulate --scenario my.json --cognition separate --speed 1\n"
       "          echo '{\"do\": \"create\", \"worlds\": 2}' | pitchboard-cli simulate --stdio");
   addPlayOptions(*command, a.play);
   CLI::Option* from =

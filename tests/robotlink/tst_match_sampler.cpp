@@ -190,6 +190,8 @@ class TestMatchSampler : public QObject {
       QCOMPARE(view->info().attributes.at("robot"), std::to_string(robot.identity.id.value));
       QCOMPARE(view->info().attributes.at("team"), std::string(info(robot.identity.team).name));
       QCOMPARE(view->info().attributes.at("number"), std::to_string(robot.identity.number));
+      QCOMPARE(std::stod(view->info().attributes.at("radius")), robot.radius);
+      QCOMPARE(std::stod(view->info().attributes.at("vision_range")), robot.visionRange);
       QCOMPARE(view->info().attributes.at("imu180"),
                std::string(robot.identity.imuStartsAt180 ? "1" : "0"));
       // Every word of the blackboard.
@@ -279,7 +281,7 @@ class TestMatchSampler : public QObject {
       const auto& column = rig.column("B1", name);
       QVERIFY(column.kind == ColumnKind::Enumeration);
       QCOMPARE(column.labels.size(), std::size_t{23});
-      QCOMPARE(column.labels.at(22), actionWords(22));
+      QCOMPARE(column.labels.at(22), actionLabel(22));
     }
     // What a team-mate told is its intention, not its action.
     const auto& told = rig.column("B1", "COM_ACTION_ROBOT1");

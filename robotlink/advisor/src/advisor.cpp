@@ -7,7 +7,7 @@
 #include <optional>
 
 #include <base/try.h>
-#include <robotlink/processes/match_turns.h>
+#include <robotlink/processes/lock_step_slots.h>
 
 #include "candidates.h"
 #include "game_belief.h"
@@ -93,7 +93,8 @@ class Advisor final : public CognitiveProcess {
     return {m_options.field, m_options.model, m_options.behaviour == "keeper"};
   }
   bool isFree() const {
-    return m_options.advisor.share > 0.0 && !(m_options.turns && m_options.turns->inLockStep());
+    return m_options.advisor.share > 0.0 &&
+           !(m_options.lockStepSlot && m_options.lockStepSlot->inLockStep());
   }
 
   void begin(const Situation& situation, double now) {

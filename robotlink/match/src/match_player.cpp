@@ -117,7 +117,7 @@ void MatchPlayer::tellLines(Clock::time_point now) {
       return one.robot == line.robot && one.name == line.process;
     });
     const bool starting =
-        process != all.end() && !process->foreign && now - process->started < startingUp;
+        process != all.end() && !process->isTeamProgram && now - process->started < startingUp;
     const auto index = simulation.indexOf(line.robot);
     const std::string robot = index ? simulation.state().robots[*index].name()
                                     : "robot " + std::to_string(line.robot.value);

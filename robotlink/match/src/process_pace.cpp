@@ -79,7 +79,7 @@ double ProcessPace::teamProgramPace(double wanted, double now) {
   bool any = false, unknown = false;
   std::optional<double> slowest;
   for (const ProcessStatus& one : m_slots.processes().statuses()) {
-    if (!one.foreign || one.pid == 0 || cooperates(one)) continue;
+    if (!one.isTeamProgram || one.pid == 0 || cooperates(one)) continue;
     any = true;
     if (one.clock != ProcessClock::Match) {
       most = std::min(most, 1.0);  // slower does not help it either
@@ -151,7 +151,7 @@ bool ProcessPace::awaitsFirstCycle(RobotSlot& slot, Time now) {
   if (waited < std::max(leastPatience, Seconds(RobotSlots::silentAfter(slot)))) return true;
   slot.hasMissedCycle = true;
   m_events.lateCycle(m_base.simulation.state(), slot.id,
-                     "it has not said that it is there after " + inSeconds(waited));
+                     "it has not finished its first cycle after " + inSeconds(waited));
   return false;
 }
 
@@ -182,7 +182,7 @@ bool ProcessPace::isAwaited(const RobotSlot& slot, SlotProcess& process, Time no
   process.settled = true;
   m_events.notAttached(m_base.simulation.state(), slot.id, process.profile.name,
                        "after " + inSeconds(waited) + "; the match " +
-                           (process.startTick == 0 ? "starts" : "goes on") + " without it");
+                           (process.startTick == 0 ? "starts" : "continues") + " without it");
   return false;
 }
 
@@ -197,7 +197,7 @@ bool ProcessPace::hasAttached(const ProcessStatus& program) const {
 
 void ProcessPace::letTeamProgramsRun(std::chrono::duration<double> time) {
   ProcessManager& processes = m_slots.processes();
-  if (std::ranges::none_of(processes.statuses(), &ProcessStatus::foreign)) return;
+  if (std::ranges::none_of(processes.statuses(), &ProcessStatus::isTeamProgram)) return;
   processes.setPaused(false, std::chrono::steady_clock::now());
   std::this_thread::sleep_for(time);
   processes.setPaused(m_still, std::chrono::steady_clock::now());

@@ -244,7 +244,7 @@ Result<void> RobotSlots::setRuntime(RobotId id, const RuntimeChoice& choice) {
     if (slot.board.key() == 0 && slot.runtime.hasOwn() && choice.isChosen()) {
       return failure(
           ErrorCode::Unsupported,
-          "this match runs inside one program, where no other one reaches its blackboards; "
+          "this match runs inside one program, so other programs cannot reach its blackboards; "
           "start it with separate processes");
     }
     slot.choice = choice;
@@ -424,8 +424,7 @@ Result<IntVar> RobotSlots::cycleOf(const RobotSlot& slot) const {
       name ? m_base.catalog->withExtension().intVar(*name) : std::optional<IntVar>();
   if (variable) return *variable;
   return failure(ErrorCode::NotFound,
-                 name ? "waits for \"" + *name +
-                            "\", which is no whole-number variable of this variable catalog"
+                 name ? "waits for \"" + *name + "\", which is not an int variable of this catalog"
                       : name.error().message,
                  "the runtime profile " + slot.runtime.name + ", cycle");
 }
@@ -453,7 +452,7 @@ Result<void> RobotSlots::startMissing(RobotSlot& slot, std::vector<SlotProcess*>
 
 void RobotSlots::forget(SlotProcess& process) {
   if (process.id != 0) m_processes->removeOne(process.id);
-  if (process.place >= 0) m_turns->giveBack(process.place);
+  if (process.lockStepSlot >= 0) m_lockStepSlots->release(process.lockStepSlot);
 }
 
 Result<void> RobotSlots::start(RobotSlot& slot, SlotProcess& process) {
@@ -479,7 +478,7 @@ Result<void> RobotSlots::start(RobotSlot& slot, SlotProcess& process) {
   managed.delay = profile.delay;
   managed.silentAfter = RestartRule::Seconds(profile.silentAfter);
   TRY(profile.isReference() ? describeReference(slot, process, managed)
-                            : describeForeign(slot, profile, managed));
+                            : describeTeamProgram(slot, profile, managed));
   if (!profile.isReference() && slot.cycle.index >= 0) {
     slot.board.write(slot.cycle, 0);  // what an earlier program left
     slot.cooperates = slot.hasMissedCycle = false;
@@ -499,29 +498,30 @@ Result<void> RobotSlots::startInside(const RobotSlot& slot, SlotProcess& process
 
 Result<void> RobotSlots::describeReference(const RobotSlot& slot, SlotProcess& process,
                                            ManagedProcess& managed) {
-  if (!m_turns) m_turns = TRY(MatchTurns::create());
+  if (!m_lockStepSlots) m_lockStepSlots = TRY(LockStepSlots::create());
   managed.spec.command = commandOf(slot, process.profile.reference);
   const std::string& program = slot.runtime.program;
   if (program.find('/') != std::string::npos && ::access(program.c_str(), X_OK) != 0) {
     return failure(ErrorCode::NotFound, "cannot run " + program + ": " + systemReason(errno),
                    "the runtime profile " + slot.runtime.name + ", program");
   }
-  managed.spec.inherited = m_turns->descriptor();
+  managed.spec.inherited = m_lockStepSlots->descriptor();
   managed.watch = ManagedProcess::Watch::Caller;
   // Each start has a place of its own: nothing of the process before it stands there.
-  managed.prepare = [turns = m_turns, mine = &process](ChildSpec& spec) -> Result<void> {
-    if (mine->place >= 0) turns->giveBack(mine->place);
-    mine->place = -1;
+  managed.prepare = [slots = m_lockStepSlots, mine = &process](ChildSpec& spec) -> Result<void> {
+    if (mine->lockStepSlot >= 0) slots->release(mine->lockStepSlot);
+    mine->lockStepSlot = -1;
     mine->given = false;
-    mine->place = TRY(turns->takePlace());
-    spec.command.insert(spec.command.end(), {"--match-turns", std::to_string(mine->place)});
+    mine->lockStepSlot = TRY(slots->take());
+    spec.command.insert(spec.command.end(),
+                        {"--lock-step-slot", std::to_string(mine->lockStepSlot)});
     return {};
   };
   return {};
 }
 
-Result<void> RobotSlots::describeForeign(const RobotSlot& slot, const ProfileProcess& profile,
-                                         ManagedProcess& managed) const {
+Result<void> RobotSlots::describeTeamProgram(const RobotSlot& slot, const ProfileProcess& profile,
+                                             ManagedProcess& managed) const {
   const auto values = valuesFor(slot);
   const auto replaced = [&values, &slot](std::string& text) -> Result<void> {
     auto done = expanded(text, values);
@@ -551,16 +551,16 @@ Result<void> RobotSlots::describeForeign(const RobotSlot& slot, const ProfilePro
   if (slot.runtime.name == "published-tree") {
     TRY(checkPublishedTree(values, slot.board.key()));
   }
-  managed.spec.foreign = true;
+  managed.spec.isTeamProgram = true;
   managed.watchFile = profile.watchFile;
   managed.ownTime = profile.clock == ProfileProcess::Clock::Match;
   if (!profile.heartbeat.empty()) {
     const auto variable = m_base.catalog->intVar(profile.heartbeat);
     if (!variable) {
-      return failure(ErrorCode::NotFound,
-                     "listens for \"" + profile.heartbeat +
-                         "\", which is no whole-number variable of this variable catalog",
-                     "the runtime profile " + slot.runtime.name + ", process " + profile.name);
+      return failure(
+          ErrorCode::NotFound,
+          "listens for \"" + profile.heartbeat + "\", which is not an int variable of this catalog",
+          "the runtime profile " + slot.runtime.name + ", process " + profile.name);
     }
     managed.heartbeat = *variable;
     managed.watch = ManagedProcess::Watch::Variable;

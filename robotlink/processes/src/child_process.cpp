@@ -49,7 +49,7 @@ ChildProcess::ChildProcess(Spawned child, UniqueFd keeper, pid_t pid)
 Result<ChildProcess> ChildProcess::start(const ChildSpec& spec, const std::string& robotProgram) {
   SpawnRequest request{spec.command, spec.directory, spec.environment};
   request.inherited = spec.inherited;
-  if (!spec.foreign) {
+  if (!spec.isTeamProgram) {
     Spawned child = TRY(spawn(request));
     const pid_t pid = child.pid;
     return ChildProcess(std::move(child), {}, pid);
@@ -90,7 +90,7 @@ std::optional<ChildProcess::End> ChildProcess::poll(std::vector<std::string>& li
   }
   readOutput(lines, bytesAtEnd);
   if (!m_partial.empty()) endLine(lines);
-  if (unknown) return End{"ended, and the system did not say how", true};
+  if (unknown) return End{"ended for an unknown reason", true};
   return End{describe(end), end.si_code != CLD_EXITED || end.si_status != 0};
 }
 

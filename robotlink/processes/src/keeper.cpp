@@ -76,7 +76,7 @@ Result<Kept> spawnKept(const SpawnRequest& request, const std::string& robotProg
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
     return failure(ErrorCode::SystemError,
-                   "the robots' processes cannot be kept: " + systemReason(errno));
+                   "cannot start the keeper of the robots' processes: " + systemReason(errno));
   }
   Kept kept{{}, UniqueFd(ends[0])};
   UniqueFd its(ends[1]);

@@ -303,7 +303,7 @@ class TestProcessesDock : public QObject {
     QVERIFY2(after < 0.5, qPrintable(QString::number(after)));
     QVERIFY(runs("localization"));
     QCOMPARE(events(link::MatchEventKind::ProcessRestarted), 0);
-    QCOMPARE(events(link::MatchEventKind::ProcessSilent), 0);
+    QCOMPARE(events(link::MatchEventKind::ProcessNotResponding), 0);
   }
 
   // A blackboard that an earlier run left: told by its key, removed when the user says so.

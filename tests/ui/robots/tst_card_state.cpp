@@ -68,9 +68,9 @@ class TestCardState : public QObject {
   void aProcessThatStopsIsSilentAndSaysSinceWhen() {
     CardTracker tracker;
     link::MatchFrame frame = frameOf(1);
-    frame.robots[0].lamps[3] = {LampState::Silent, 0.0, std::chrono::milliseconds(8900)};
+    frame.robots[0].lamps[3] = {LampState::NotResponding, 0.0, std::chrono::milliseconds(8900)};
     const auto cards = tracker.update(frame, 0);
-    QCOMPARE(cards[0].lamps[3].state, LampState::Silent);
+    QCOMPARE(cards[0].lamps[3].state, LampState::NotResponding);
     QCOMPARE(cards[0].tag, QStringLiteral("D silent 8 s"));
     QCOMPARE(cards[0].tagKind, TagKind::Error);
     // Nobody wonders for how long what somebody has stopped is silent.
@@ -98,7 +98,7 @@ class TestCardState : public QObject {
     link::ProcessSummary process;
     process.name = "decision";
     process.state = link::ProcessState::Running;
-    process.foreign = true;
+    process.isTeamProgram = true;
     process.whyRealTime =
         "the clock of the match cannot be loaded into it (static or setuid program)";
     for (const double speed : {8.0, 1.0, 0.1}) {
@@ -121,7 +121,7 @@ class TestCardState : public QObject {
     link::ProcessSummary process;
     process.name = "decision";
     process.state = link::ProcessState::Running;
-    process.foreign = true;
+    process.isTeamProgram = true;
     process.whyRealTime = link::whyRealTime(link::ProcessClock::Real);
     for (const double speed : {8.0, 1.0, 0.1}) {
       process.speed = speed;
@@ -137,7 +137,7 @@ class TestCardState : public QObject {
     link::ProcessSummary process;
     process.name = "decision";
     process.state = link::ProcessState::Running;
-    process.foreign = true;
+    process.isTeamProgram = true;
     process.speed = 8.0;
     process.achieved = 3.1;
     process.missedCycles = 12;
@@ -181,7 +181,7 @@ class TestCardState : public QObject {
   void statesLookDifferent() {
     CardState base = CardTracker().update(frameOf(1), 0)[0];
     CardState silent = base;
-    silent.lamps[3] = {LampState::Silent, 8};
+    silent.lamps[3] = {LampState::NotResponding, 8};
     CardState low = base;
     low.battery = telemetry::batteryAt(15.1, telemetry::usualBattery);
     CardState tagged = base;

@@ -522,7 +522,7 @@ class TestSessionCompare : public QObject {
     plots->time()->setRange({0.0, longSeconds});  // every summary is read
     QTRY_VERIFY(pane->traces()[0].coarse && pane->traces()[0].columns.size() > 100);
     QTRY_COMPARE(pane->captions(),
-                 QStringList(QStringLiteral("envelope: zoom in for every sample")));
+                 QStringList(QStringLiteral("envelope: zoom in to see every sample")));
     const auto band = pane->surface()->grab().toImage();
     // Rows say that they have come, whoever looks.
     QSignalSpy came(s.window.replay(), &FrameSource::rowsCame);

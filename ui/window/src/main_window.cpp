@@ -145,7 +145,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
     makeLookingBackSign(m_timeline, canvas);
     makeNobodyPlaysSign(m_source, canvas);
     makePublishedKeysSign(m_field->actions().publishedKeys, canvas);
-    makePenaltyStrip(m_source, canvas);
+    makePenaltyStrip(m_source, m_field, canvas);
     makeFirstSteps(m_source, controller, m_timeline,
                    {m_keys->action("play"), m_keys->action("showKeys")}, settings, canvas);
   }

@@ -27,7 +27,7 @@ struct Clock {
   double seconds = 0.0;
 };
 
-class ProcessTurns;
+class LockStepSlot;
 
 /// How an advisor thinks (docs/advisor.md).
 struct AdvisorOptions {
@@ -97,7 +97,7 @@ struct ProcessOptions {
   std::shared_ptr<TeamChannel> teamChannel;
   AdvisorOptions advisor;
   /// For a process that follows the time of a match; null: it follows real time.
-  std::shared_ptr<ProcessTurns> turns;
+  std::shared_ptr<LockStepSlot> lockStepSlot;
 
   /// Sets the ports of a match.
   void setMatch(MatchNumber match);
