@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Makes docs/images/*.png from the program itself: scripts/docs_pictures.sh [NAME...]
-# Commit them when the window has changed. Needs a release build, xvfb, xdotool, imagemagick and optipng. Robots and a referee of
+# Commit them when the window has changed. Needs a release build, xvfb, xdotool, imagemagick, librsvg2-bin and optipng. Robots and a referee of
 # live.png are played by this script on the published ports, so no studio may be listening.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -47,6 +47,40 @@ shoot() {
   import -window root "$1.png"
   kill "$window" && wait "$window" 2>/dev/null || true
 }
+# page PAGE FILE: writes the block of a documentation page that has this file name.
+page() {
+  sed -n "/^\`\`\`[a-z]* ${2//\//\\/}\$/,/^\`\`\`\$/{/^\`\`\`/d;p}" "$root/docs/$1" >"$(basename "$2")"
+}
+# chart FILE.html N NAME: the N-th chart of a report, as a picture.
+chart() {
+  python3 - "$1" "$2" >chart.svg <<'END'
+import re, sys
+page = open(sys.argv[1]).read()
+style = "".join(re.findall(r"<style>(.*?)</style>", page, re.S))
+colours = dict(re.findall(r"--(\w+): ([^;]+);", style.split("@media")[0]), c="#2f6fc6")  # those of the light theme
+style = re.sub(r"var\(--(\w+)\)", lambda name: colours[name[1]], "\n".join(re.findall(r"^\.(?:axis|grid|curve|area|bar).*$", style, re.M)))
+svg = re.findall(r"<svg.*?</svg>", page, re.S)[int(sys.argv[2])]
+if "xmlns" not in svg.split(">")[0]:
+    svg = svg.replace("<svg", '<svg xmlns="http://www.w3.org/2000/svg"', 1)
+svg = re.sub(r"var\(--(\w+)\)", lambda name: colours[name[1]], svg)
+print(svg.replace(">", "><style>svg { font-family: sans-serif } %s</style>" % style, 1))
+END
+  rsvg-convert --background-color white --width 880 chart.svg -o "$3.png"
+}
+# terminal NAME COMMAND: what a command prints, as in a terminal; at most 30 lines.
+terminal() {
+  { echo "\$ ${*:2}" | sed "s,$root/,,; s, | sed .*,,"; bash -c "PATH=$bin:\$PATH; ${*:2}" 2>&1 | head -30; } >terminal.txt
+  python3 - terminal.txt >terminal.svg <<'END'
+import html, sys
+lines = open(sys.argv[1]).read().splitlines()
+width, height = 32 + round(8.43 * max(map(len, lines))), 24 + 18 * len(lines)
+print('<svg xmlns="http://www.w3.org/2000/svg" width="%d" height="%d"><rect width="100%%" height="100%%" fill="#232629"/>' % (width, height))
+for i, line in enumerate(lines):
+    print('<text xml:space="preserve" x="16" y="%d" font-family="DejaVu Sans Mono" font-size="14" fill="#eff0f1">%s</text>' % (28 + 18 * i, html.escape(line)))
+print("</svg>")
+END
+  rsvg-convert terminal.svg -o "$1.png"
+}
 recording() {
   [ -f match.mcap ] || "$bin/pitchboard-cli" record --scenario match-3v3 --seed 7 --duration 2:00 -o match.mcap >/dev/null
 }
@@ -80,14 +114,14 @@ blackboard() {
 }
 behaviours() {
   studio --scenario match-3v3 --play-to 900
-  find "Particles of localization"
+  find "Localization particles"
   find "Planned path"
   shoot behaviours
   convert behaviours.png -crop 716x492+301+104 +repage behaviours.png
 }
 agent() {
   # The robots of a match stand in for real ones; the agent reads their blackboards.
-  "$bin/pitchboard-cli" simulate --scenario match-3v3 --cognition external --match 0 --speed 1 --duration 60 >/dev/null 2>&1 &
+  "$bin/pitchboard-cli" simulate --scenario match-3v3 --cognition separate --match 0 --speed 1 --duration 60 >/dev/null 2>&1 &
   sleep 2
   for robot in 1 2 3; do "$bin/pitchboard-agent" --robot "$robot" --to 127.0.0.1 2>/dev/null & done
   echo '{"name": "Our team", "number": 12, "colour": "blue"}' >ours.json
@@ -175,7 +209,96 @@ experiments() {
   shoot experiments
 }
 
-[ $# -gt 0 ] || set -- studio-dark studio-light scenario referee drawings blackboard behaviours agent rollouts processes live plots replay experiments
+advisor() {
+  studio --scenario match-3v3 --advisor blue --cognition inline --play-to 2098
+  sleep 4
+  find "Advisor's candidates"
+  find "Ball in 5 s"
+  shoot advisor
+  convert advisor.png -crop 716x492+301+104 +repage advisor.png
+}
+explore() {
+  studio --scenario match-3v3 --cognition inline --play-to 2100
+  find "Explore from this moment"
+  shoot explore 20
+}
+calibrate() {
+  "$bin/pitchboard-cli" record --scenario calibration-drill --duration 1:30 -o drill.mcap >/dev/null
+  terminal calibrate "pitchboard-cli calibrate drill.mcap --robot B1 -o b1.json --force"
+}
+learning() {
+  "$bin/pitchboard-cli" record --scenario calibration-drill --duration 1:30 -o learn.mcap >/dev/null
+  "$bin/pitchboard-cli" calibrate learn.mcap --robot B1 -o b1.json --force >/dev/null
+  page learning.md our-team.json
+  sed -i 's/"generations": 2/"generations": 6/' our-team.json
+  "$bin/pitchboard-cli" learn our-team.json --out learned >/dev/null
+  chart learned/report.html 0 learning
+}
+tutorial-compare() {
+  page tutorial-compare.md compare.json
+  "$bin/pitchboard-cli" experiment compare.json --out compared >/dev/null
+  chart compared/report.html 0 tutorial-compare
+}
+tutorial-failing-test() {
+  page tutorial-failing-test.md tests/keeper.json
+  python3 -c 'import json; json.dump(json.load(open("keeper.json"))["scenario"], open("shot.json", "w"))'
+  "$bin/pitchboard" --render-scenario shot.json --picture tutorial-failing-test.png --size 800x600
+}
+tutorial-lost-ball() {
+  recording
+  studio --session match.mcap
+  find "B1/VISION_BALL_DIST"
+  find "B1/VISION_LOST"
+  drag 720 621 420
+  click 900 855 # B1 has lost the ball
+  shoot tutorial-lost-ball
+}
+cli() { terminal cli "pitchboard-cli simulate --scenario match-3v3 --duration 60"; }
+conformance() { terminal conformance "pitchboard-cli conformance $root/tests/data/traces/i_action_08_B?.json | sed 's,.*/,,'"; }
+file-formats() {
+  recording
+  terminal file-formats "pitchboard-cli inspect match.mcap"
+}
+worlds() {
+  python3 - "$bin/pitchboard-cli" >worlds.svg <<'END'
+# The ball in 64 worlds of match-3v3 that differ in their seeds, for 60 s, on a field of 9 m by 6 m, 80 pixels a metre.
+import json, subprocess, sys
+
+count = 64
+worlds = subprocess.Popen([sys.argv[1], "simulate", "--stdio"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+
+def ask(**request):
+    worlds.stdin.write(json.dumps(request) + "\n")
+    worlds.stdin.flush()
+    return json.loads(worlds.stdout.readline())
+
+
+ask(do="create", scenario="match-3v3", worlds=count, noise="realistic")
+columns = [column[0] if isinstance(column, list) else column for column in ask(do="columns")["game"]]
+names = [column["name"] if isinstance(column, dict) else column for column in columns]
+ball = names.index("ball_x"), names.index("ball_y")
+px = lambda x: 440 + 80 * x
+py = lambda y: 320 - 80 * y
+paths = [[] for _ in range(count)]
+for _ in range(240):
+    ask(do="step", ticks=15)
+    for path, row in zip(paths, ask(do="read", what="game")["values"]):
+        path.append("%g,%g" % (px(row[ball[0]]), py(row[ball[1]])))
+worlds.stdin.close()
+print('<svg xmlns="http://www.w3.org/2000/svg" width="880" height="640"><rect width="880" height="640" fill="#33453a"/>')
+print('<g fill="none" stroke="#c3cec6" stroke-width="4"><rect x="80" y="80" width="720" height="480"/>')
+print('<path d="M440 80v480"/><circle cx="440" cy="320" r="60"/></g>')
+print('<g fill="none" stroke="#f0a35e" stroke-opacity="0.6" stroke-width="2">')
+for path in paths:
+    print('<polyline points="%s"/>' % " ".join(path))
+print("</g></svg>")
+END
+  rsvg-convert worlds.svg -o worlds.png
+}
+
+[ $# -gt 0 ] || set -- studio-dark studio-light scenario referee drawings blackboard behaviours agent rollouts processes live plots replay experiments \
+  advisor explore calibrate learning tutorial-compare tutorial-failing-test tutorial-lost-ball cli conformance file-formats worlds
 for name in "$@"; do
   "$name"
   convert "$name.png" -colors 200 "png8:$name.8.png"

@@ -99,8 +99,8 @@ Options:
   --to ADDRESS[:PORT]   Computer to send to, such as 192.168.0.7, or "broadcast" for all computers
                         of the network (default). Repeat it to send to several. The port is
                         1340 + robot number unless given
-  --rate HZ             Send changed values at most so often, 1 to 100 (default 20). Each value is
-                        sent every 2 s, changed or not
+  --rate HZ             Highest rate of changed values, 1 to 100 (default 20). Every value is sent
+                        every 2 s even if it has not changed
   --variables GLOB,...  Send only these, such as VISION_*,VOLTAGE (default: all)
   --limit KBIT/S        Stay below this bandwidth, at least 16. A quarter of it is kept for values
                         that have not changed

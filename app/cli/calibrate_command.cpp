@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 
@@ -32,16 +34,25 @@ Result<double> secondsOr(const std::string& text, const char* option, double fal
 }
 
 void printCalibration(const link::Calibration& calibration) {
-  std::printf("%-28s %10s   %-24s %-18s %s\n", "", "value", "95 % interval", "unit", "from");
-  const auto line = [](const link::CalibratedValue& value) {
-    const link::WrittenValue w = link::writtenValue(value);
-    char interval[64];
-    std::snprintf(interval, sizeof interval, "%.4g to %.4g", w.low, w.high);
-    std::printf("%-28s %10.4g   %-24s %-18s %zu %s\n", value.key.c_str(), w.value, interval,
-                w.unit.c_str(), value.samples, value.of.c_str());
-  };
-  for (const auto& value : calibration.values) line(value);
-  for (const auto& value : calibration.told) line(value);
+  std::vector<std::array<std::string, 5>> rows{{"", "value", "95 % interval", "unit", "from"}};
+  for (const auto* values : {&calibration.values, &calibration.told}) {
+    for (const link::CalibratedValue& value : *values) {
+      const link::WrittenValue w = link::writtenValue(value);
+      char number[32], interval[64];
+      std::snprintf(number, sizeof number, "%.4g", w.value);
+      std::snprintf(interval, sizeof interval, "%.4g to %.4g", w.low, w.high);
+      rows.push_back({value.key, number, interval, w.unit, link::samplesText(value)});
+    }
+  }
+  std::array<std::size_t, 5> widths{};
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  for (const auto& row : rows) {
+    std::printf("%s  %*s  %s  %s  %s\n", padded(row[0], widths[0]).c_str(),
+                static_cast<int>(widths[1]), row[1].c_str(), padded(row[2], widths[2]).c_str(),
+                padded(row[3], widths[3]).c_str(), row[4].c_str());
+  }
   std::printf("\nNot estimated; the number of %s is kept:\n", calibration.base.name.c_str());
   for (const auto& [key, reason] : calibration.kept) {
     std::printf("%-28s %s\n", key.c_str(), reason.c_str());

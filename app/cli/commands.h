@@ -6,7 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
+#include <string>
 
 #include <app/command_line.h>
 #include <app/usage.h>
@@ -15,6 +17,13 @@ namespace pitchboard::cli {
 
 /// Who writes a file, for its head.
 inline constexpr const char* programName = "pitchboard " PITCHBOARD_VERSION;
+
+/// Returns the text, left-aligned in so many characters (not bytes).
+inline std::string padded(const std::string& text, std::size_t width) {
+  const auto shown = static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+  return text + std::string(shown < width ? width - shown : 0, ' ');
+}
 
 /// What a group of commands looks like to main(): the one registration list is in main.cpp.
 using AddCommand = void (*)(CLI::App& parent, int& exitCode);

@@ -4,7 +4,9 @@
 #include <charconv>
 #include <cstdio>
 #include <memory>
+#include <set>
 
+#include <base/nearest_name.h>
 #include <base/read_file.h>
 #include <base/try.h>
 #include <robotlink/live/live_pipeline.h>
@@ -124,6 +126,7 @@ class Decoder : public link::LiveObserver {
 
   void received(const link::LiveDatagram& datagram) override {
     if (!isGood(datagram)) m_exitCode = 1;
+    if (datagram.decoded != nullptr) noteFields(*datagram.decoded);
     if (m_json) m_head.update(messageJson(datagram, m_pipeline.options()));
     const std::string line = m_json ? dump(m_head) : messageLine(datagram, m_pipeline.options());
     std::printf("%s\n", line.c_str());
@@ -132,12 +135,44 @@ class Decoder : public link::LiveObserver {
   int exitCode() const { return m_exitCode; }
   const link::LiveOptions& options() const { return m_pipeline.options(); }
 
+  /// Warns of fields whose key is in none of the messages, because it is often misspelt.
+  void warnOfMissingFields() const {
+    const Profile& profile = options().profile;
+    const bool hasKeys = profile.format == MessageFormat::KeyValue ||
+                         profile.format == MessageFormat::Json ||
+                         profile.format == MessageFormat::Lua;
+    if (!hasKeys || !m_anyMessage) return;
+    const std::vector<std::string_view> others(m_otherKeys.begin(), m_otherKeys.end());
+    for (std::size_t i = 0; i < profile.fields.size(); ++i) {
+      if (m_wasSent.contains(i)) continue;
+      const ProfileField& field = profile.fields[i];
+      const std::string& key = field.key.empty() ? field.name : field.key;
+      const std::string_view near = nearestName(key, others);
+      std::fprintf(stderr, "warning: no message has the key \"%s\" of the field %s%s%s%s\n",
+                   key.c_str(), field.name.c_str(), near.empty() ? "" : "; did you mean \"",
+                   std::string(near).c_str(), near.empty() ? "" : "\"?");
+    }
+  }
+
  private:
+  void noteFields(const DecodedText& decoded) {
+    if (!decoded.accepted()) return;
+    m_anyMessage = true;
+    const std::size_t fields = options().profile.fields.size();
+    for (std::size_t i = 0; i < std::min(fields, decoded.count); ++i) {
+      if (decoded.has(i) || !decoded.words[i].empty()) m_wasSent.insert(i);
+    }
+    for (std::size_t i = 0; i < decoded.namedExtras; ++i) m_otherKeys.emplace(decoded.extraKeys[i]);
+  }
+
   const bool m_json;
   link::LivePipeline m_pipeline;
   Json m_head;
   double m_time = 0.0;  // s
   int m_exitCode = 0;
+  bool m_anyMessage = false;
+  std::set<std::size_t> m_wasSent;  // indices of the profile's fields
+  std::set<std::string, std::less<>> m_otherKeys;
 };
 
 Json headOf(const std::string& file, std::size_t line) {
@@ -182,6 +217,7 @@ Result<int> decodeTelemetry(const DecodeOptions& options) {
                    {sender ? *sender : Address{}, 0});
     });
   }
+  decoder.warnOfMissingFields();
   return decoder.exitCode();
 }
 

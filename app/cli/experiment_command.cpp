@@ -102,7 +102,7 @@ void addReplay(CLI::App& parent, int& exitCode) {
           TRY(link::recordAgain(chosen.folder, experiment, chosen.run, path, settings));
       std::printf(
           "%s: run %zu, seed %" PRIu64 ", %s, state hash 0x%016" PRIx64 ", %s%s\n", path.c_str(),
-          result.number, result.seed, link::endWords(result.match.endedBy).c_str(), result.hash,
+          result.number, result.seed, link::endText(result.match.endedBy).c_str(), result.hash,
           result.hash == before.hash ? "as in the results" : "which is not that of the results",
           doubt);
     } else {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <thread>
 
-#include <base/duration_words.h>
+#include <base/duration_text.h>
 #include <base/try.h>
 #include <robotlink/processes/team_program.h>
 
@@ -36,7 +36,7 @@ std::string progressText(std::size_t done, std::size_t all, double seconds) {
   const double left = rate > 0.0 ? static_cast<double>(all - done) / rate + 0.5 : 0.0;
   char text[96];
   std::snprintf(text, sizeof text, "%zu of %zu runs, %.*f runs/s, %s left", done, all,
-                rate < 10.0 ? 2 : 0, rate, durationWords(left).c_str());
+                rate < 10.0 ? 2 : 0, rate, durationText(left).c_str());
   return text;
 }
 
@@ -55,13 +55,6 @@ Result<void> recordRuns(const link::Experiment& experiment, const link::Experime
     TRY(link::recordAgain(folder.path(), experiment, number, path, settings));
   }
   return {};
-}
-
-/// Left-aligned text of so many characters, whatever their bytes.
-std::string padded(const std::string& text, std::size_t width) {
-  const auto shown = static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-  return text + std::string(shown < width ? width - shown : 0, ' ');
 }
 
 void printTable(const link::TournamentTable& table) {
@@ -88,7 +81,7 @@ void printConditions(const link::ExperimentSummary& summary) {
   for (const link::ConditionSummary& condition : summary.conditions) {
     std::printf("%s: %zu runs", condition.name.c_str(), condition.runs);
     for (const auto& [end, count] : condition.ends) {
-      std::printf(", %s %.1f %%", link::endWords(end).c_str(),
+      std::printf(", %s %.1f %%", link::endText(end).c_str(),
                   100.0 * static_cast<double>(count) / static_cast<double>(condition.runs));
     }
     std::printf("\n");

@@ -188,16 +188,18 @@ void addExploreCommand(CLI::App& parent, int& exitCode) {
       "and what a robot had best do.\n"
       "Example: pitchboard-cli explore match.mcap --at 1:18.7 --robot B2");
   command->add_option("file", options->file, "The recording")->required()->type_name("FILE");
-  command->add_option("--at", options->at, "The moment")->required()->type_name("T");
+  command->add_option("--at", options->at, "The moment to explore")->required()->type_name("T");
   command->add_option("--robot", options->robot, "Compare the actions of this robot: B2")
       ->type_name("ROBOT");
   command->add_option("--seconds", options->seconds, "Length of a rollout in seconds")
+      ->type_name("S")
       ->check(CLI::Range(1.0, 600.0))
       ->capture_default_str();
   command
       ->add_option(
           "--rollouts", options->rollouts,
           "Largest number of rollouts of each action; fewer if the result is clear earlier")
+      ->type_name("N")
       ->check(CLI::Range(std::size_t{2}, std::size_t{1'000'000}))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of the first rollout")

@@ -24,7 +24,7 @@ struct PrintOptions {
   bool json = false;
 };
 
-/// Prints what the watch hears: its thread writes the lines, the main thread prints them.
+/// Prints what the watch receives. The watch's thread makes the lines, the main thread prints them.
 class Printer : public link::LiveObserver {
  public:
   Printer(const link::LiveOptions& options, telemetry::WallTime began, bool json)
@@ -60,7 +60,8 @@ class Printer : public link::LiveObserver {
         "\n");
   }
 
-  /// Prints what has come, or waits so long for it. False when nobody reads the output any more.
+  /// Prints what has arrived, or waits for it for this time. Returns false once the reader has
+  /// closed the pipe.
   bool print(telemetry::Duration wait) {
     std::unique_lock lock(m_mutex);
     m_come.wait_for(lock, wait, [this] { return !m_lines.empty(); });
@@ -70,7 +71,7 @@ class Printer : public link::LiveObserver {
     return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   }
 
-  /// How every robot is heard.
+  /// Prints the link of every robot.
   void printHealth(const link::LiveDetails& details) {
     if (!m_json) return;
     for (const telemetry::RobotStatus& robot : details.team.robots) {
@@ -142,7 +143,7 @@ void reportEnd(const link::LiveDetails& details, std::uint64_t left) {
   for (std::size_t i = 0; i < telemetry::textErrorCount; ++i) {
     const auto error = static_cast<telemetry::TextError>(i);
     if (team.errors.count(error) == 0) continue;
-    std::fprintf(stderr, "\n  %s: %llu, e.g. %s", std::string(errorWords(error)).c_str(),
+    std::fprintf(stderr, "\n  %s: %llu, e.g. %s", std::string(errorText(error)).c_str(),
                  static_cast<unsigned long long>(team.errors.count(error)),
                  team.errors.sample(error).c_str());
   }

@@ -31,12 +31,12 @@ std::string stateLine(const RefereeState& state) {
                 std::abs(time) % 60);
   out += clock;
   for (const RefereeTeam& team : state.teams) {
-    out += "  team " + std::to_string(team.number) + " (" + std::string(colourWords(team.colour)) +
+    out += "  team " + std::to_string(team.number) + " (" + std::string(colourLabel(team.colour)) +
            "): " + std::to_string(team.score);
     for (const RefereePlayer& player : team.players()) {
       if (player.penalty == 0 || isSubstitute(state, player)) continue;
       out += ", player " + std::to_string(player.number) + " " +
-             std::string(penaltyWords(state, player)) + " " + std::to_string(player.secondsLeft) +
+             std::string(penaltyLabel(state, player)) + " " + std::to_string(player.secondsLeft) +
              " s";
     }
   }
@@ -83,7 +83,7 @@ Json telemetryJson(const link::LiveDatagram& datagram, const std::string& team,
   }
   json["values"] = std::move(values);
   if (const auto action = decoder.value(message, FieldMeaning::Action)) {
-    json["action"] = actionWords(static_cast<int>(*action));
+    json["action"] = actionLabel(static_cast<int>(*action));
   }
   json["errors"] = errorList(message.errors);
   if (!message.errors.empty()) json["text"] = printable(datagram.view.payload);
@@ -110,7 +110,7 @@ std::string telemetryLine(const link::LiveDatagram& datagram, const std::string&
   for (std::size_t i = 0; i < textErrorCount; ++i) {
     const auto error = static_cast<TextError>(i);
     if (!message.errors.has(error)) continue;
-    out += (first ? "" : ", ") + std::string(errorWords(error));
+    out += (first ? "" : ", ") + std::string(errorText(error));
     first = false;
   }
   return out + "] " + printable(datagram.view.payload, 120);

@@ -30,7 +30,7 @@ struct CognitionName {
   link::Cognition cognition;
 };
 constexpr std::array<CognitionName, 3> cognitions{{{"inline", link::Cognition::Inline},
-                                                   {"external", link::Cognition::Separate},
+                                                   {"separate", link::Cognition::Separate},
                                                    {"none", link::Cognition::None}}};
 
 /// Prints what processes write, and what happens to them.
@@ -41,7 +41,7 @@ class ProcessNews : public link::TickObserver {
     for (const link::MatchEvent& event : events) {
       using Kind = link::MatchEventKind;
       constexpr std::array told{Kind::ProcessDied,        Kind::ProcessEnded,
-                                Kind::ProcessRestarted,   Kind::ProcessSilent,
+                                Kind::ProcessRestarted,   Kind::ProcessNotResponding,
                                 Kind::ProcessGivenUp,     Kind::ProcessRealTime,
                                 Kind::ProcessNotAttached, Kind::CycleLate};
       if (std::ranges::find(told, event.kind) == told.end()) continue;
@@ -118,8 +118,8 @@ void addPlayOptions(CLI::App& command, PlayOptions& o) {
   command
       .add_option("--cognition", o.cognition,
                   "Who decides: this program (inline), separate processes on System V blackboards "
-                  "(external), or only processes that you start (none)")
-      ->type_name("inline|external|none")
+                  "(separate), or only processes that you start (none)")
+      ->type_name("inline|separate|none")
       ->capture_default_str();
   std::string ruleSets;
   for (const link::RuleSetInfo& set : link::refereeRuleSets()) ruleSets += ", " + set.name;
@@ -150,11 +150,13 @@ void addPlayOptions(CLI::App& command, PlayOptions& o) {
 }
 
 Result<link::Cognition> cognitionOf(const PlayOptions& options) {
+  // The name up to version 0.14.
+  if (options.cognition == "external") return link::Cognition::Separate;
   const auto found =
       std::ranges::find_if(cognitions, [&](const auto& c) { return options.cognition == c.name; });
   if (found != cognitions.end()) return found->cognition;
   return failure(ErrorCode::InvalidArgument,
-                 "--cognition must be inline, external or none, not \"" + options.cognition + "\"");
+                 "--cognition must be inline, separate or none, not \"" + options.cognition + "\"");
 }
 
 Result<double> speedOf(const PlayOptions& options, link::Cognition cognition,
@@ -187,7 +189,7 @@ Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const Pla
     scenario->stop.duration = defaultDuration;
   }
   scenario = shared::withRuntimes(std::move(*scenario), options.robots);
-  // With none, programs that the scenario names are somebody else's to start.
+  // With none, somebody else starts the programs that the scenario names.
   if (scenario && cognition == link::Cognition::None && !options.robots.runtimes.empty() &&
       TRY(link::usesTeamPrograms(*scenario))) {
     return failure(ErrorCode::InvalidArgument,

@@ -65,7 +65,7 @@ class Health {
     char text[80];
     std::snprintf(text, sizeof text, "%.1f s, %.1f MB", status.seconds,
                   static_cast<double>(status.bytes) / 1e6);
-    const std::string room = roomText(status);
+    const std::string room = freeSpaceText(status);
     m_progress.say(text + (room.empty() ? room : ", " + room) +
                    (trouble == RecordingTrouble::DiskBehind ? ", disk cannot keep up" : ""));
   }

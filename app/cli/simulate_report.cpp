@@ -23,7 +23,7 @@ double speedOf(const Outcome& outcome) {
 /// The team's programs that were started for the match.
 std::vector<link::ProcessStatus> teamPrograms(const link::SimulatedMatch& match) {
   auto all = match.robots().processes().statuses();
-  std::erase_if(all, [](const link::ProcessStatus& one) { return !one.foreign; });
+  std::erase_if(all, [](const link::ProcessStatus& one) { return !one.isTeamProgram; });
   return all;
 }
 

@@ -139,7 +139,8 @@ int runTests(const TestOptions& options) {
     }
     all.push_back(std::move(*one));
   }
-  std::printf("%zu tests, %zu assertions, %zu failed", all.size(), assertions, failures);
+  std::printf("%zu %s, %zu %s, %zu failed", all.size(), all.size() == 1 ? "test" : "tests",
+              assertions, assertions == 1 ? "assertion" : "assertions", failures);
   if (errors > 0) std::printf(", %zu with errors", errors);
   std::printf("\n");
   if (!options.junit.empty()) {

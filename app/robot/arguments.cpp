@@ -97,7 +97,7 @@ void addCommunicationOptions(CLI::App& command, Arguments& a) {
 
 CLI::Option* find(CLI::App& command, std::string name) {
   std::ranges::replace(name, '_', '-');
-  for (const std::string_view mine : {"config", "robot", "help", "match-turns"}) {
+  for (const std::string_view mine : {"config", "robot", "help", "lock-step-slot"}) {
     if (name == mine) return nullptr;
   }
   return command.get_option_no_throw("--" + name);
@@ -151,7 +151,8 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(0, link::MatchNumber::most));
-  command.add_option("--match-turns", a.matchTurns)->group("");  // for the program that plays it
+  command.add_option("--lock-step-slot", a.lockStepSlot)
+      ->group("");  // for the program that plays it
   command
       .add_option("--behaviour", a.behaviour,
                   "Behaviour of the decision process: a name, or an object with numbers as in "

@@ -20,7 +20,7 @@ struct Arguments {
   std::string config;
   std::optional<int> key;
   int keyBase = 0, match = 0;
-  std::optional<int> matchTurns;  // its place, when a match gives it turns
+  std::optional<int> lockStepSlot;  // passed by the match that runs this process
   // Instead of the match's.
   std::optional<int> telemetryPortBase, teamPortBase, refereePort;
   std::string behaviour = "striker", field = "published", model = "published", attack;

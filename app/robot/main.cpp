@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
+#include <cctype>
 #include <cstdio>
 
 #include <app/command_line.h>
@@ -8,7 +9,7 @@
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/processes/guard.h>
 #include <robotlink/processes/keeper.h>
-#include <robotlink/processes/match_turns.h>
+#include <robotlink/processes/lock_step_slots.h>
 
 #include "arguments.h"
 #include "management.h"
@@ -17,7 +18,7 @@
 namespace pitchboard::robot {
 namespace {
 
-// As every robot process: whoever comes first creates the segment, and nobody removes it.
+// As for every robot process: the first one creates the segment, and none removes it.
 Result<link::Blackboard> joinBlackboard(int key) {
   if (const Result<void> made = link::SystemVSegments::create(key);
       !made && made.error().code != ErrorCode::Conflict) {
@@ -28,8 +29,8 @@ Result<link::Blackboard> joinBlackboard(int key) {
 
 Result<void> run(const link::ProcessInfo& info, CLI::App& command, Arguments& arguments) {
   TRY(settle(command, arguments));
-  if (arguments.matchTurns) {
-    arguments.process.turns = TRY(link::ProcessTurns::join(*arguments.matchTurns));
+  if (arguments.lockStepSlot) {
+    arguments.process.lockStepSlot = TRY(link::LockStepSlot::join(*arguments.lockStepSlot));
   }
   const auto make = [&] { return info.make(arguments.process); };
   auto process = TRY(make());
@@ -48,9 +49,9 @@ Result<void> run(const link::ProcessInfo& info, CLI::App& command, Arguments& ar
   std::fflush(stdout);
   const RobotId robot = arguments.process.robot;
   link::CognitionDebugSender* const shown = display ? &*display : nullptr;
-  if (arguments.process.turns) {
-    return takeTurnsUntilAsked(std::move(process), make, board, robot, *arguments.process.turns,
-                               shown);
+  if (arguments.process.lockStepSlot) {
+    return runInLockStep(std::move(process), make, board, robot, *arguments.process.lockStepSlot,
+                         shown);
   }
   runUntilAsked(*process, board, robot, shown);
   return {};
@@ -68,7 +69,8 @@ void printList() {
     std::printf("  %-14s %s\n", std::string(info.name).c_str(),
                 std::string(info.description).c_str());
   }
-  std::puts("Their numbers, for --behaviour '{\"name\": \"striker\", \"kick_distance\": 0.04}':");
+  std::puts(
+      "Their parameters, for --behaviour '{\"name\": \"striker\", \"kick_distance\": 0.04}':");
   const link::BehaviourParameters usual;
   for (const link::BehaviourParameter& number : link::behaviourParameters) {
     std::string of;
@@ -79,6 +81,12 @@ void printList() {
                 number.written(usual.*number.member), *number.unit.symbol ? " " : "",
                 number.unit.symbol, number.least, number.most, of.c_str(), number.meaning);
   }
+}
+
+std::string asSentence(std::string_view description) {
+  std::string text(description);
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 int parseAndRun(int argc, char** argv) {
@@ -94,7 +102,7 @@ int parseAndRun(int argc, char** argv) {
   const auto add = [&](std::string_view name, std::string_view description,
                        std::string_view example) {
     CLI::App* command = app.add_subcommand(
-        std::string(name), std::string(description) + "\nExample: " + std::string(example));
+        std::string(name), asSentence(description) + "\nExample: " + std::string(example));
     addOptions(*command, arguments);
     return command;
   };

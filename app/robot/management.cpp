@@ -31,12 +31,12 @@ std::vector<std::string> referenceProcesses() {
   return names;
 }
 
-std::string wordsOf(const link::ProcessNews& news) {
+std::string sentenceOf(const link::ProcessNews& news) {
   using Kind = link::ProcessNewsKind;
   const std::string again =
       news.restartIn < 0
           ? std::string()
-          : "; it starts again in " + link::inSeconds(link::RestartRule::Seconds(news.restartIn));
+          : "; restarting in " + link::inSeconds(link::RestartRule::Seconds(news.restartIn));
   switch (news.kind) {
     case Kind::Started:
     case Kind::Restarted:
@@ -44,7 +44,7 @@ std::string wordsOf(const link::ProcessNews& news) {
     case Kind::Ended:
     case Kind::Died:
       return "ended: " + news.detail + again;
-    case Kind::Silent:
+    case Kind::NotResponding:
       return "showed " + news.detail + " and was ended" + again;
     case Kind::GivenUp:
       return "is no longer restarted: " + news.detail;
@@ -59,7 +59,7 @@ void print(link::ProcessManager& manager) {
     std::printf("%s: %s\n", line.process.c_str(), line.text.c_str());
   }
   for (const link::ProcessNews& news : manager.takeNews()) {
-    std::printf("%s %s\n", news.process.c_str(), wordsOf(news).c_str());
+    std::printf("%s %s\n", news.process.c_str(), sentenceOf(news).c_str());
   }
   std::fflush(stdout);
 }
@@ -90,7 +90,7 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
         replaceAll(word, "{key}", key);
       }
     } else {
-      // Options that this process refuses are told now, not again at every restart.
+      // Reports options that the process refuses now, instead of at every restart.
       TRY(link::findProcess(name)->make(arguments.process));
       words = {program, name, "--robot", robot, "--key", key};
       if (!arguments.config.empty()) words.insert(words.end(), {"--config", arguments.config});
@@ -99,14 +99,14 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
     }
     link::ManagedProcess process;
     process.spec = {arguments.process.robot, name, std::move(words)};
-    process.spec.foreign = config.commands.contains(name);
+    process.spec.isTeamProgram = config.commands.contains(name);
     process.restart = config.timing.restart;
     process.delay = config.timing.startInterval.count();
     process.silentAfter = config.timing.silentAfter;
     process.heartbeat = link::workingFlagOf(name);
     // A program of the team's own may block for as long as it wants.
     process.watch = link::isPresent(process.heartbeat) ? link::ManagedProcess::Watch::Variable
-                    : process.spec.foreign             ? link::ManagedProcess::Watch::Nobody
+                    : process.spec.isTeamProgram       ? link::ManagedProcess::Watch::Nobody
                                                        : link::ManagedProcess::Watch::Sleeps;
     process.clears = !clearedByOther;
     processes.push_back(std::move(process));

@@ -8,7 +8,7 @@
 namespace pitchboard::robot {
 
 inline constexpr const char* managementDescription =
-    "starts the robot's other processes and starts again what died or hangs";
+    "starts, watches and restarts the robot's other processes";
 
 /// Runs until SIGTERM, SIGINT or SIGHUP (held by holdEndSignals()), then ends what it started and
 /// removes the blackboard if it made it. Errors: options, the INI file (with its line), a program

@@ -24,7 +24,7 @@ class Display {
  public:
   Display(RobotId robot, link::CognitionDebugSender* sender) : m_robot(robot), m_sender(sender) {}
 
-  /// Tells what the process has in mind, unless it was told less than `period` ago.
+  /// Sends the debug data of the process, unless it was sent less than `period` ago.
   void tell(const link::CognitiveProcess& process, std::chrono::milliseconds period) {
     const Clock::time_point now = Clock::now();
     if (m_sender == nullptr || now < m_last + period) return;
@@ -84,28 +84,28 @@ void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, Rob
   process.finish();
 }
 
-Result<void> takeTurnsUntilAsked(std::unique_ptr<link::CognitiveProcess> process,
-                                 const ProcessMaker& make, link::Blackboard& board, RobotId robot,
-                                 link::ProcessTurns& turns, link::CognitionDebugSender* display) {
-  // While the match stands still: how soon a signal is noticed, and how often a display is told
-  // again, because it forgets what it does not hear of.
+Result<void> runInLockStep(std::unique_ptr<link::CognitiveProcess> process,
+                           const ProcessMaker& make, link::Blackboard& board, RobotId robot,
+                           link::LockStepSlot& slot, link::CognitionDebugSender* display) {
+  // While the match is paused: how soon a signal is noticed, and how often debug data is sent
+  // again, because displays drop data that is not repeated.
   constexpr std::chrono::milliseconds longestWait{100}, remindPeriod{1000};
   Display shown(robot, display);
-  turns.ready(process->period());
+  slot.ready(process->period());
   double last = 0.0;
   while (true) {
-    const auto turn = turns.wait(longestWait);
-    if (turn) {
-      if (turn->seconds < last) {
+    const auto cycle = slot.wait(longestWait);
+    if (cycle) {
+      if (cycle->seconds < last) {
         process.reset();  // its ports are free again
         process = TRY(make());
         process->resume(board);
       }
-      last = turn->seconds;
+      last = cycle->seconds;
       process->step(board, {last});
-      turns.done();
+      slot.done();
     }
-    shown.tell(*process, turn ? displayPeriod : remindPeriod);
+    shown.tell(*process, cycle ? displayPeriod : remindPeriod);
     sigset_t pending;
     sigpending(&pending);
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {

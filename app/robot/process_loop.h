@@ -9,7 +9,7 @@
 #include <memory>
 
 #include <robotlink/cognition/cognitive_process.h>
-#include <robotlink/processes/match_turns.h>
+#include <robotlink/processes/lock_step_slots.h>
 
 namespace pitchboard::robot {
 
@@ -29,11 +29,11 @@ void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, Rob
 
 using ProcessMaker = std::function<Result<std::unique_ptr<link::CognitiveProcess>>()>;
 
-/// The same with the time of a match: a step for every turn that it gives, and none without. When
-/// the match was put back to an earlier moment, `make` gives the process that goes on, with the
-/// belief that stands on the blackboard. Fails when `make` does.
-Result<void> takeTurnsUntilAsked(std::unique_ptr<link::CognitiveProcess> process,
-                                 const ProcessMaker& make, link::Blackboard& board, RobotId robot,
-                                 link::ProcessTurns& turns, link::CognitionDebugSender* display);
+/// Runs the process in match time: one step per cycle that the match starts through `slot`, and
+/// none otherwise. When the match was put back to an earlier moment, the process is replaced by one
+/// from `make`, which reads its belief from the blackboard. Fails when `make` does.
+Result<void> runInLockStep(std::unique_ptr<link::CognitiveProcess> process,
+                           const ProcessMaker& make, link::Blackboard& board, RobotId robot,
+                           link::LockStepSlot& slot, link::CognitionDebugSender* display);
 
 }  // namespace pitchboard::robot

@@ -291,10 +291,14 @@ std::string problemText(const CLI::App& app, const CLI::ParseError& error) {
            part.str(2);
   }
   if (std::regex_match(said, part, std::regex("(\\S+): (.*) not in \\{(.*)\\}"))) {
-    std::string names = part.str(3);
+    std::string names = std::regex_replace(part.str(3), std::regex(","), ", ");
     const std::size_t last = names.rfind(',');
-    if (last != std::string::npos) names.replace(last, 1, " or ");
+    if (last != std::string::npos) names.replace(last, 1, " or");
     return part.str(1) + " must be " + names + ", not \"" + part.str(2) + '"';
+  }
+  // What our own checks say.
+  if (std::regex_match(said, part, std::regex("(\\S+): (must be .*)"))) {
+    return part.str(1) + ' ' + part.str(2);
   }
   return said;
 }
@@ -314,7 +318,7 @@ std::string completionsOf(const CLI::App& app) {
 }
 
 /// A line of the `case` for this command and those below it. Built-in choices such as
-/// inline|external|none complete the value of an option.
+/// inline|separate|none complete the value of an option.
 void addCompletions(const CLI::App& app, std::string& commands, std::string& values,
                     std::string& names) {
   const std::string name = fullName(app);

@@ -22,14 +22,16 @@ namespace {
 constexpr int maxPixels = 16384;
 
 void addOptions(CLI::App& app, Arguments& a) {
-  a.match.scenario = "kick-off";  // somebody moves at once
+  a.match.scenario = "kick-off";  // robots move from the beginning
   shared::addScenarioOptions(app, a.match);
   app.add_option("--cognition", a.cognition,
                  "Where the robots' processes run: separate processes on System V blackboards "
-                 "(external), inside the studio (inline), or only your own programs (none)")
-      ->type_name("external|inline|none")
+                 "(separate), inside the studio (inline), or only your own programs (none)")
+      ->type_name("separate|inline|none")
       ->capture_default_str()
-      ->check(CLI::IsMember({"external", "inline", "none"}));
+      ->check(CLI::IsMember({"separate", "inline", "none"}))
+      // The name up to version 0.14.
+      ->transform([](std::string text) { return text == "external" ? "separate" : text; });
   app.add_option("--speed", a.speed, "Simulated seconds per second, 0.01 to 1000, or max")
       ->type_name("X|max")
       ->capture_default_str();

@@ -22,7 +22,7 @@ struct WindowSize {
 
 struct Arguments {
   shared::ScenarioOptions match;
-  std::string cognition = "external";
+  std::string cognition = "separate";
   std::string speed = "1";
   shared::RobotsOptions processes;
   std::string theme;

@@ -88,8 +88,8 @@ double playOn(SimulatedMatch& match, const link::Moment& moment, const Thinking&
   const int perSecond = static_cast<int>(moment.state.settings.tickRate);
   int goals = 0, stamp = 0;
   for (int tick = 1; tick <= playedFor * perSecond && goals == 0; ++tick) {
-    const bool isTold = tick % perSecond == ticksOfThought && tick < toldFor * perSecond;
-    if (isTold && advice.kind != AdviceKind::None) {
+    const bool isAnnounced = tick % perSecond == ticksOfThought && tick < toldFor * perSecond;
+    if (isAnnounced && advice.kind != AdviceKind::None) {
       link::Blackboard& board = *match.blackboard(who.options.robot);
       v.write(board, who.options.field, advice);
       board.write(v.stamp, ++stamp);

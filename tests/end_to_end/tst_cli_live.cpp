@@ -314,6 +314,23 @@ class TestCliLive : public QObject {
     QVERIFY(bad.out.contains("too few fields"));
   }
 
+  void aKeyThatNoMessageHasIsReported() {
+    QTemporaryDir folder;
+    QFile profile(folder.filePath("p.json"));
+    QVERIFY(profile.open(QIODevice::WriteOnly));
+    profile.write(R"({"name": "t", "format": "json", "fields": [
+        {"name": "ID", "type": "int", "meaning": "robot", "key": "id"},
+        {"name": "VOLTS", "type": "float", "key": "hw.vot"},
+        {"name": "SOMETIMES", "type": "float", "key": "temp"}]})");
+    profile.close();
+    const Outcome outcome =
+        run({"decode", "telemetry", "--profile", profile.fileName(), "-"},
+            "{\"id\": 3, \"hw\": {\"volt\": 12.1}}\n{\"id\": 3, \"temp\": 40}\n");
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.err, QByteArray("warning: no message has the key \"hw.vot\" of the field "
+                                     "VOLTS; did you mean \"hw.volt\"?\n"));
+  }
+
   /// Every value that a recording holds stands in the output under the same name.
   void decodesEveryRecording() {
     QStringList files;

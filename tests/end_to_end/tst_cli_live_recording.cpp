@@ -80,7 +80,7 @@ class TestCliLiveRecording : public QObject {
     const auto session = SessionReader::open(path.toStdString());
     QVERIFY(session && session->complete() && session->notes().empty());
     QCOMPARE(session->info().source, std::string("live"));
-    // The robot, and how well it is heard.
+    // The robot, and its link.
     QCOMPARE(session->groups().size(), std::size_t{2});
     const GroupId ofRobot = session->groups()[0].info.attributes.contains("link") ? 1 : 0;
     const GroupInfo& info = session->groups()[ofRobot].info;

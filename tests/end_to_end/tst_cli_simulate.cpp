@@ -151,7 +151,7 @@ class TestCliSimulate : public QObject {
     run = record({"--runtime", "B1=program=/bin/true"});
     QVERIFY2(run.exitCode == 0, run.err.constData());
     QVERIFY2(run.err.contains("B1 decision"), run.err.constData());  // and that it has ended
-    run = record({"--cognition", "external", "--speed", "max", "--key-base",
+    run = record({"--cognition", "separate", "--speed", "max", "--key-base",
                   QString::number(testKeyBase() + 60)});
     QVERIFY2(run.exitCode == 0 && run.out.contains(": 2.000 s,"), run.err + run.out);
   }
@@ -197,7 +197,7 @@ class TestCliSimulate : public QObject {
     const Run alone = simulate({"--answer-referee", "0", "--duration", "1"});
     QVERIFY(alone.exitCode != 0 && alone.err.contains("--obey-referee"));
     const Run negative = simulate({"--seed", "-1", "--duration", "1"});
-    QVERIFY2(negative.exitCode == 2 && negative.err.contains("--seed: must be 0 or more"),
+    QVERIFY2(negative.exitCode == 2 && negative.err.contains("--seed must be 0 or more"),
              negative.err.constData());
   }
 
@@ -292,7 +292,7 @@ class TestCliSimulate : public QObject {
                 QJsonArray{QJsonObject{
                     {"team", "blue"}, {"number", 1}, {"x", -1}, {"y", 0}, {"runtime", profile}}}},
                {"writes", QJsonArray{QJsonObject{{"variable", "COM_REFEREE"}, {"value", 2}}}}});
-    const Run run = simulate({"--scenario", scenario, "--cognition", "external", "--speed", "max",
+    const Run run = simulate({"--scenario", scenario, "--cognition", "separate", "--speed", "max",
                               "--duration", "15", "--json"});
     QCOMPARE(run.exitCode, 0);
     const QJsonObject out = QJsonDocument::fromJson(run.out).object();
@@ -320,7 +320,7 @@ class TestCliSimulate : public QObject {
                           " while time.thread_time() < end: pass\n time.sleep(0.18)\n",
                           "${key}"});
     const auto play = [&](const QStringList& more) {
-      return simulate(QStringList{"--scenario", "one-robot", "--cognition", "external", "--speed",
+      return simulate(QStringList{"--scenario", "one-robot", "--cognition", "separate", "--speed",
                                   "max", "--duration", "8", "--json", "--runtime", profile,
                                   "--key-base", QString::number(testKeyBase() + 80)} +
                       more);
@@ -347,7 +347,7 @@ class TestCliSimulate : public QObject {
         dir,
         {"/bin/sh", "-c", "echo ready to play ${team} ${shirt} as robot ${robot}; exec sleep 600"});
     const QStringList match{"--scenario", "one-robot",  "--cognition",
-                            "external",   "--speed",    "4",
+                            "separate",   "--speed",    "4",
                             "--duration", "4",          "--runtime",
                             profile,      "--key-base", QString::number(testKeyBase() + 80)};
     const Run run = simulate(match);
@@ -368,7 +368,7 @@ class TestCliSimulate : public QObject {
     const int base = testKeyBase();
     QProcess process;
     process.start(QString(PITCHBOARD_BIN) + "/pitchboard-cli",
-                  {"simulate", "--scenario", "one-robot", "--cognition", "external", "--json",
+                  {"simulate", "--scenario", "one-robot", "--cognition", "separate", "--json",
                    "--duration", "600", "--key-base", QString::number(base)});
     QVERIFY(process.waitForStarted());
     // The segment is there, and besides the simulator the five robot processes are attached to it.
@@ -417,7 +417,7 @@ class TestCliSimulate : public QObject {
     QProcess process;
     process.start(
         QString(PITCHBOARD_BIN) + "/pitchboard-cli",
-        {"simulate", "--scenario", "one-robot", "--cognition", "external", "--duration", "100000",
+        {"simulate", "--scenario", "one-robot", "--cognition", "separate", "--duration", "100000",
          "--speed", "1", "--key-base", QString::number(base), "--runtime", profile.fileName()});
     QVERIFY(process.waitForStarted());
     QTRY_COMPARE_WITH_TIMEOUT(left(), 4, 30000);

@@ -109,7 +109,7 @@ class TestCliUsage : public QObject {
     QTest::newRow("a command") << QStringList{"sim"} << "simulate";
     QTest::newRow("commands") << QStringList{"ex"} << "experiment explore export";
     QTest::newRow("an option") << QStringList{"simulate", "--sc"} << "--scenario";
-    QTest::newRow("a choice") << QStringList{"simulate", "--cognition", "e"} << "external";
+    QTest::newRow("a choice") << QStringList{"simulate", "--cognition", "s"} << "separate";
     QTest::newRow("a command below") << QStringList{"blackboard", "d"} << "dump";
     QTest::newRow("an option below") << QStringList{"blackboard", "dump", "--al"} << "--all";
   }

@@ -41,7 +41,7 @@ class TestCooperation : public QObject {
   ProgramRun play(const QString& profile, const char* speed, const char* duration) const {
     return runProgram(
         "pitchboard-cli",
-        {"simulate", "--scenario", "one-robot", "--cognition", "external", "--json", "--runtime",
+        {"simulate", "--scenario", "one-robot", "--cognition", "separate", "--json", "--runtime",
          profile, "--speed", speed, "--duration", duration, "--key-base", QString::number(m_base)});
   }
   static QJsonObject resultOf(const ProgramRun& run) {
@@ -89,7 +89,7 @@ class TestCooperation : public QObject {
     const QString profile =
         profileOf({"python3", PITCHBOARD_SOURCE_DIR "/tests/end_to_end/cycle_robot.py", "${key}"},
                   cooperates);
-    const QStringList match{"--scenario", "one-robot", "--cognition", "external",
+    const QStringList match{"--scenario", "one-robot", "--cognition", "separate",
                             "--runtime",  profile,     "--speed",     "8",
                             "--duration", "2",         "--key-base",  QString::number(m_base)};
     const ProgramRun played = runProgram("pitchboard-cli", QStringList{"simulate"} + match);
@@ -120,9 +120,9 @@ class TestCooperation : public QObject {
     QTest::addColumn<QByteArray>("told");
     QTest::newRow("hangs") << QByteArray("time.sleep(1000)") << true
                            << QByteArray(
-                                  "no cycle finished for 0.3 s; the match goes on without it");
+                                  "no cycle finished for 0.3 s; the match continues without it");
     QTest::newRow("ends") << QByteArray("sys.exit(0)") << true
-                          << QByteArray("the match goes on without it and is not repeatable");
+                          << QByteArray("the match continues without it and is not repeatable");
     QTest::newRow("never cooperates") << QByteArray("pass") << false << QByteArray();
   }
   void aLateOneIsNamed() {

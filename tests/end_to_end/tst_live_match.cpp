@@ -37,9 +37,9 @@ class TestLiveMatch : public QObject {
     match.start(
         QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli"),
         {QStringLiteral("simulate"), QStringLiteral("--scenario"), QStringLiteral("match-3v3"),
-         QStringLiteral("--cognition"), QStringLiteral("external"), QStringLiteral("--speed"),
-         QStringLiteral("1"), QStringLiteral("--duration"), QStringLiteral("60"),
-         QStringLiteral("--match"), QString::number(m_number.value)});
+         QStringLiteral("--cognition"), QStringLiteral("external") /* the name up to 0.14 */,
+         QStringLiteral("--speed"), QStringLiteral("1"), QStringLiteral("--duration"),
+         QStringLiteral("60"), QStringLiteral("--match"), QString::number(m_number.value)});
     QVERIFY(match.waitForStarted());
     link::LiveOptions options;
     options.bind = {INADDR_LOOPBACK};

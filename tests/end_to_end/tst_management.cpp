@@ -151,10 +151,10 @@ class TestManagement : public QObject {
   void waitsLongerEveryTime() {
     start("processes = own\nrestart_wait = 0.1\nlongest_wait = 0.4\ncommand.own = false\n");
     QTRY_VERIFY(pidsOf("own").size() >= 5);
-    QVERIFY(said("own ended: exit code 1; it starts again in 0.1 s"));
-    QVERIFY(said("it starts again in 0.2 s"));
-    QVERIFY(said("it starts again in 0.4 s"));
-    QVERIFY(!said("it starts again in 0.8 s"));
+    QVERIFY(said("own ended: exit code 1; restarting in 0.1 s"));
+    QVERIFY(said("restarting in 0.2 s"));
+    QVERIFY(said("restarting in 0.4 s"));
+    QVERIFY(!said("restarting in 0.8 s"));
     endsWithoutRemains();
   }
 
@@ -228,21 +228,22 @@ class TestManagement : public QObject {
     };
     row("unknown process", "[Pitchboard Management]\nprocesses = decision, cook\n",
         "robot.ini, line 4: there is no reference process 'cook'");
-    row("twice", "[Pitchboard Management]\nprocesses = team team\n", "line 4: 'team' stands twice");
+    row("twice", "[Pitchboard Management]\nprocesses = team team\n",
+        "line 4: 'team' is listed twice");
     row("nothing to start", "[Pitchboard Management]\nprocesses =\n",
-        "line 4: processes names no process");
+        "line 4: processes must name");
     row("time", "[Pitchboard Management]\n\nsilent_after = soon\n",
         "line 5: silent_after must be a number of seconds");
     row("negative time", "[Pitchboard Management]\nrestart_wait = -1\n",
         "line 4: restart_wait must be");
     row("unknown key", "[Pitchboard Management]\nsilent_afer = 3\n",
         "did you mean \"silent_after\"");
-    row("no program", "[Pitchboard Management]\ncommand.own =\n",
-        "line 4: command.own names no program");
+    row("no program", "[Pitchboard Management]\ncommand.own =\n", "line 4: command.own must name");
     row("no such program",
         "[Pitchboard Management]\nprocesses = own\ncommand.own = /no/such/thing\n",
         "cannot start '/no/such/thing'");
-    row("not a line", "[Pitchboard Management]\nquickly\n", "line 4: 'quickly' has not the form");
+    row("not a line", "[Pitchboard Management]\nquickly\n",
+        "line 4: 'quickly' does not have the form");
     row("option", "[Pitchboard]\nbehavior = keeper\n", "line 4: there is no option 'behavior'");
     row("behaviour", "[Pitchboard]\nbehaviour = clever\n",
         "line 4: --behaviour: there is no behaviour \"clever\"");
@@ -264,8 +265,8 @@ class TestManagement : public QObject {
 
   void words() {
     using Words = std::vector<std::string>;
-    QCOMPARE(commandWords("  a  b\t\"c d\"e \"\" "), (Words{"a", "b", "c de", ""}));
-    QCOMPARE(commandWords(""), Words{});
+    QCOMPARE(splitCommand("  a  b\t\"c d\"e \"\" "), (Words{"a", "b", "c de", ""}));
+    QCOMPARE(splitCommand(""), Words{});
   }
 };
 

@@ -91,7 +91,7 @@ class TestManyMatches : public QObject {
       programs.back()->start(
           QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli"),
           {QStringLiteral("simulate"), QStringLiteral("--scenario"), file.fileName(),
-           QStringLiteral("--cognition"), QStringLiteral("external"), QStringLiteral("--speed"),
+           QStringLiteral("--cognition"), QStringLiteral("separate"), QStringLiteral("--speed"),
            QStringLiteral("max"), QStringLiteral("--json")});
       auto inside = make(loadScenario(file.fileName().toStdString()).value(), {});
       while (!inside.finished()) inside.tick();
@@ -164,7 +164,7 @@ class TestManyMatches : public QObject {
     options.match = first.robots().claim()->number().value;
     const auto second = SimulatedMatch::create(loadScenario("one-robot").value(), options);
     QVERIFY(!second);
-    QVERIFY2(second.error().text().find("is played already by this program") != std::string::npos,
+    QVERIFY2(second.error().text().find("is already in use by this program") != std::string::npos,
              second.error().text().c_str());
   }
 };

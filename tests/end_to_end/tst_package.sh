@@ -73,7 +73,7 @@ type_is other.json application/json
 for type in application/x-pitchboard-session application/x-pitchboard-scenario+json; do
   grep -q "^MimeType=.*$type;" "$share/applications/$id.desktop" || fail "the desktop entry does not open $type"
 done
-played=$(cd / && env -i PATH=/usr/bin:/bin "$bin/pitchboard-cli" simulate --cognition external --json \
+played=$(cd / && env -i PATH=/usr/bin:/bin "$bin/pitchboard-cli" simulate --cognition separate --json \
   --scenario one-robot --duration 8 --key-base $((800000000 + $$ * 100)) 2>&1) || fail "the match:"$'\n'"$played"
 [[ $played == *'"ticks":480'* ]] || fail "the match was not played to its end:"$'\n'"$played"
 [[ $played =~ \"distance_m\":[0-9]*\.[0-9]*[1-9] ]] || fail "no robot walked, so none decided:"$'\n'"$played"

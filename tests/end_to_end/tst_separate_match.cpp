@@ -218,7 +218,7 @@ class TestSeparateMatch : public QObject {
     std::vector<MatchEvent> events;
     match.takeEvents(events);
     const auto silent = std::find_if(events.begin(), events.end(), [](const MatchEvent& event) {
-      return event.kind == MatchEventKind::ProcessSilent;
+      return event.kind == MatchEventKind::ProcessNotResponding;
     });
     QVERIFY(silent != events.end());
     QCOMPARE(sentenceOf(*silent),

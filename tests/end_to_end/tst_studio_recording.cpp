@@ -58,7 +58,7 @@ class TestStudioRecording : public QObject {
   void itEndsWhileItRecords_data() {
     QTest::addColumn<QString>("mode");
     QTest::addColumn<QByteArray>("way");
-    for (const char* mode : {"live", "inline", "external"}) {
+    for (const char* mode : {"live", "inline", "separate"}) {
       for (const char* way : {"SIGTERM", "close", "quit"}) {
         QTest::addRow("%s, %s", mode, way) << QString::fromLatin1(mode) << QByteArray(way);
       }
@@ -93,7 +93,7 @@ class TestStudioRecording : public QObject {
                  longWait),
              studio.readAllStandardError());
     QCOMPARE(studio.state(), QProcess::Running);
-    QCOMPARE(Studio::segments(), std::size_t(mode == QStringLiteral("external") ? 8 : 0));
+    QCOMPARE(Studio::segments(), std::size_t(mode == QStringLiteral("separate") ? 8 : 0));
 
     if (way == "SIGTERM")
       studio.terminate();

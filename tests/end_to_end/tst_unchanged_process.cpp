@@ -275,14 +275,14 @@ class TestUnchangedProcess : public QObject {
     QTRY_VERIFY(firstProgram(*runner).pid != 0);
     QCOMPARE(timeVariables(*runner), QByteArray());
     QStringList told;
-    const auto isTold = [&] {
+    const auto isAnnounced = [&] {
       for (const MatchEvent& event : runner->takeEvents()) {
         if (event.kind != MatchEventKind::ProcessRealTime) continue;
         told << QString::fromStdString(sentenceOf(event));
       }
       return !told.isEmpty();
     };
-    QTRY_VERIFY_WITH_TIMEOUT(isTold(), 30'000);
+    QTRY_VERIFY_WITH_TIMEOUT(isAnnounced(), 30'000);
     QTRY_COMPARE_WITH_TIMEOUT(runner->latest()->slowestTeamProgram, std::optional(1.0), 30'000);
     // A match that waits for its programs does not leave it behind.
     runner->execute([](SimulatedMatch& match) {
@@ -296,7 +296,7 @@ class TestUnchangedProcess : public QObject {
     });
     runner->setSpeed(4.0);
     QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).speed, 4.0, 30'000);
-    (void)isTold();
+    (void)isAnnounced();
     QCOMPARE(told, QStringList{sentence});
   }
 
@@ -314,7 +314,7 @@ class TestUnchangedProcess : public QObject {
 
   // Played faster than a team's program can think, the match slows down to it when the user wants,
   // and is as fast as it was asked to be when not.
-  void theMatchWaitsForOwnProgramsWhenAsked() {
+  void theMatchWaitsForTeamProgramsWhenAsked() {
     constexpr double wanted = 400.0;
     auto runner = startWith(R"json({"version": 1, "name": "slow", "processes": [{"name":
       "decision", "command": ["python3", "-c",

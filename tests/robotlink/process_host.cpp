@@ -26,10 +26,10 @@ int main(int, char** argv) {
   ProcessManager manager(argv[1]);
   if (const auto kept = manager.keepGuard(); !kept) return fail(kept.error());
   manager.guardSegment(*board);
-  const auto add = [&](const char* script, bool foreign) {
+  const auto add = [&](const char* script, bool isTeamProgram) {
     ManagedProcess process;
     process.spec = {{1}, "child", {"sh", "-c", script}};
-    process.spec.foreign = foreign;
+    process.spec.isTeamProgram = isTeamProgram;
     return manager.add(process, *board, std::chrono::steady_clock::now());
   };
   for (const char* script :

@@ -60,6 +60,13 @@ class TestCalibrate : public QObject {
   Q_OBJECT
 
  private slots:
+  void samplesAreCountedInWords() {
+    QCOMPARE(samplesText({"turn", 1, 1, 1, 1, "actions"}), std::string("1 action"));
+    QCOMPARE(samplesText({"turn", 1, 1, 1, 2, "actions"}), std::string("2 actions"));
+    QCOMPARE(samplesText({"noise.landmark_probability", 1, 1, 1, 1, "corners in view"}),
+             std::string("1 corner in view"));
+  }
+
   void gridPosteriorsAreThoseOfClosedForms() {
     // A normal likelihood of the logarithm times the prior: normal again.
     const double sigma = 0.35, error = 0.05, median = 2.0, seen = std::log(2.5);

@@ -79,9 +79,9 @@ class TestChildProcess : public QObject {
     QFETCH(QByteArray, script);
     QFETCH(bool, failed);
     QFETCH(QByteArray, detail);
-    for (const bool foreign : {false, true}) {
+    for (const bool isTeamProgram : {false, true}) {
       ChildSpec spec = shell(script.constData());
-      spec.foreign = foreign;
+      spec.isTeamProgram = isTeamProgram;
       Child child(spec);
       QVERIFY(child.process);
       QTRY_VERIFY(child.ended());
@@ -173,7 +173,7 @@ class TestChildProcess : public QObject {
     const auto before = count();
     {
       ChildSpec kept = shell("exec sleep 600");
-      kept.foreign = true;
+      kept.isTeamProgram = true;
       Child all[]{Child(shell("exit 0")), Child(shell("exec sleep 600")), Child(kept),
                   Child({{1}, "test", {"/no/such/program"}})};
       QVERIFY(all[2].process && !all[3].process);
@@ -193,9 +193,9 @@ class TestChildProcess : public QObject {
     const std::string plain = file("plain", {}), bad = file("bad", QFile::ExeOwner);
     const auto expect = [](const std::vector<std::string>& command, ErrorCode code,
                            const char* reason) {
-      for (const bool foreign : {false, true}) {
+      for (const bool isTeamProgram : {false, true}) {
         ChildSpec spec{{1}, "test", command};
-        spec.foreign = foreign;
+        spec.isTeamProgram = isTeamProgram;
         const Child child(spec);
         QVERIFY(!child.process);
         const QByteArray text = QByteArray::fromStdString(child.process.error().text());

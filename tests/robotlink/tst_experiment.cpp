@@ -289,7 +289,7 @@ void TestExperiment::aSituationStartsInAnyState() {
   QVERIFY2(match.has_value(), match ? "" : match.error().text().c_str());
   for (int i = 0; i < 60 * 5; ++i) match->tick();
   const sim::GameState& now = *match->simulation().state().game;
-  QCOMPARE(QString::fromUtf8(sim::wordsOf(now.setPlay()).data()), wanted);
+  QCOMPARE(QString::fromUtf8(sim::labelOf(now.setPlay()).data()), wanted);
   if (wanted.isEmpty()) QCOMPARE(sim::secondsOf(now.clock, 60.0), 55);
   const sim::Snapshot seen = match->simulation().snapshot();
   for (const auto& [colour, shirt] :

@@ -74,7 +74,7 @@ void TestExperimentFile::errorsNameTheLineAndTheKey_data() {
                               << "test.json:13: metrics: nearest_cm: cannot be read";
   QTest::newRow("stop key") << "\"noise.forward\""
                             << "\"stop.duration\""
-                            << "\"stop\" is the experiment's own key";
+                            << "\"stop\" is set by the experiment itself";
   QTest::newRow("random beyond what is allowed")
       << "\"starts\""
       << "\"random\": {\"noise.forward\": {\"from\": 0, \"to\": 1e9}},\n \"starts\""

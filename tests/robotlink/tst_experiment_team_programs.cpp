@@ -127,7 +127,7 @@ void TestExperimentTeamPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
     QVERIFY(says(file, "times_real_time") && says(file, "own_programs_kept"));
   }
   for (const char* file : {"report.md", "report.html"}) {
-    QVERIFY2(says(file, "Played, times real time"), file);
+    QVERIFY2(says(file, "Speed (times real time)"), file);
     QVERIFY2(says(file, "at most 8 times as fast as real time"), file);
   }
   // Only the runs without a kick were wanted, and they were recorded while they were played.

@@ -67,7 +67,7 @@ class TestLiveEvents : public QObject {
     QVERIFY(s.at(0.4).empty());
   }
 
-  void aRobotFallsSilentAndComesBack() {
+  void aRobotGoesOfflineAndComesBack() {
     Stage s;
     s.robot(3, TeamColor::Red);
     auto told = s.at(1.0);
@@ -102,7 +102,7 @@ class TestLiveEvents : public QObject {
     QCOMPARE(kindsOf(s.at(20.0)), (Kinds{Kind::RobotOffline}));
   }
 
-  void aRobotThatWasForgottenIsHeardAnew() {
+  void aForgottenRobotIsReceivedAgain() {
     Stage s;
     s.robot(1);
     (void)s.at(1.0);
@@ -240,7 +240,7 @@ class TestLiveEvents : public QObject {
     QCOMPARE(told[0].score, (sim::Score{0, 1}));
   }
 
-  void theRefereeFallsSilentAndAnotherOneSpeaks() {
+  void theRefereeGoesOfflineAndAnotherOneSends() {
     Stage s;
     s.referee();
     (void)s.at(1.0);

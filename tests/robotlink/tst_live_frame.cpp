@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames of what was heard, from values made by hand: no network, no clock.
+// Frames of received robots, from values made by hand: no network, no clock.
 
 #include <QtTest>
 
@@ -121,7 +121,7 @@ class TestLiveFrame : public QObject {
   Q_OBJECT
 
  private slots:
-  void nobodyIsHeard() {
+  void nothingIsReceived() {
     const MatchFrame frame = Received({}).frame(7.5);
     QVERIFY(frame.origin == FrameOrigin::Live);
     QVERIFY(!frame.truthKnown && !frame.ballKnown);
@@ -158,7 +158,7 @@ class TestLiveFrame : public QObject {
     QCOMPARE(robot.values[1].unit, std::string("cm"));
   }
 
-  void howItIsHeardIsCarriedAsItIs() {
+  void itsLinkIsPassedOnUnchanged() {
     RobotStatus status = robotSaying("2 " + atTheCentre);
     status.age = 1500ms;
     status.rate = 1.25;
@@ -170,7 +170,7 @@ class TestLiveFrame : public QObject {
     status.recoveries = 2;
     status.lost = 11;
     status.conflict = true;
-    status.processes[3] = {telemetry::HeartbeatState::Silent, 0.1, 8s};
+    status.processes[3] = {telemetry::HeartbeatState::NotResponding, 0.1, 8s};
     status.battery = telemetry::batteryAt(15.9, telemetry::usualBattery);
     const RobotFrame robot = Received({status}).frame().robots.at(0);
     const telemetry::LinkHealth& health = *robot.link;
@@ -185,7 +185,7 @@ class TestLiveFrame : public QObject {
     QCOMPARE(health.recoveries, status.recoveries);
     QCOMPARE(health.lost, status.lost);
     QVERIFY(health.conflict && robot.battery->low);
-    QVERIFY(robot.lamps[3].state == telemetry::HeartbeatState::Silent);
+    QVERIFY(robot.lamps[3].state == telemetry::HeartbeatState::NotResponding);
     QCOMPARE(robot.lamps[3].since, status.processes[3].since);
   }
 
@@ -200,7 +200,7 @@ class TestLiveFrame : public QObject {
     QCOMPARE(robot.values[1].text, std::string("2000000000"));
   }
 
-  void withoutAPositionItIsHeardAndNotSeen() {
+  void withoutAPositionItIsReceivedButNotShown() {
     RobotStatus status = robotSaying("4 " + atTheCentre);
     status.values[1] = std::nan("");
     const MatchFrame frame = Received({status}).frame();
@@ -209,7 +209,7 @@ class TestLiveFrame : public QObject {
   }
 
   void robotsThatAgreeMakeTheTeamsBall() {
-    // The third one sees its ball elsewhere; the fourth has not been heard for long.
+    // The third one sees its ball elsewhere; the fourth has sent nothing for long.
     Received received({robotSaying("1 450 300 0 20 100 0 1 1 1 1 1 8 0 165"),
                        robotSaying("2 450 290 0 20 100 0 1 1 1 1 1 8 0 165"),
                        robotSaying("3 100 100 0 20 100 90 1 1 1 1 1 8 0 165"),
@@ -274,7 +274,7 @@ class TestLiveFrame : public QObject {
     }
   }
 
-  void aLampIsSilentOnlyWhenItHasWorked() {
+  void aLampStopsRespondingOnlyAfterItHasWorked() {
     using telemetry::FieldMeaning;
     using telemetry::HeartbeatState;
     LampMemory memory;
@@ -288,12 +288,12 @@ class TestLiveFrame : public QObject {
     QVERIFY(memory.note(reader, 1.0)[1].state == HeartbeatState::Working);
     vision = 0.0;
     QVERIFY(memory.note(reader, 1.9)[1].state == HeartbeatState::Working);
-    QVERIFY(memory.note(reader, 2.5)[1].state == HeartbeatState::Silent);
+    QVERIFY(memory.note(reader, 2.5)[1].state == HeartbeatState::NotResponding);
     const auto& lamps = memory.note(reader, 10.5);
     QCOMPARE(telemetry::secondsOf(lamps[1].since), 8.0);
     QVERIFY(lamps[0].state == HeartbeatState::Unknown);
     memory.jump();
-    QVERIFY(memory.note(reader, 3.0)[1].state == HeartbeatState::Silent);
+    QVERIFY(memory.note(reader, 3.0)[1].state == HeartbeatState::NotResponding);
     memory.saw(1, 2.5);
     QVERIFY(memory.note(reader, 3.0)[1].state == HeartbeatState::Working);
   }
@@ -430,7 +430,7 @@ class TestLiveFrame : public QObject {
   }
 
   // A simulated match in words, and its packets as another studio would show them.
-  // A packet that is heard, the match that would send it, and its recording.
+  // A received packet, the match that would send it, and its recording.
   void sameViewWhereverItComesFrom_data() {
     QTest::addColumn<QString>("rules");
     for (const char* rules : {"humanoid-2021", "humanoid-soccer-2026"}) {

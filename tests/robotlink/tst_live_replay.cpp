@@ -105,7 +105,7 @@ class TestLiveReplay : public QObject {
     m_path = m_folder.filePath("live.mcap").toStdString();
     LiveWatch watch(options);
     QTRY_COMPARE(watch.details().network.ports.size(), std::size_t{robots + 1});
-    // It has heard somebody before recording begins.
+    // It has received a robot before recording begins.
     TestSocket robot1, robot2, robot3, twin, referee;
     const auto port = [&](int robot) {
       return static_cast<std::uint16_t>(options.portBase + robot);
@@ -165,8 +165,9 @@ class TestLiveReplay : public QObject {
     QVERIFY(any([](const RobotFrame& r) { return r.link->jitter > 0.0; }));
     QVERIFY(any([](const RobotFrame& r) { return r.link->errorCount > 0; }));
     QVERIFY(any([](const RobotFrame& r) { return r.battery && r.battery->low; }));
-    QVERIFY(any(
-        [](const RobotFrame& r) { return r.lamps[1].state == telemetry::HeartbeatState::Silent; }));
+    QVERIFY(any([](const RobotFrame& r) {
+      return r.lamps[1].state == telemetry::HeartbeatState::NotResponding;
+    }));
     // The referee told the colours, which nobody knew at first.
     const RobotFrame& first = m_frames.front().robots[0];
     QVERIFY(any([&](const RobotFrame& r) {
@@ -325,7 +326,7 @@ class TestLiveReplay : public QObject {
     ReportContent content;
     content.statistics = s;
     const QString page = QString::fromStdString(reportHtml(content));
-    QVERIFY(page.contains(QStringLiteral("How they were heard")));
+    QVERIFY(page.contains(QStringLiteral("Connection")));
     QVERIFY(!page.contains(QStringLiteral("No robot was recorded")));
   }
 

@@ -69,7 +69,7 @@ class TestLiveRows : public QObject {
     QCOMPARE(info.columns[1].category, std::string("Belief"));
     QVERIFY(info.columns[7].kind == ColumnKind::Flag);
     QVERIFY(info.columns[12].kind == ColumnKind::Enumeration);
-    QCOMPARE(info.columns[12].labels.at(8), pitchboard::actionWords(8));
+    QCOMPARE(info.columns[12].labels.at(8), pitchboard::actionLabel(8));
     QCOMPARE(info.attributes.at("number"), std::string("3"));
     QCOMPARE(info.attributes.at("sender"), std::string("10.0.0.1"));
   }
@@ -292,7 +292,7 @@ class TestLiveRows : public QObject {
     QVERIFY2(rig.store->memoryBytes() < 64'000'000,
              qPrintable(QString::number(rig.store->memoryBytes())));
     QVERIFY(rig.rows.refused().rows > 0 && rig.rows.refused().values > 0);
-    // A robot that really plays is heard all the same.
+    // A robot that really plays is received all the same.
     QCOMPARE(rig.send(message, 3601.0), TeamMonitor::Verdict::Used);
     QCOMPARE(rig.view("Robot 3")->range()->end, 3601.0);
   }

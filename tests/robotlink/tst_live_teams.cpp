@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Team setups: who is heard as whose robot, in which colour, under which name its curves stand.
+// Team setups: the team, the colour and the name of a received robot.
 #include <QTemporaryDir>
 #include <QtTest>
 
@@ -44,7 +44,37 @@ LiveOptions twoTeams() {
 class TestLiveTeams : public QObject {
   Q_OBJECT
  private slots:
-  void twoTeamsAreHeardApart() {
+  /// 12.4 V are low for a battery of five cells, but not for the three cells of a DARwIn-OP.
+  void theRobotModelOfASetupSaysWhenABatteryIsLow() {
+    LiveOptions options = twoTeams();
+    options.team.teams.pop_back();
+    const auto lowWith = [&options](const std::string& model) {
+      options.team.teams[0].model = model;
+      if (!validate(options)) qFatal("a model is unknown");
+      LivePipeline pipeline(options, start);
+      pipeline.take(from("10.0.0.3", 1243, words));
+      const MatchFrame frame = pipeline.frame(start, nullptr);
+      return frame.robots.at(0).battery->low;
+    };
+    QVERIFY(lowWith(""));
+    QVERIFY(!lowWith("darwin-op"));
+    QVERIFY(lowWith("kid-size"));
+    // The model is kept in files and recordings.
+    options.team.teams[0].model = "darwin-op";
+    QCOMPARE(setupOf(teamSetupText(options.team.teams[0]).c_str()).model, std::string("darwin-op"));
+    const LiveState state(options);
+    LiveState again{LiveOptions()};
+    QVERIFY(again.restore(state.text(options, 0.0, start), start));
+    QCOMPARE(again.options.team.teams.at(0).model, std::string("darwin-op"));
+
+    options.team.teams[0].model = "darwin";
+    const auto refused = validate(options);
+    QVERIFY(!refused);
+    QVERIFY2(refused.error().text().starts_with("Ours, model: there is no"),
+             refused.error().text().c_str());
+  }
+
+  void twoTeamsAreDistinguished() {
     const LiveOptions options = twoTeams();
     TeamMonitor monitor(options.profile, monitorOptions(options));
     QCOMPARE(monitor.take(from("10.0.0.3", 1243, words)), TeamMonitor::Verdict::Used);
@@ -117,7 +147,7 @@ class TestLiveTeams : public QObject {
     QVERIFY(chooseOurTeam(options, "red"));
     QCOMPARE(options.ourTeam, 0);
     QCOMPARE(robotName({0, 3, 0}, teamsOf(options, nullptr)), std::string("R3"));
-    // Once a referee is heard, the number is that of the team with this colour.
+    // Once a referee is received, the number is that of the team with this colour.
     RefereeState state;
     state.teams[0].number = 12;
     state.teams[0].colour = 0;

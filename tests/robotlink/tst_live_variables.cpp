@@ -269,7 +269,7 @@ class TestLiveVariables : public QObject {
   }
 
   // The programs that docs show for teams that send from their own code.
-  void teamsSendFromTheirOwnPrograms_data() {
+  void teamsSendFromTheirPrograms_data() {
     QTest::addColumn<QString>("file");
     QTest::addColumn<QStringList>("command");
     QTest::newRow("Python") << "pb2_robot.py"
@@ -278,7 +278,7 @@ class TestLiveVariables : public QObject {
     QTest::newRow("C++") << "pb2_robot.cpp"
                          << QStringList{QCoreApplication::applicationDirPath() + "/pb2_robot"};
   }
-  void teamsSendFromTheirOwnPrograms() {
+  void teamsSendFromTheirPrograms() {
     QFETCH(QString, file);
     QFETCH(QStringList, command);
     QCOMPARE(whyNotShown(file, 15), QString());

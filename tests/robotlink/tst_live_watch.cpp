@@ -135,7 +135,7 @@ class TestLiveWatch : public QObject {
     QVERIFY(watch.take().frame->serial > first->serial);
   }
 
-  void whoDoesNotObserveAnyMoreHearsNothing() {
+  void aRemovedObserverIsNotCalled() {
     const LiveOptions options = freeOptions();
     LiveWatch watch(options);
     const auto gone = std::make_shared<Witness>(), there = std::make_shared<Witness>();

@@ -259,7 +259,7 @@ class TestMapExtension : public QObject {
   }
 
   // Where decision acts by itself, planning touches nothing, whatever stands on the blackboard.
-  void withoutATargetPlanningIsSilent() {
+  void withoutATargetPlanningWritesNothing() {
     Planner p;
     p.board = marked();
     const int target = VariableCatalog::extended().intVar("DECISION_TARGET")->index;

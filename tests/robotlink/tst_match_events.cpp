@@ -242,7 +242,7 @@ class TestMatchEvents : public QObject {
     const auto stopped = taken(match);
     QCOMPARE(stopped.size(), std::size_t{1});
     QCOMPARE(stopped[0].kind, Kind::ProcessEnded);
-    QCOMPARE(sentenceOf(stopped[0]), std::string("B1 decision ended: it was asked to"));
+    QCOMPARE(sentenceOf(stopped[0]), std::string("B1 decision stopped"));
 
     QVERIFY(run("kill -9 $$", Kind::ProcessDied));
     QCOMPARE(logLineOf(*find(events, Kind::ProcessDied)).origin, std::string("B1 decision"));

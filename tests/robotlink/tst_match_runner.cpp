@@ -140,7 +140,7 @@ class TestMatchRunner : public QObject {
   }
 
   // Its blackboards are shared: what others write to them is seen, and nothing else is told.
-  void aPausedMatchIsSilentUntilSomethingChanges() {
+  void aPausedMatchReportsNothingUntilSomethingChanges() {
     MatchOptions options;
     options.systemV = true;
     options.keyBase = testKeyBase();

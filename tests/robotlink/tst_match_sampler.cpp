@@ -86,6 +86,13 @@ class TestMatchSampler : public QObject {
     const telemetry::ColumnInfo& ball = rig.column("B2", "LOCALIZATION_BALL_X");
     QCOMPARE(ball.lostBy, std::string("LOCALIZATION_BALL_X"));
     QCOMPARE(ball.lostWhen, -1.0);
+    // Nor is what behaviours write over an old percept before they look, or a silent team-mate.
+    for (const char* name : {"VISION_RBT04_DIST", "VISION_RBT04_ANGLE", "LOCALIZATION_RBT05_Y"}) {
+      const telemetry::ColumnInfo& seen = rig.column("B2", name);
+      const bool vision = std::string_view(name).starts_with("VISION");
+      QCOMPARE(seen.lostBy, std::string(vision ? "VISION_RBT04_DIST" : name));
+      QCOMPARE(seen.lostWhen, vision ? 0.0 : -1.0);
+    }
     // Sessions of earlier versions do not say it.
     telemetry::GroupInfo old = view->info();
     for (telemetry::ColumnInfo& column : old.columns) column.lostBy.clear(), column.lostWhen = 0.0;
@@ -183,6 +190,8 @@ class TestMatchSampler : public QObject {
       QCOMPARE(view->info().attributes.at("robot"), std::to_string(robot.identity.id.value));
       QCOMPARE(view->info().attributes.at("team"), std::string(info(robot.identity.team).name));
       QCOMPARE(view->info().attributes.at("number"), std::to_string(robot.identity.number));
+      QCOMPARE(std::stod(view->info().attributes.at("radius")), robot.radius);
+      QCOMPARE(std::stod(view->info().attributes.at("vision_range")), robot.visionRange);
       QCOMPARE(view->info().attributes.at("imu180"),
                std::string(robot.identity.imuStartsAt180 ? "1" : "0"));
       // Every word of the blackboard.
@@ -272,7 +281,7 @@ class TestMatchSampler : public QObject {
       const auto& column = rig.column("B1", name);
       QVERIFY(column.kind == ColumnKind::Enumeration);
       QCOMPARE(column.labels.size(), std::size_t{23});
-      QCOMPARE(column.labels.at(22), actionWords(22));
+      QCOMPARE(column.labels.at(22), actionLabel(22));
     }
     // What a team-mate told is its intention, not its action.
     const auto& told = rig.column("B1", "COM_ACTION_ROBOT1");

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include <robotlink/frame/build_robot.h>
 #include <robotlink/frame/referee_view.h>
 #include <robotlink/match/match_runner.h>
 #include <robotlink/match/referee_packet.h>
@@ -142,12 +143,16 @@ class TestMoments : public QObject {
       const MatchFrame frame = frames.frameAt(m_match->store, static_cast<double>(tick) * oneTick);
       compareFrame(frame, m_match->witness->seen.at(tick));
       if (tick < 60) continue;
+      // The battery is that of the robot's model (kid-size in this scenario), not the usual one.
+      const auto limits = batteryLimitsOf(m_match->scenario.robots[0].model);
+      const auto& battery = frame.robots[0].battery;
+      QVERIFY(battery && *battery == telemetry::batteryAt(battery->volts, limits));
       QVERIFY(frame.robots[0].lamps[1].state == telemetry::HeartbeatState::Working);
       QVERIFY(!frame.robots[0].behaviour.empty());
     }
     // Back at the first moment, no process has worked yet, whatever was shown before.
     for (const auto& lamp : frames.frameAt(m_match->store, 0.0).robots[0].lamps) {
-      QVERIFY(lamp.state != telemetry::HeartbeatState::Silent);
+      QVERIFY(lamp.state != telemetry::HeartbeatState::NotResponding);
     }
   }
 
@@ -352,8 +357,9 @@ class TestMoments : public QObject {
     for (RobotFrame& robot : frame.robots) robot.ball.reset();
     made = scenarioFromMoment(frame);
     QVERIFY(made.scenario.ball == Point{});
-    QCOMPARE(made.notes,
-             (std::vector<std::string>{"No robot sees the ball; it lies on the centre mark."}));
+    QCOMPARE(
+        made.notes,
+        (std::vector<std::string>{"No robot sees the ball, so it is placed on the centre mark."}));
   }
 
   void simulateFromHereKeepsTheGame_data() {

@@ -62,7 +62,7 @@ struct Walker {
 struct Crowd {
   explicit Crowd(int count) : n(count) {
     CounterRandom random(7, 1, NoiseStream::Behaviour, 0);
-    const auto room = static_cast<std::size_t>(particles::roomFor(n));
+    const auto room = static_cast<std::size_t>(particles::capacityFor(n));
     for (auto* array : {&x, &y, &c, &s, &weight, &turn, &along, &across, &scratch}) {
       array->resize(room);
     }
@@ -319,7 +319,7 @@ class TestMonteCarloLocalization : public QObject {
 
   void theNoiseIsNearlyNormal() {
     constexpr int n = 200'000;
-    std::vector<float> values(static_cast<std::size_t>(particles::roomFor(n)));
+    std::vector<float> values(static_cast<std::size_t>(particles::capacityFor(n)));
     FastNoise(1, 1).fillNormal(values.data(), n);
     double sum = 0.0, squares = 0.0, fourth = 0.0;
     for (std::size_t i = 0; i < n; ++i) {

@@ -24,7 +24,7 @@ ManagedProcess python(std::vector<std::string> arguments) {
   ManagedProcess process;
   arguments.insert(arguments.begin(), "python3");
   process.spec = {RobotId{1}, "own", std::move(arguments)};
-  process.spec.foreign = true;
+  process.spec.isTeamProgram = true;
   process.ownTime = true;
   process.restart.policy = RestartPolicy::Never;
   return process;
@@ -179,7 +179,7 @@ class TestProcessClocks : public QObject {
   void cleanup() { m_manager.reset(); }
 
   // A program knows its time by sleeping and by looking at clocks: both follow the speed.
-  void aForeignProgramsTimeFollowsTheMatch() {
+  void aTeamProgramsTimeFollowsTheMatch() {
     ManagedProcess process = python({"-u", "-c",
                                      "import time\nt = time.time(); m = time.monotonic()\n"
                                      "while True:\n time.sleep(1)\n print(round(time.time() - t), "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A live session by hand, seen again from its books.
+// A live session by hand, rebuilt from its snapshots.
 
 #include <QtTest>
 
@@ -58,7 +58,7 @@ class TestRecordedLive : public QObject {
     const auto session = telemetry::SessionReader::open(path).value();
     QCOMPARE(session.count(telemetry::SessionStream::Telemetry), std::uint64_t{2});
     QCOMPARE(session.count(telemetry::SessionStream::RefereeRaw), std::uint64_t{1});
-    // The robot was heard; and a port was lost.
+    // The robot was received, and a port was lost.
     QCOMPARE(session.events().size(), std::size_t{2});
     RecordedFrames frames(backdropOf(session));
     const MatchFrame seen = frames.frameAt(session, 2.1);
@@ -89,7 +89,7 @@ class TestRecordedLive : public QObject {
   }
 
   /// The first ones may be lost with a damaged part of the file.
-  void momentsBeforeTheFirstBooksShowWhoeverIsHeard() {
+  void momentsBeforeTheFirstSnapshotShowReceivedRobots() {
     const std::string path = m_folder.filePath("lost.mcap").toStdString();
     const LiveOptions live;
     const telemetry::WallTime zero = std::chrono::system_clock::now();

@@ -31,7 +31,7 @@ struct Situation {
 
 template <class Enum>
 QString words(Enum value) {
-  const std::string_view text = sim::wordsOf(value);
+  const std::string_view text = sim::labelOf(value);
   return text.empty() ? "none"
                       : QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }

@@ -204,7 +204,7 @@ class TestReport : public QObject {
     };
     add(MatchEventKind::ProcessDied, 5.0, "signal 11 (Segmentation fault); last output: <oh>");
     add(MatchEventKind::ProcessRestarted, 5.5, "");
-    add(MatchEventKind::ProcessSilent, 20.0, "no cycle done for 5 s");
+    add(MatchEventKind::ProcessNotResponding, 20.0, "no cycle done for 5 s");
     add(MatchEventKind::ProcessGivenUp, 40.0, "");
     const QString html = QString::fromStdString(reportHtml(content));
     QString rest = html.section("<h2>Events</h2>", 1);

@@ -11,6 +11,7 @@
 
 #include <base/angles.h>
 #include <resources/resources.h>
+#include <robotlink/frame/build_robot.h>
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/models/robot_models.h>
 
@@ -115,6 +116,37 @@ class TestRobotModels : public QObject {
   Q_OBJECT
 
  private slots:
+  void theModelSaysWhenABatteryIsLow() {
+    // The usual limits are those of the published robot.
+    const auto usual = telemetry::usualBattery;
+    const auto published = batteryLimitsOf(sim::RobotModel());
+    for (const double volts : {14.0, 14.7, 15.9, 16.1, 18.9, 20.0}) {
+      const auto one = telemetry::batteryAt(volts, published);
+      const auto other = telemetry::batteryAt(volts, usual);
+      QCOMPARE(one.low, other.low);
+      QVERIFY(std::abs(one.fraction - other.fraction) < 1e-9);
+    }
+    for (const std::string& name : robotModels()) {
+      const auto model = robotModelFromText(name, "test").value();
+      const auto limits = batteryLimitsOf(model);
+      QVERIFY(!telemetry::batteryAt(model.batteryFull, limits).low);
+      QVERIFY(telemetry::batteryAt(model.batteryLow - 0.1, limits).low);
+      QCOMPARE(telemetry::batteryAt(model.batteryEmpty, limits).fraction, 0.0);
+      // A simulated robot measures the voltage of its own battery, which is never low.
+      Scenario scenario = loadScenario("one-robot").value();
+      scenario.robots[0].model = model;
+      auto match = SimulatedMatch::create(scenario, {}).value();
+      match.tick();
+      const double volts = match.percepts()[0].voltage / 10.0;
+      QVERIFY2(volts > model.batteryLow && volts < model.batteryFull, name.c_str());
+    }
+    QCOMPARE(sim::simulatedVoltage(sim::RobotModel()), 189);
+    const auto wrong = robotModelFromText(R"({"base": "kid-size", "battery_low": 17})", "a.json");
+    QVERIFY(!wrong);
+    QVERIFY2(wrong.error().text().find("battery_low: must lie between") != std::string::npos,
+             wrong.error().text().c_str());
+  }
+
   void builtInModelsAreGoodAndSayWhereTheirNumbersAreFrom() {
     const auto names = robotModels();
     QCOMPARE(names.front(), std::string("published"));

@@ -112,11 +112,11 @@ class TestRuntimeProfile : public QObject {
     row("both", R"([{"name": "a", "reference": "decision", "command": ["b"]}])",
         "processes[0].command: needs either");
     row("empty program", R"([{"name": "a", "command": [""]}])",
-        "processes[0].command: names no program");
+        "processes[0].command: must name a program");
     row("not words", R"([{"name": "a", "command": ["b", 3]}])",
         "processes[0].command[1]: must be a text in quotes");
     row("twice", R"([{"name": "a", "command": ["b"]}, {"name": "a", "command": ["b"]}])",
-        "processes[1].name: stands twice");
+        "processes[1].name: is listed twice");
     row("key", R"([{"name": "a", "command": ["b"], "restrat": "never"}])",
         "did you mean \"restart\"");
     row("policy", R"([{"name": "a", "command": ["b"], "restart": "nver"}])",
@@ -285,7 +285,7 @@ class TestRuntimeProfile : public QObject {
   }
 
   // What the referee says reaches a robot of somebody else as it reaches one of ours.
-  void aRobotOfSomebodyElseHearsTheReferee() {
+  void aRobotOfSomebodyElseReceivesTheReferee() {
     QTemporaryDir folder;
     QFile file(folder.filePath("hears.json"));
     QVERIFY(file.open(QIODevice::WriteOnly));

@@ -112,9 +112,9 @@ class TestScenario : public QObject {
     };
     row("no referee", R"("game": {"state": "set"})", "game: a game, penalties and cards need");
     row("state", R"("referee": "humanoid-2021", "game": {"state": "playin"})",
-        "game.state: there is no state of the game \"playin\"; did you mean \"playing\"?");
+        "game.state: there is no game state \"playin\"; did you mean \"playing\"?");
     row("score twice", R"("referee": "humanoid-2021", "game": {}, "score": {"left": 1})",
-        "score: is said in \"game\"");
+        "score: belongs inside \"game\"");
     row("robot", R"("referee": "humanoid-2021", "game": {"touch": {"robot": "B7"}})",
         "game.touch.robot: there is no robot \"B7\"");
     row("place", R"("referee": "humanoid-2021", "game": {"ball_still": {"x": 1}})",
@@ -221,14 +221,14 @@ class TestScenario : public QObject {
         "my.json:5: robots[1].x: must lie between -5.2 and 5.2 metres");
     row("one colour for both teams",
         "{\"version\": 1, \"teams\": [{\"colour\": \"red\"},\n{\"colour\": \"red\"}]}",
-        "my.json:2: teams[1].colour: is that of the other team");
+        "my.json:2: teams[1].colour: is also used by the other team");
     row("not an object", "[1]", "my.json:1: must be an object in braces");
     row("unknown key", "{\"version\": 1,\n \"sed\": 3}",
         "my.json:2: sed: unknown key; did you mean \"seed\"?");
     row("unknown nested key", robot("\"behavior\": \"naive\""),
         "my.json:4: robots[1].behavior: unknown key; did you mean \"behaviour\"?");
     row("key given twice", "{\"version\": 1,\n\"seed\": 3,\n\"seed\": 4}",
-        "my.json:3: seed: is given twice; keep one of them");
+        "my.json:3: seed: is given twice; remove one of them");
     row("no version", "{}", "my.json:1: version: is missing");
     row("wrong version", "{\"version\": 2}",
         "my.json:1: version: is 2, but this program reads version 1; a newer program wrote this");

@@ -279,9 +279,10 @@ class TestSimulatedMatch : public QObject {
     bool inSetPlay = false;
     for (int i = 0; i < 60 * 900 && (states.size() < 4 || !inSetPlay); ++i) {
       match.tick();
-      if (match.simulation().state().tick % 30 != 0) continue;  // robots have just heard
+      if (match.simulation().state().tick % 30 != 0)
+        continue;  // robots have just received a packet
       const sim::GameState& before = *match.simulation().state().game;
-      const bool setPlay = before.restart.isTold();
+      const bool setPlay = before.restart.isAnnounced();
       if (!(setPlay && !inSetPlay) && states.contains(before.state)) continue;
       states.insert(before.state);
       inSetPlay = inSetPlay || setPlay;

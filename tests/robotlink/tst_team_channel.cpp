@@ -139,7 +139,7 @@ class TestTeamChannel : public QObject {
     QCOMPARE(value(b.board, "COM_POS_ROBOT1"), -1);
   }
 
-  void nonsenseIsNotHeard_data() {
+  void invalidMessagesAreIgnored_data() {
     QTest::addColumn<QString>("text");
     QTest::newRow("empty") << "";
     QTest::newRow("other") << "2 3 45.6";
@@ -149,7 +149,7 @@ class TestTeamChannel : public QObject {
     QTest::newRow("huge") << "PB1 99999999999999 1 2 3 4 5 1 6";
     QTest::newRow("robot 0") << "PB1 0 1 2 3 4 5 1 6";
   }
-  void nonsenseIsNotHeard() {
+  void invalidMessagesAreIgnored() {
     QFETCH(QString, text);
     const auto channel = std::make_shared<InProcessTeamChannel>();
     Robot b(2, channel);

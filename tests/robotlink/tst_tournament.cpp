@@ -321,7 +321,7 @@ void TestTournament::wrongFilesAreExplained_data() {
   };
   row("odd", "\"matches\": 4", "\"matches\": 5", "test.json:2: matches: is 5, but with swapped");
   row("same name", "\"stands\",", "\"walks\",", "another team has this name");
-  row("same number", "\"number\": 8", "\"number\": 12", "is that of walks");
+  row("same number", "\"number\": 8", "\"number\": 12", "is also the number of walks");
   row("one team", ",\n    {\"name\": \"stands\", \"number\": 8}", "", "two teams or more");
   row("shirt", "\"*\"", "\"7\"", "has no robot 7");
   row("who", "\"*\"", "\"B1\"", "must be the number on a shirt");

@@ -196,7 +196,7 @@ class TestWholeMatch : public QObject {
     for (int i = 0; i < 60 * 12; ++i) {
       match.tick();
       if (i < 31 || match.simulation().state().tick % 30 != 0) continue;  // as robots hear it
-      const bool taken = !game.restart.isTold();
+      const bool taken = !game.restart.isAnnounced();
       if (taken && game.countdown.ticks > 0) ++executed;
       if (game.countdown.ticks > 0 || !taken) {
         QVERIFY(word(1) != refereePlay);
@@ -206,7 +206,7 @@ class TestWholeMatch : public QObject {
     QVERIFY(executed > 10);
   }
 
-  void itsPacketsAreHeardOnTheMatchsPort() {
+  void itsPacketsArriveOnTheMatchsPort() {
     constexpr std::uint32_t loopbackBroadcast = 0x7fffffff;  // 127.255.255.255
     const TestSocket ear(loopbackBroadcast);
     QVERIFY(ear.good());

@@ -88,12 +88,12 @@ class TestPublishedFrame : public QObject {
   void codesOutsideTheTableAreUnknown() {
     for (const int code : {-1, 23, 99, std::numeric_limits<int>::max()}) {
       QVERIFY(findAction(code) == nullptr);
-      QCOMPARE(pitchboard::actionWords(code), "action " + std::to_string(code));
+      QCOMPARE(pitchboard::actionLabel(code), "action " + std::to_string(code));
     }
     std::set<std::string_view> words;
     for (const Action& action : actionTable()) {
       QVERIFY(words.insert(action.words).second);
-      QCOMPARE(pitchboard::actionWords(action.code), std::string(action.words));
+      QCOMPARE(pitchboard::actionLabel(action.code), std::string(action.words));
     }
     QCOMPARE(pitchboard::actionLabels().size(), words.size());
   }

@@ -230,10 +230,10 @@ class TestRigidBodyActions : public QObject {
   }
 
   void actionsHaveWords() {
-    QCOMPARE(actionWords(0), std::string("stop"));
-    QCOMPARE(actionWords(22), std::string("kick left, weak"));
-    QCOMPARE(actionWords(23), std::string("action 23"));
-    QCOMPARE(actionWords(-1), std::string("action -1"));
+    QCOMPARE(actionLabel(0), std::string("stop"));
+    QCOMPARE(actionLabel(22), std::string("kick left, weak"));
+    QCOMPARE(actionLabel(23), std::string("action 23"));
+    QCOMPARE(actionLabel(-1), std::string("action -1"));
   }
 };
 

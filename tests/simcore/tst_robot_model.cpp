@@ -126,7 +126,7 @@ class TestRobotModel : public QObject {
     r.commands[0].actionA = 4;
     r.step();
     QVERIFY(!r.percepts[0].control.finishedAction);
-    r.commands[0].actionA = 1;  // nobody is heard meanwhile
+    r.commands[0].actionA = 1;  // no command is read meanwhile
     r.step(29);
     QCOMPARE(r.ball().velocity.x, 0.0);
     QCOMPARE(r.percepts[0].control.moving.value_or(0), 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What robots' programs draw: the text and the book.
+// What robots' programs draw: the text and the store.
 
 #include <QtTest>
 

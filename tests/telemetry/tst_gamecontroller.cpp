@@ -195,13 +195,13 @@ class TestGameController : public QObject {
     state.size = 688;
     RefereePlayer player;
     player.penalty = 34;
-    QVERIFY(penaltyWords(state, player) == "pickup or incapable");
+    QVERIFY(penaltyLabel(state, player) == "pickup or incapable");
     player.penalty = 15;
-    QVERIFY(penaltyWords(state, player) == "manual penalty");
+    QVERIFY(penaltyLabel(state, player) == "manual penalty");
     player.red = 1;
-    QVERIFY(penaltyWords(state, player) == "sent off");
+    QVERIFY(penaltyLabel(state, player) == "sent off");
     player.penalty = 0;
-    QVERIFY(penaltyWords(state, player).empty());
+    QVERIFY(penaltyLabel(state, player).empty());
     QVERIFY(penaltyName(state, 77) == "UNKNOWN");
     state.version = 19;
     state.size = 198;
@@ -210,10 +210,10 @@ class TestGameController : public QObject {
     state.size = 158;
     QVERIFY(!isSubstitute(state, {1, 11, 0, {}, {}, {}, {}, {}, false}));
     QVERIFY(isSubstitute(state, {1, 13, 0, {}, {}, {}, {}, {}, false}));
-    QVERIFY(setPlayWords(League::HumanoidSoccer, 5) == "goal kick");
-    QVERIFY(setPlayWords(League::StandardPlatform, 1) == "goal kick");
+    QVERIFY(setPlayLabel(League::HumanoidSoccer, 5) == "goal kick");
+    QVERIFY(setPlayLabel(League::StandardPlatform, 1) == "goal kick");
     QVERIFY(setPlayName(League::HumanoidSoccer, 6) == "corner");  // in JSON
-    QVERIFY(setPlayWords(League::HumanoidSoccer, 6) == "corner kick");
+    QVERIFY(setPlayLabel(League::HumanoidSoccer, 6) == "corner kick");
     QVERIFY(stateName(-1) == "UNKNOWN");
   }
 

@@ -270,7 +270,7 @@ class TestMessageFrames : public QObject {
     row("message", R"("format": "protobuf", "message": "spl", )", a,
         "The message is robocup, nubots, rhoban or utra.");
     row("place", R"("format": "binary", )", a,
-        "A field of a binary message says \"at\" and \"as\".");
+        "A field of a binary message needs \"at\" and \"as\".");
     row("hex", R"("begins": "5g", )", a, "begins: has two hexadecimal digits for each byte");
     row("separator", R"("separator": "::", )", a, "separator: is one printable character");
     row("two numbers", R"("robotFrom": {"source": "port"}, )", a,

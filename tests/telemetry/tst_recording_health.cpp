@@ -50,7 +50,7 @@ class TestRecordingHealth : public QObject {
   void theDiskIsFullInMinutes() {
     const SessionStatus soon = status(1.2, 1.2e9 / 600);
     QCOMPARE(secondsLeft(soon).value(), 600.0);
-    QCOMPARE(troubleOf(soon), RecordingTrouble::LittleRoom);
+    QCOMPARE(troubleOf(soon), RecordingTrouble::LittleSpace);
     QVERIFY(says(soon, "The disk will be full in 10 min (1.2 GB free): free some space"));
     QCOMPARE(troubleOf(status(1.2, 1.2e9 / 3600)), RecordingTrouble::None);
     QCOMPARE(troubleText(status(1.2, 1.2e9 / 3600)), std::string());
@@ -62,13 +62,13 @@ class TestRecordingHealth : public QObject {
   }
 
   void roomIsSaidInPlainWords() {
-    QCOMPARE(roomText(SessionStatus()), std::string());
-    QCOMPARE(roomText(status(52.34, 0.0)), std::string("52.3 GB free"));
-    QCOMPARE(roomText(status(0.4, 0.0)), std::string("400 MB free"));
-    QCOMPARE(roomText(status(12.0, 1e6)), std::string("room for 3 h 20 min"));
-    QCOMPARE(roomText(status(0.06, 1e6)), std::string("room for 1 min"));
-    QCOMPARE(roomText(status(0.05, 1e6)), std::string("room for less than a minute"));
-    QCOMPARE(roomText(status(500.0, 1e6)), std::string("room for more than 2 days"));
+    QCOMPARE(freeSpaceText(SessionStatus()), std::string());
+    QCOMPARE(freeSpaceText(status(52.34, 0.0)), std::string("52.3 GB free"));
+    QCOMPARE(freeSpaceText(status(0.4, 0.0)), std::string("400 MB free"));
+    QCOMPARE(freeSpaceText(status(12.0, 1e6)), std::string("room for 3 h 20 min"));
+    QCOMPARE(freeSpaceText(status(0.06, 1e6)), std::string("room for 1 min"));
+    QCOMPARE(freeSpaceText(status(0.05, 1e6)), std::string("room for less than a minute"));
+    QCOMPARE(freeSpaceText(status(500.0, 1e6)), std::string("room for more than 2 days"));
   }
 
   void whatTheDiskOwesAndWhatIsMissingIsSaid() {
@@ -97,7 +97,7 @@ class TestRecordingHealth : public QObject {
     QCOMPARE((*writer)->status().freeBytes.value(), std::uint64_t(5'000'000'000));
     QCOMPARE(troubleOf((*writer)->status()), RecordingTrouble::None);
     free = 9'000'000;
-    QTRY_COMPARE(troubleOf((*writer)->status()), RecordingTrouble::LittleRoom);
+    QTRY_COMPARE(troubleOf((*writer)->status()), RecordingTrouble::LittleSpace);
     QVERIFY((*writer)->finish());
     // Without a source of one's own the file system is asked.
     const auto real =

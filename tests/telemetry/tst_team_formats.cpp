@@ -245,7 +245,7 @@ class TestTeamFormats : public QObject {
     }
   }
 
-  void aRobotThatSendsAnotherFormatIsHeard() {
+  void aRobotThatSendsAnotherFormatIsReceived() {
     TeamMonitor monitor(*loadProfile("mitecom"));
     for (const QJsonValue& value : examples()) {
       if (value.toObject()["profile"].toString() != QLatin1String("mitecom")) continue;

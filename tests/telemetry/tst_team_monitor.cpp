@@ -71,19 +71,19 @@ class TestTeamMonitor : public QObject {
     QCOMPARE(restored.status(start + 4s).robots[0].errorCount, std::uint64_t{3});
   }
 
-  void aSilentProcessIsKnownSince() {
+  void aProcessThatStopsRespondingIsKnownSince() {
     TeamMonitor monitor;
     for (int i = 0; i < 5; ++i) give(monitor, text(1, 1), start + i * 1s);
     WallTime silentAt{};
     for (int i = 5; i < 15; ++i) {
       give(monitor, text(1, 0), start + i * 1s);
       const ProcessHeartbeat decision = monitor.status(start + i * 1s).robots[0].processes[3];
-      if (decision.state == HeartbeatState::Silent && silentAt == WallTime{})
+      if (decision.state == HeartbeatState::NotResponding && silentAt == WallTime{})
         silentAt = start + i * 1s;
     }
     QVERIFY(silentAt != WallTime{});
     const RobotStatus robot = monitor.status(start + 15s).robots[0];
-    QVERIFY(robot.processes[3].state == HeartbeatState::Silent);
+    QVERIFY(robot.processes[3].state == HeartbeatState::NotResponding);
     QCOMPARE(robot.processes[3].since, start + 15s - silentAt);
   }
 

@@ -159,7 +159,7 @@ class TestUdpReceiver : public QObject {
       QVERIFY2(!parseAddress(bad), bad);
   }
 
-  void receivingIsSilent() {
+  void receivingSendsNothing() {
     auto receiver = UdpReceiver::start(freePorts(17));
     const TestSocket robot, referee;
     const auto ports = (*receiver)->status().ports;

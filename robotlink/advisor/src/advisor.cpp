@@ -9,7 +9,7 @@
 
 #include <base/file_target.h>
 #include <base/try.h>
-#include <robotlink/processes/match_turns.h>
+#include <robotlink/processes/lock_step_slots.h>
 
 #include "candidates.h"
 #include "game_belief.h"
@@ -106,7 +106,8 @@ class Advisor final : public CognitiveProcess {
             m_options.parameters};
   }
   bool isFree() const {
-    return m_options.advisor.share > 0.0 && !(m_options.turns && m_options.turns->inLockStep());
+    return m_options.advisor.share > 0.0 &&
+           !(m_options.lockStepSlot && m_options.lockStepSlot->inLockStep());
   }
 
   /// What it has learned stands on the blackboard, from where an advisor goes on that is started

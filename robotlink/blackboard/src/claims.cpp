@@ -99,7 +99,7 @@ Result<BridgeClaim> BridgeClaim::take(int key) {
   if (lock.socket) return BridgeClaim(std::move(lock.socket));
   return failure(ErrorCode::Conflict,
                  lock.holder.empty()
-                     ? "another program is just taking or giving up this robot; try again"
+                     ? "another program is claiming or releasing this robot; try again"
                      : "is being simulated already by " + lock.holder +
                            "; end that one, or choose another robot number or match number",
                  context);
@@ -114,7 +114,7 @@ Result<MatchClaim> MatchClaim::take(int number) {
   auto lock = TRY(lockName("match-" + std::to_string(number), context));
   if (lock.socket) return MatchClaim(MatchNumber{number}, std::move(lock.socket), {});
   return failure(ErrorCode::Conflict,
-                 "is played already" +
+                 "is already in use" +
                      (lock.holder.empty() ? std::string() : " by " + lock.holder) +
                      "; leave the number out to get the next free one",
                  context);

@@ -53,7 +53,7 @@ Result<SegmentView> SegmentView::attach(int key, std::size_t bytes) {
   if (bytes != 0 && info->bytes != bytes) {
     return failure(ErrorCode::Conflict,
                    "has " + std::to_string(info->bytes) + " bytes, not " + std::to_string(bytes) +
-                       "; say the size that it has, or give its own catalog",
+                       "; give its real size or its own catalog",
                    "segment " + std::to_string(key));
   }
   const void* const address = shmat(info->shmid, nullptr, SHM_RDONLY);

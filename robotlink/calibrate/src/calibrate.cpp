@@ -2,12 +2,12 @@
 #include <robotlink/calibrate/calibrate.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include <base/angles.h>
+#include <robotlink/report/distributions.h>
 #include <simcore/world/action_codes.h>
 #include <simcore/world/parameters.h>
 
@@ -19,8 +19,8 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double learnedEnough = 0.5;  // share of the prior's variance that must have gone
-constexpr double shortestStint = 0.5;  // s
+constexpr double learnedEnough = 0.5;   // share of the prior's variance that must have gone
+constexpr double shortestAction = 0.5;  // s
 const double normal95 = 1.959963984540054;
 
 constexpr const char* rollingKey = "field.rolling_deceleration";
@@ -49,13 +49,14 @@ const std::vector<std::string>& furtherKeys() {
 /// What a recording does not show.
 const std::vector<const char*>& hiddenKeys() {
   static const std::vector<const char*> keys{
-      "radius",     "mass",       "fall_impulse", "foot_side", "foot_width",     "kick_reach",
-      "kick_outer", "kick_inner", "head_speed",   "pan_limit", "camera_forward", "camera_height"};
+      "radius",         "mass",          "fall_impulse", "foot_side",   "foot_width",
+      "kick_reach",     "kick_outer",    "kick_inner",   "head_speed",  "pan_limit",
+      "camera_forward", "camera_height", "battery_full", "battery_low", "battery_empty"};
   return keys;
 }
 
 struct Counts {
-  std::map<int, std::size_t> stints;  // by action
+  std::map<int, std::size_t> actions;  // by code
   std::size_t moving = 0, imu = 0, ball = 0, corners = 0;
 };
 
@@ -71,8 +72,8 @@ Counts countsOf(std::span<const MotionFilter> filters, std::span<const Calibrati
         began = row.time;
         counted = false;
       }
-      if (!counted && row.time - began >= shortestStint && !actions[i].kicks && !actions[i].down) {
-        ++counts.stints[actions[i].code];
+      if (!counted && row.time - began >= shortestAction && !actions[i].kicks && !actions[i].down) {
+        ++counts.actions[actions[i].code];
         counted = true;
       }
       if (sim::gaitSpeed({}, actions[i].code, 10).inMotion) ++counts.moving;
@@ -88,10 +89,10 @@ void addMotion(const MotionFit& fit, const Counts& counts, Calibration& out) {
   for (std::size_t i = 0; i < fit.logs.size(); ++i) {
     const MotionParameter& parameter = motionParameters[i];
     std::size_t samples = 0;
-    std::string of = "stints";
+    std::string of = "actions";
     for (const int action : actionsOf(i)) {
-      const auto found = counts.stints.find(action);
-      if (found != counts.stints.end()) samples += found->second;
+      const auto found = counts.actions.find(action);
+      if (found != counts.actions.end()) samples += found->second;
     }
     if (i >= motionNoiseForward) {
       of = "rows";
@@ -137,7 +138,7 @@ void tellTimes(const MotionFit& fit, Calibration& out) {
                                                2.0 * fit.covariance(s, a)));
     const CalibratedValue* of = out.find(motionParameters[speed].key);
     out.told.push_back({name, std::exp(middle), std::exp(middle - half), std::exp(middle + half),
-                        of != nullptr ? of->samples : 0, "stints"});
+                        of != nullptr ? of->samples : 0, "actions"});
   };
   tell("forward, fast: time to start and stop", motionForwardFast, motionAcceleration);
   tell("forward, slow: time to start and stop", motionForwardSlow, motionAcceleration);
@@ -147,10 +148,11 @@ void tellTimes(const MotionFit& fit, Calibration& out) {
   tell("turning: time to start and stop", motionTurn, motionYawAcceleration);
 }
 
-/// How far a stint went, as the filter found it, as a share of what the gait of the fitted model
-/// makes of the same commands; nothing for a stint that is too short or not known throughout.
-std::optional<double> stintShare(const CalibrationLog& log, const MotionFit::OfLog& fit,
-                                 std::size_t first, std::size_t last, bool turns) {
+/// How far an uninterrupted action went, as the filter found it, as a share of what the gait of the
+/// fitted model makes of the same commands; empty for one that is too short or not known
+/// throughout.
+std::optional<double> actionShare(const CalibrationLog& log, const MotionFit::OfLog& fit,
+                                  std::size_t first, std::size_t last, bool turns) {
   constexpr double longEnough = 2.0;  // s
   const MotionState &from = fit.states[first], &to = fit.states[last];
   if (log.rows[last].time - log.rows[first].time < longEnough) return {};
@@ -171,7 +173,7 @@ std::optional<double> stintShare(const CalibrationLog& log, const MotionFit::OfL
   return (x * ox + y * oy) / square;
 }
 
-/// The spread of a speed between stints: standard deviation with its interval from the chi-square
+/// The spread of a speed between actions: standard deviation with its interval from the chi-square
 /// distribution. RobotModel has no number for it; part of it is the noise of every step.
 void tellSpreads(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
                  const MotionFit& fit, Calibration& out) {
@@ -184,7 +186,7 @@ void tellSpreads(std::span<const MotionFilter> filters, std::span<const Calibrat
       for (std::size_t p = 0; p <= motionAroundSideways; ++p) {
         if (!actionsOf(p).contains(actions[first].code) || actions[first].kicks) continue;
         if (const auto share =
-                stintShare(logs[f], fit.ofLogs[f], first, end - 1, p == motionTurn)) {
+                actionShare(logs[f], fit.ofLogs[f], first, end - 1, p == motionTurn)) {
           shares[p].push_back(*share);
         }
       }
@@ -197,12 +199,11 @@ void tellSpreads(std::span<const MotionFilter> filters, std::span<const Calibrat
     double mean = 0.0, squares = 0.0;
     for (const double one : all) mean += one / n;
     for (const double one : all) squares += (one - mean) * (one - mean);
-    const boost::math::chi_squared distribution(n - 1.0);
     const double speed = std::exp(fit.logs[parameter]);
     const auto sigma = [&](double freedom) { return speed * std::sqrt(squares / freedom); };
-    out.told.push_back({std::string(motionParameters[parameter].key) + ": spread between stints",
-                        sigma(n - 1.0), sigma(boost::math::quantile(distribution, 0.975)),
-                        sigma(boost::math::quantile(distribution, 0.025)), all.size(), "stints"});
+    out.told.push_back({std::string(motionParameters[parameter].key) + ": spread between actions",
+                        sigma(n - 1.0), sigma(chiSquaredQuantile(n - 1.0, 0.975)),
+                        sigma(chiSquaredQuantile(n - 1.0, 0.025)), all.size(), "actions"});
   }
 }
 
@@ -249,6 +250,16 @@ CalibrationLog firstPart(const CalibrationLog& log, double holdOut) {
 
 }  // namespace
 
+std::string samplesText(const CalibratedValue& value) {
+  std::string of = value.of;
+  if (value.samples == 1) {
+    // The first word is in the plural: "times the ball left or entered the view".
+    const std::size_t end = std::min(of.find(' '), of.size());
+    if (end > 0 && of[end - 1] == 's') of.erase(end - 1, 1);
+  }
+  return std::to_string(value.samples) + ' ' + of;
+}
+
 const CalibratedValue* Calibration::find(std::string_view key) const {
   const auto found = std::ranges::find(values, key, &CalibratedValue::key);
   return found == values.end() ? nullptr : &*found;
@@ -284,9 +295,9 @@ std::vector<std::string> calibrationKeys() {
 Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::RobotModel& base,
                               const CalibrationOptions& options,
                               const CalibrationProgress& progress) {
-  if (logs.empty()) return failure(ErrorCode::InvalidArgument, "there is no recording");
+  if (logs.empty()) return failure(ErrorCode::InvalidArgument, "no recording was given");
   if (!(options.holdOut >= 0.0 && options.holdOut <= 0.5)) {
-    return failure(ErrorCode::InvalidArgument, "the part that is held out must be 0 to 0.5");
+    return failure(ErrorCode::InvalidArgument, "the held-out share must be 0 to 0.5");
   }
   Calibration out;
   out.robot = logs.front().robot;
@@ -295,7 +306,7 @@ Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::R
   std::vector<CalibrationLog> fitted;
   for (const CalibrationLog& log : logs) {
     if (log.rows.size() < 2) {
-      return failure(ErrorCode::InvalidArgument, "there are no rows", log.session);
+      return failure(ErrorCode::InvalidArgument, "the recording has no rows", log.session);
     }
     out.sessions.push_back(log.session);
     out.notes.insert(out.notes.end(), log.notes.begin(), log.notes.end());
@@ -316,7 +327,7 @@ Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::R
   fitPercepts(filters, fitted, motion, out);
   fitKicks(filters, fitted, motion, out);
   tellLeftOut(filters, fitted, motion, out);
-  for (const char* key : hiddenKeys()) out.kept[key] = "a recording does not show it";
+  for (const char* key : hiddenKeys()) out.kept[key] = "a recording does not contain it";
   if (out.values.empty()) {
     return failure(ErrorCode::NotFound,
                    "nothing could be estimated: the recording has too little of robot " +

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
+
+#include <robotlink/report/distributions.h>
 
 #include "gait_step.h"
 
@@ -139,9 +140,8 @@ void describeResiduals(const MotionFit& motion, Calibration& out) {
       told.overTime.push_back(std::sqrt(parts[p] / std::max(1.0, counts[p])));
     }
     std::ranges::sort(all);
-    const boost::math::normal normal;
     for (double z = -2.0; z <= 2.01; z += 0.5) {
-      const double at = boost::math::cdf(normal, z) * (count - 1.0);
+      const double at = normalCdf(z) * (count - 1.0);
       told.quantiles.push_back(all[static_cast<std::size_t>(at)]);
     }
     out.residuals.push_back(std::move(told));

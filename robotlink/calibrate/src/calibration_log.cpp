@@ -215,9 +215,8 @@ Result<CalibrationLog> checkedLog(CalibrationLog log, const std::vector<std::str
     std::string names;
     for (const std::string& name : present) names += (names.empty() ? "" : ", ") + name;
     return failure(ErrorCode::NotFound,
-                   "there are no rows of robot " + log.robot +
-                       (names.empty() ? std::string("; the recording has no robots")
-                                      : "; the recording has " + names),
+                   "the recording has no rows of robot " + log.robot +
+                       (names.empty() ? std::string("; it has no robots") : "; it has " + names),
                    log.session);
   }
   if (!log.has("CONTROL_ACTION") && !log.has("DECISION_ACTION_A")) {

@@ -35,8 +35,8 @@ std::string valueTable(const Calibration& c) {
     const auto base = writtenBase(c, value.key);
     out += "<tr>" + tableCell(escaped(value.key), true) + tableCell(digits(w.value)) +
            tableCell(digits(w.low) + " to " + digits(w.high)) + tableCell(escaped(w.unit), true) +
-           tableCell(base ? digits(*base) : "–") +
-           tableCell(std::to_string(value.samples) + ' ' + escaped(value.of), true) + "</tr>\n";
+           tableCell(base ? digits(*base) : "–") + tableCell(escaped(samplesText(value)), true) +
+           "</tr>\n";
   };
   for (const CalibratedValue& value : c.values) row(value);
   for (const CalibratedValue& value : c.told) row(value);

@@ -240,8 +240,9 @@ Result<std::vector<Variable>> variablesOf(const std::int32_t* numbers, std::size
     const bool isFloat = number >= firstFloat;
     const std::int32_t index = isFloat ? number - firstFloat : number;
     if (index < 0 || index >= (isFloat ? Blackboard::floatVariables : Blackboard::intVariables)) {
-      return failure(ErrorCode::InvalidArgument,
-                     std::to_string(number) + " is no variable; ask pb_find_variable()");
+      return failure(
+          ErrorCode::InvalidArgument,
+          std::to_string(number) + " is not a variable; use a number from pb_find_variable()");
     }
     variables[i].type = isFloat ? VariableType::Float : VariableType::Int;
     variables[i].index = index;

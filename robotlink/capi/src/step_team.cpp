@@ -17,7 +17,7 @@ Result<void> StepTeam::start(int threads) {
   try {
     for (int i = 1; i < threads; ++i) m_threads.emplace_back([this] { serve(); });
   } catch (const std::system_error& error) {
-    return failure(ErrorCode::SystemError, "the system gives no more than " +
+    return failure(ErrorCode::SystemError, "the system allows only " +
                                                std::to_string(m_threads.size() + 1) +
                                                " threads; ask for fewer (" + error.what() + ")");
   }

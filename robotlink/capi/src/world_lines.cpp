@@ -307,7 +307,7 @@ void WorldRequest::flatten(const JsonNode& node, const std::string& path,
     if constexpr (std::is_integral_v<Value>) {
       if (!(node.number > static_cast<double>(absent) && node.number <= 2147483647.0 &&
             node.number == std::floor(node.number))) {
-        return m_report.fail(1, path, "must be a whole number of 32 bits");
+        return m_report.fail(1, path, "must be a 32-bit integer");
       }
     }
     return out.push_back(static_cast<Value>(node.number));

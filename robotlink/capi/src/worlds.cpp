@@ -314,8 +314,8 @@ Result<void> Worlds::writeVariables(std::span<const Variable> variables,
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Variable& variable = variables[i % variables.size()];
     if (variable.type == VariableType::Int && !std::isnan(values[i]) && !fitsInt(values[i])) {
-      return failure(ErrorCode::InvalidArgument,
-                     shortest(values[i]) + " is no whole number of 32 bits", variable.name);
+      return failure(ErrorCode::InvalidArgument, shortest(values[i]) + " is not a 32-bit integer",
+                     variable.name);
     }
   }
   const double* from = values.data();
@@ -401,7 +401,7 @@ Result<void> Worlds::placeBalls(std::span<const int> worlds, std::span<const Poi
 Result<WorldSnapshot> Worlds::snapshot(int world) const {
   TRY(m_parts->checkWorld(world));
   if (world == all) {
-    return failure(ErrorCode::InvalidArgument, "a snapshot is of one world; choose its number");
+    return failure(ErrorCode::InvalidArgument, "a snapshot belongs to one world; give its number");
   }
   return m_parts->worlds[static_cast<std::size_t>(world)].snapshot();
 }

@@ -20,11 +20,11 @@ struct NamedBehaviour {
 
 constexpr std::array behaviourList{
     NamedBehaviour{
-        {"striker", "goes for the ball and the goal, leaves the ball to a nearer team-mate", true},
+        {"striker", "goes for the ball and scores, leaves the ball to a nearer team-mate", true},
         makeSoccerDecision<Striker>},
-    NamedBehaviour{{"supporter", "as a striker, but begins behind it", true},
+    NamedBehaviour{{"supporter", "plays like a striker, but starts behind it", true},
                    makeSoccerDecision<Supporter>},
-    NamedBehaviour{{"keeper", "stays between the ball and its goal, clears the ball", true},
+    NamedBehaviour{{"keeper", "stays between the ball and its own goal, clears the ball", true},
                    makeSoccerDecision<Keeper>},
     NamedBehaviour{{"idle", "stands", true}, makeSoccerDecision<Idle>},
     NamedBehaviour{{"naive", "as published: turn to the ball, walk to it, kick it", false},
@@ -50,15 +50,15 @@ Result<std::unique_ptr<CognitiveProcess>> makeDecision(const ProcessOptions& opt
 }
 
 constexpr std::array processes{
-    ProcessInfo{"localization", "finds out where the robot stands", makeLocalization,
+    ProcessInfo{"localization", "estimates where the robot is", makeLocalization,
                 "pitchboard-robot localization --robot 1"},
-    ProcessInfo{"team", "tells team-mates pose, ball and intention", makeTeamTalk,
+    ProcessInfo{"team", "shares pose, ball and intention with team-mates", makeTeamTalk,
                 "pitchboard-robot team --robot 1 --team 0"},
     ProcessInfo{"decision", "chooses the robot's action", makeDecision,
                 "pitchboard-robot decision --robot 1 --behaviour striker"},
-    ProcessInfo{"planning", "walks to the target that decision gives, round what stands in the way",
-                makePlanning, "pitchboard-robot planning --robot 1"},
-    ProcessInfo{"communication", "hears the referee, sends telemetry and team messages by UDP",
+    ProcessInfo{"planning", "walks to the target of decision and avoids obstacles", makePlanning,
+                "pitchboard-robot planning --robot 1"},
+    ProcessInfo{"communication", "receives the referee, sends telemetry and team messages by UDP",
                 makeCommunication,
                 "pitchboard-robot communication --robot 1 --udp-address 127.0.0.1"},
 };

@@ -155,7 +155,7 @@ Result<std::string> readGzip(const std::string& path) {
   std::array<char, 1 << 16> buffer;
   for (;;) {
     const int got = gzread(file.get(), buffer.data(), buffer.size());
-    if (got < 0) return failure(ErrorCode::ParseError, "The gzip data are damaged.", path);
+    if (got < 0) return failure(ErrorCode::ParseError, "The gzip data is damaged.", path);
     if (got == 0) break;
     content.append(buffer.data(), static_cast<std::size_t>(got));
     if (content.size() > mostBytes) {
@@ -165,7 +165,7 @@ Result<std::string> readGzip(const std::string& path) {
   int state = Z_OK;
   gzerror(file.get(), &state);
   if (state != Z_OK && state != Z_STREAM_END) {
-    return failure(ErrorCode::ParseError, "The gzip data are damaged or cut off.", path);
+    return failure(ErrorCode::ParseError, "The gzip data is damaged or truncated.", path);
   }
   return content;
 }

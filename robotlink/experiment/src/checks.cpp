@@ -86,7 +86,7 @@ Result<Check> Check::parse(std::string_view text, Over over, std::span<const Met
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];
     if (c == '{' || c == '}') {
-      return failure(ErrorCode::ParseError, "braces have no meaning here");
+      return failure(ErrorCode::ParseError, "braces are not allowed here");
     }
     if ((c >= '0' && c <= '9') || c == '.') {  // a number, whose exponent is no name
       std::size_t end = at;

@@ -140,20 +140,21 @@ void checkWhole(const Experiment& e, const JsonObject& root) {
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (metrics[i].name == metrics[j].name) {
-        root.fail("metrics", "\"" + metrics[i].name + "\" is the name of a metric that is there");
+        root.fail("metrics", "\"" + metrics[i].name + "\" is already the name of a metric");
       }
     }
   }
   const Scenario& scenario = e.conditions.front().scenario;
   for (const StartSpread& start : e.starts) {
     if (start.who != "ball" && start.who != "robots" && !hasRobot(scenario, start.who)) {
-      root.fail("starts", "there is no robot " + start.who + "; say ball, robots or a name");
+      root.fail("starts",
+                "there is no robot " + start.who + "; use ball, robots or a robot's name");
     }
   }
   for (const Condition& condition : e.conditions) {
     for (const PlacedByHand& placed : condition.placed) {
       if (placed.who != "ball" && !hasRobot(condition.scenario, placed.who)) {
-        root.fail("placed", "there is no robot " + placed.who + "; say ball or a robot's name");
+        root.fail("placed", "there is no robot " + placed.who + "; use ball or a robot's name");
       }
     }
   }

@@ -45,7 +45,7 @@ Result<std::uint64_t> eachResult(const std::string& path, const Experiment& expe
                                  const Take& take) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    return failure(ErrorCode::NotFound, "there are no results; is this a folder of an experiment?",
+    return failure(ErrorCode::NotFound, "no results found; is this the folder of an experiment?",
                    path);
   }
   const std::size_t metrics = metricsOf(experiment).size();
@@ -73,7 +73,7 @@ Result<void> writeAll(const UniqueFd& into, std::string_view text, const std::st
     const ssize_t written = ::write(into.get(), text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) {
-      return failure(ErrorCode::SystemError, "cannot be written: " + systemReason(errno), path);
+      return failure(ErrorCode::SystemError, "cannot write: " + systemReason(errno), path);
     }
     text.remove_prefix(static_cast<std::size_t>(written));
   }
@@ -101,8 +101,7 @@ std::string ExperimentFolder::file(const char* name) const {
 }
 
 tl::unexpected<Error> ExperimentFolder::failed() const {
-  return failure(ErrorCode::SystemError, "cannot be written: " + systemReason(errno),
-                 file(runsFile));
+  return failure(ErrorCode::SystemError, "cannot write: " + systemReason(errno), file(runsFile));
 }
 
 Result<ExperimentFolder> ExperimentFolder::begin(const std::string& path,
@@ -110,15 +109,15 @@ Result<ExperimentFolder> ExperimentFolder::begin(const std::string& path,
   std::error_code code;
   std::filesystem::create_directories(path, code);
   if (code) {
-    return failure(ErrorCode::SystemError, "the folder cannot be made: " + code.message(), path);
+    return failure(ErrorCode::SystemError, "cannot create the folder: " + code.message(), path);
   }
   ExperimentFolder made(path, experiment);
   const std::string lines = made.file(runsFile);
   const bool exists = std::filesystem::exists(lines, code);
   if (exists && !resume) {
-    return failure(ErrorCode::Conflict,
-                   "this folder holds results; add --resume to go on with them, or choose another",
-                   path);
+    return failure(
+        ErrorCode::Conflict,
+        "this folder holds results; add --resume to continue with them, or choose another", path);
   }
   if (exists) {
     TRY(sameExperiment(path, experiment));
@@ -154,7 +153,7 @@ Result<void> ExperimentFolder::putTimes(std::string_view rows) {
   if (m_times.get() < 0) {
     m_times = UniqueFd(::open(name.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
     if (m_times.get() < 0) {
-      return failure(ErrorCode::SystemError, "cannot be written: " + systemReason(errno), name);
+      return failure(ErrorCode::SystemError, "cannot write: " + systemReason(errno), name);
     }
     if (::lseek(m_times.get(), 0, SEEK_END) == 0) {
       TRY(writeAll(m_times, timesHead, name));
@@ -170,7 +169,8 @@ Result<void> ExperimentFolder::addTimesOf(const std::string& part) {
   if (!std::filesystem::exists(name, ignored)) return {};
   const auto text = TRY(readFile(name, mostTimesBytes, "the times"));
   if (!text.starts_with(timesHead)) {
-    return failure(ErrorCode::ParseError, "is no table of times; remove it to merge without", name);
+    return failure(ErrorCode::ParseError,
+                   "is not a table of run times; remove it to merge without it", name);
   }
   return putTimes(std::string_view(text).substr(timesHead.size()));
 }

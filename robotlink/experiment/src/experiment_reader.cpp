@@ -207,7 +207,7 @@ void ExperimentReader::readStarts(Experiment& e) {
     const NumberRange metres{0, 100, "metres"};
     e.starts.push_back({who, object.number("x", 0, metres), object.number("y", 0, metres),
                         object.number("heading", 0, {0, 180, "degrees"})});
-    if (who == "ball" && object.find("heading")) object.fail("heading", "a ball has none");
+    if (who == "ball" && object.find("heading")) object.fail("heading", "a ball has no heading");
   }
 }
 
@@ -261,7 +261,7 @@ void ExperimentReader::readMetrics(Experiment& e) {
     if (!m_report.failed() && !isMetricName(metric.name)) {
       object.fail("name", "must be letters, digits and '_', beginning with a letter");
     }
-    if (const auto reduction = object.choice("reduce", reductionNames, "way to reduce")) {
+    if (const auto reduction = object.choice("reduce", reductionNames, "reduction")) {
       metric.reduction = static_cast<Reduction>(*reduction);
     }
     e.metrics.push_back(std::move(metric));
@@ -312,7 +312,7 @@ void ExperimentReader::readRecord(Experiment& e) {
   const JsonNode* node = m_root.find("record");
   if (!node || m_report.failed()) return;
   if (node->kind == JsonNode::Kind::Text) {
-    if (const auto record = m_root.choice("record", recordNames, "choice of recordings")) {
+    if (const auto record = m_root.choice("record", recordNames, "value")) {
       e.record = static_cast<Record>(*record);
     }
     return;

@@ -48,7 +48,7 @@ Table endsTable(const ExperimentSummary& s) {
       if (std::ranges::find(ends, end) == ends.end()) ends.push_back(end);
     }
   }
-  for (const std::string& end : ends) table.head.push_back(endWords(end));
+  for (const std::string& end : ends) table.head.push_back(endText(end));
   const bool some = std::ranges::any_of(
       s.conditions, [](const ConditionSummary& one) { return one.unrepeatable > 0; });
   if (some) {
@@ -137,7 +137,7 @@ Table differencesTable(const Experiment& e, const ExperimentSummary& s,
 }
 
 Table comparisonsTable(const Experiment& e, const ExperimentSummary& s) {
-  Table table{"Beside given figures",
+  Table table{"Comparison with given figures",
               "This experiment minus the given figure. " + std::string(testsNote),
               {"Metric", "Condition", "Given by", "Ours", "Given", "Difference", "95 %", "Test",
                "p", "t", "df", "g", "Critical t, one-tailed", "two-tailed"},
@@ -204,7 +204,7 @@ Table teamsTable(const ExperimentSummary& s) {
 
 /// With two teams the table says it.
 Table pairingsTable(const ExperimentSummary& s) {
-  Table table{"Who against whom", "", {"Team", "Against"}, {}, 2};
+  Table table{"Results of each pairing", "", {"Team", "Against"}, {}, 2};
   table.head.insert(table.head.end(), totalsHead.begin(), totalsHead.end());
   if (!s.tournament || s.tournament->pairings.size() < 2) return table;
   for (const auto& [first, second, totals] : s.tournament->pairings) {
@@ -216,7 +216,7 @@ Table pairingsTable(const ExperimentSummary& s) {
 }
 
 Table wrongTable(const ExperimentSummary& s) {
-  Table table{"Matches in which something went wrong", "", {"Run", "What"}, {}, 2};
+  Table table{"Matches with problems", "", {"Run", "What"}, {}, 2};
   for (const auto& [number, what] :
        s.tournament ? s.tournament->wrong : std::vector<TournamentTable::WrongMatch>{}) {
     table.rows.push_back({std::to_string(number), what});
@@ -285,7 +285,7 @@ std::string pathsHtml(const Experiment& e, const ResultTable::OfCondition& runs,
     }
   }
   return "<figure>" + fieldSvg(e.conditions[index].scenario.settings.field, ways) + "<figcaption>" +
-         escaped(name) + ": ways of the first " + std::to_string(runs.drawn.size()) +
+         escaped(name) + ": paths of the first " + std::to_string(runs.drawn.size()) +
          " runs; blue: robots of runs that ended with a goal, red: of the others, orange: the "
          "ball.</figcaption></figure>\n";
 }
@@ -391,7 +391,7 @@ std::string experimentReportHtml(const Experiment& e, const ResultTable& results
   const std::vector<Table> tables = tablesOf(e, s);
   const auto leads = [](const Table& table) {
     return table.title == "Assertions" || table.title == "Table" ||
-           table.title == "Who against whom";
+           table.title == "Results of each pairing";
   };
   for (const Table& table : tables) {
     if (leads(table)) out += tableHtml(table);

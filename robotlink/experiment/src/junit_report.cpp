@@ -50,7 +50,7 @@ std::string tournamentSuite(const Experiment& experiment, const ExperimentSummar
                   ", seed " + std::to_string(seedOf(experiment, place)),
               what);
   }
-  if (wrong.empty()) suite.add("nothing went wrong in a match", "");
+  if (wrong.empty()) suite.add("no match had a problem", "");
   return suite.text();
 }
 

@@ -131,7 +131,7 @@ std::string lineOf(const RunResult& result) {
 Result<RunResult> resultFromLine(std::string_view line, const Experiment& experiment,
                                  std::size_t metrics) {
   const Json json = Json::parse(line, nullptr, false);
-  if (!json.is_object()) return wrongLine("is no JSON object");
+  if (!json.is_object()) return wrongLine("is not a JSON object");
   const auto whole = [&json](const char* key) -> std::optional<std::uint64_t> {
     const auto found = json.find(key);
     if (found == json.end() || !found->is_number_unsigned()) return {};
@@ -164,10 +164,11 @@ Result<RunResult> resultFromLine(std::string_view line, const Experiment& experi
   out.hash = *hash;
   const auto values = json.find("values");
   if (values == json.end() || !values->is_array() || values->size() != metrics) {
-    return wrongLine("has not " + std::to_string(metrics) + " values");
+    return wrongLine("must have " + std::to_string(metrics) + " values");
   }
   for (const Json& value : *values) {
-    if (!value.is_null() && !value.is_number()) return wrongLine("has a value that is no number");
+    if (!value.is_null() && !value.is_number())
+      return wrongLine("has a value that is not a number");
     out.values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
                                          : value.get<double>());
   }

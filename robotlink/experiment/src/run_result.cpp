@@ -50,7 +50,7 @@ constexpr std::array<TeamMetric, teamValueCount> teamTable{{
     {"removals_stuck", "", "Removals from a stuck ball"},
     {"removals_leaving", "", "Removals for leaving the field"},
     {"longest_stuck_s", "s", "Longest time that a robot was stuck"},
-    {"illegal_transitions", "", "Changes of state that no rules know"},
+    {"illegal_transitions", "", "Illegal state transitions"},
     {"ready_s", "s", "A READY"},
 }};
 static_assert(teamTable.back().name != nullptr, "every TeamValue needs its row");
@@ -61,10 +61,10 @@ constexpr std::array<TeamMetric, robotValueCount> robotTable{{
     {"belief_error_m", "m", "Belief error"},
 }};
 
-struct EndWord {
+struct EndText {
   const char *endedBy, *words;
 };
-constexpr std::array<EndWord, 7> ends{{{"goal", "goal"},
+constexpr std::array<EndText, 7> ends{{{"goal", "goal"},
                                        {"goal_against", "goal against"},
                                        {"ball_out", "ball out"},
                                        {"fell", "fell"},
@@ -104,14 +104,15 @@ std::vector<MetricInfo> metricsOf(const Experiment& experiment) {
   }
   // A measured time differs from run to run, which those of reference processes must not.
   if (experiment.hasTeamPrograms()) {
-    out.push_back({"times_real_time", "", "Played, times real time", false});
-    out.push_back({"own_programs_kept", "", "What own programs kept of that (1 = all)", false});
+    out.push_back({"times_real_time", "", "Speed (times real time)", false});
+    out.push_back(
+        {"own_programs_kept", "", "Share of that speed that team programs reached", false});
   }
   return out;
 }
 
-std::string endWords(const std::string& endedBy) {
-  const auto found = std::ranges::find(ends, endedBy, &EndWord::endedBy);
+std::string endText(const std::string& endedBy) {
+  const auto found = std::ranges::find(ends, endedBy, &EndText::endedBy);
   return found == ends.end() ? endedBy : found->words;
 }
 

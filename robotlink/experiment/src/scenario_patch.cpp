@@ -131,9 +131,9 @@ Result<void> putValue(Json& scenario, std::string_view key, const Json& value) {
   const auto steps = TRY(stepsOf(key));
   const std::string& first = steps.front().name;
   if (first == "stop" || first == "seed") {
-    return wrongKey("\"" + first + "\" is the experiment's own key");
+    return wrongKey("\"" + first + "\" is set by the experiment itself");
   }
-  if (!scenario.is_object()) return wrongKey("the scenario is no object");
+  if (!scenario.is_object()) return wrongKey("the scenario is not an object");
   return put(scenario[first], first, std::span(steps).subspan(1), value);
 }
 

@@ -60,7 +60,7 @@ MomentScenario situationScenario(const MatchFrame& frame, const MomentOptions& o
 
 Result<std::string> situationToJson(const Situation& situation) {
   if (situation.assertions.empty()) {
-    return failure(ErrorCode::InvalidArgument, "nothing must hold; choose or write what does");
+    return failure(ErrorCode::InvalidArgument, "there is no assertion; choose or write one");
   }
   Json out{{"version", 1},
            {"name", situation.name},

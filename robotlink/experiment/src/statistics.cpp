@@ -2,15 +2,12 @@
 #include <robotlink/experiment/statistics.h>
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
-#include <boost/math/distributions/hypergeometric.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <random>
 
+#include <robotlink/report/distributions.h>
 #include <robotlink/report/quantile.h>
 
 namespace pitchboard::link {
@@ -50,7 +47,7 @@ bool hasSpread(const SampleMoments& sample) {
 
 /// Wilson's score interval.
 Interval scoreInterval(const SampleMoments& rate) {
-  static const double z = boost::math::quantile(boost::math::normal(), 1.0 - tail);
+  static const double z = normalQuantile(1.0 - tail);
   const double n = static_cast<double>(rate.count), p = rate.mean;
   const double middle = p + z * z / (2.0 * n);
   const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
@@ -102,11 +99,9 @@ std::optional<Interval> intervalOfMean(std::span<const double> all) {
 
 std::optional<Interval> intervalOfRate(const SampleMoments& rate) {
   if (rate.count < 2) return {};
-  using Binomial = boost::math::binomial_distribution<>;
-  const double n = static_cast<double>(rate.count);
-  const double successes = static_cast<double>(successesOf(rate));
-  return Interval{Binomial::find_lower_bound_on_p(n, successes, tail),
-                  Binomial::find_upper_bound_on_p(n, successes, tail)};
+  const RateBounds bounds =
+      clopperPearson(static_cast<double>(successesOf(rate)), static_cast<double>(rate.count), tail);
+  return Interval{bounds.low, bounds.high};
 }
 
 Summary summaryOf(std::span<const double> all, bool rate) {
@@ -134,11 +129,9 @@ std::optional<WelchTest> welchTest(const SampleMoments& a, const SampleMoments& 
   const double error = std::sqrt(va + vb);
   out.t = out.difference / error;
   out.freedom = (va + vb) * (va + vb) / (va * va / (na - 1.0) + vb * vb / (nb - 1.0));
-  const boost::math::students_t distribution(out.freedom);
-  out.p =
-      std::min(1.0, 2.0 * boost::math::cdf(boost::math::complement(distribution, std::abs(out.t))));
-  out.criticalOne = boost::math::quantile(boost::math::complement(distribution, 2.0 * tail));
-  out.criticalTwo = boost::math::quantile(boost::math::complement(distribution, tail));
+  out.p = std::min(1.0, 2.0 * studentTail(out.freedom, std::abs(out.t)));
+  out.criticalOne = studentUpperQuantile(out.freedom, 2.0 * tail);
+  out.criticalTwo = studentUpperQuantile(out.freedom, tail);
   out.difference95 = {out.difference - out.criticalTwo * error,
                       out.difference + out.criticalTwo * error};
   const double pooled =
@@ -151,15 +144,14 @@ std::optional<WelchTest> welchTest(const SampleMoments& a, const SampleMoments& 
 }
 
 double fisherTest(std::size_t successesA, std::size_t a, std::size_t successesB, std::size_t b) {
-  const auto whole = [](std::size_t value) { return static_cast<unsigned>(value); };
   const std::size_t successes = successesA + successesB, all = a + b;
   const std::size_t least = successes + a > all ? successes + a - all : 0;
   const std::size_t most = std::min(successes, a);
   if (least == most) return 1.0;
-  const boost::math::hypergeometric_distribution<> tables(whole(successes), whole(a), whole(all));
+  const DrawnSuccesses tables{successes, a, all};
   // Equal probabilities may differ by rounding: R and scipy allow for that, too.
-  const double limit = boost::math::pdf(tables, whole(successesA)) * (1.0 + 1e-7);
-  const auto rare = [&](std::size_t x) { return boost::math::pdf(tables, whole(x)) <= limit; };
+  const double limit = tables.probability(successesA) * (1.0 + 1e-7);
+  const auto rare = [&](std::size_t x) { return tables.probability(x) <= limit; };
   // Probabilities rise to the mode and fall behind it.
   std::size_t mode = (successes + 1) * (a + 1) / (all + 2);
   mode = std::clamp(mode, least, most);
@@ -178,8 +170,8 @@ double fisherTest(std::size_t successesA, std::size_t a, std::size_t successesB,
   const std::size_t low = firstOf(least, mode, [&](std::size_t x) { return !rare(x); });
   const std::size_t high = firstOf(mode + 1, most + 1, rare);
   double p = 0.0;
-  if (low > least) p += boost::math::cdf(tables, whole(low - 1));
-  if (high <= most) p += boost::math::cdf(boost::math::complement(tables, whole(high - 1)));
+  if (low > least) p += tables.upTo(low - 1);
+  if (high <= most) p += tables.above(high - 1);
   return std::min(1.0, p);
 }
 

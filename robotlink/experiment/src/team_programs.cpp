@@ -19,7 +19,7 @@ Result<void> TeamPrograms::missing() const {
   const SimulatedMatch& match = m_player.match();
   for (const ProcessStatus& one : match.robots().processes().statuses()) {
     // One that runs and attaches nothing may have another way to see its robot.
-    if (!one.foreign || (one.state == ProcessState::Running && one.restarts == 0) ||
+    if (!one.isTeamProgram || (one.state == ProcessState::Running && one.restarts == 0) ||
         match.pace().hasAttached(one)) {
       continue;
     }

@@ -263,7 +263,7 @@ TournamentTable tableOf(const Experiment& experiment, const ResultTable& results
       out.wrong.push_back({number, "no final whistle"});
     }
     if (const double count = value(TeamValue::IllegalTransitions); count > 0.0) {
-      out.wrong.push_back({number, link::number(count) + " changes of state that no rules know"});
+      out.wrong.push_back({number, link::number(count) + " illegal state transitions"});
     }
     if (const double time = value(TeamValue::LongestStuck); time > longestStuckAllowed) {
       out.wrong.push_back(

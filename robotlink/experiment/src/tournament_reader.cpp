@@ -53,7 +53,7 @@ void ExperimentReader::readTeam(const JsonNode& node, std::size_t index, Tournam
   for (const TournamentTeam& other : tournament.teams) {
     if (other.name == team.name) object.fail("name", "another team has this name");
     if (team.number != 0 && other.number == team.number) {
-      object.fail("number", "is that of " + other.name);
+      object.fail("number", "is also the number of " + other.name);
     }
   }
   if (object.find("runtime") && !m_report.failed()) {
@@ -136,7 +136,7 @@ void ExperimentReader::readPairings(Tournament& tournament) {
     for (const Pairing& other : tournament.pairings) {
       if (std::minmax(other.first, other.second) == std::minmax(both[0], both[1])) {
         return m_report.fail(item.line, m_root.pathOf("pairs", i),
-                             "stands there twice; ask for more matches instead");
+                             "is listed twice; use more matches instead");
       }
     }
     tournament.pairings.push_back({both[0], both[1]});

@@ -310,8 +310,8 @@ std::string ExploreResult::verdict() const {
   for (std::size_t a = 0; a < actions.size(); ++a) {
     if (a != best && !actions[a].isWorse()) alike.push_back(actions[a].text);
   }
-  if (alike.size() == actions.size()) return "No difference can be told between the actions.";
-  std::string text = "No difference can be told between ";
+  if (alike.size() == actions.size()) return "The actions do not differ significantly.";
+  std::string text = "No significant difference between ";
   for (std::size_t i = 0; i < alike.size(); ++i) {
     text += (i == 0 ? "\"" : i + 1 == alike.size() ? " and \"" : ", \"") + alike[i] + '"';
   }

@@ -232,14 +232,15 @@ class StartMaker {
     }
     if (told.clock && *told.clock > 0.0) game.secondsLeft = *told.clock;
     if (told.state != sim::PlayState::Playing) {
-      note("The game is in " + std::string(wordsOf(told.state)) +
+      note("The game is in " + std::string(labelOf(told.state)) +
            ". Rollouts have no referee: all robots play at once.");
       return {};
     }
-    const bool isTold = told.setPlay && told.setPlay->kind != sim::SetPlay::None &&
-                        told.setPlay->team && told.setPlay->step != sim::Restart::Step::Executed &&
-                        told.setPlay->step != sim::Restart::Step::Free;
-    if (!isTold) return {};
+    const bool isAnnounced = told.setPlay && told.setPlay->kind != sim::SetPlay::None &&
+                             told.setPlay->team &&
+                             told.setPlay->step != sim::Restart::Step::Executed &&
+                             told.setPlay->step != sim::Restart::Step::Free;
+    if (!isAnnounced) return {};
     for (const ScenarioRobot& robot : scenario.robots) {
       if (robot.identity.team != *told.setPlay->team) continue;
       game.setPlay = told.setPlay->kind;

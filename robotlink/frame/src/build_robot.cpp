@@ -33,7 +33,7 @@ std::optional<SeenBall> ballSeenFrom(const Pose& origin, const RobotReader& read
   if (!distance || !angle || !std::isfinite(*angle)) return std::nullopt;
   SeenBall ball;
   ball.distance = sim::published_frame::metresFromCm(*distance);
-  // Beyond twice the field it is no ball, whatever the vision says.
+  // A percept farther away than twice the field cannot be the ball.
   if (!(ball.distance > 0.0) || !(ball.distance < 2 * field.length)) return std::nullopt;
   ball.bearing = radiansFromDegrees(std::fmod(*angle, 360.0));
   const double direction = origin.yaw + ball.bearing;
@@ -74,7 +74,7 @@ const LampMemory::Lamps& LampMemory::note(const RobotReader& reader, double time
     if (time - m_seen[i] <= flagMemory) {
       now = HeartbeatState::Working;
     } else if (now == HeartbeatState::Working) {
-      now = HeartbeatState::Silent;
+      now = HeartbeatState::NotResponding;
     }
     if (now != m_lamps[i].state) m_since[i] = time;
     const std::chrono::duration<double> since(std::max(0.0, time - m_since[i]));
@@ -89,7 +89,7 @@ void LampMemory::saw(std::size_t lamp, double time) {
 }
 
 void buildRobot(const RobotReader& reader, const AdviceReader& advice, const sim::FieldSpec& field,
-                bool truthKnown, RobotFrame& robot) {
+                const telemetry::BatteryLimits& battery, bool truthKnown, RobotFrame& robot) {
   constexpr std::size_t vision = 1, localization = 2;
   const auto works = [&robot](std::size_t lamp) {
     return robot.lamps[lamp].state == HeartbeatState::Working;
@@ -116,7 +116,7 @@ void buildRobot(const RobotReader& reader, const AdviceReader& advice, const sim
   const double volts = reader(FieldMeaning::Voltage).value_or(0.0) / perVolt;
   robot.battery.reset();
   robot.advice = robot.timedOut() ? nullptr : readAdvice(advice, field);
-  if (volts > 0.0) robot.battery = telemetry::batteryAt(volts, telemetry::usualBattery);
+  if (volts > 0.0) robot.battery = telemetry::batteryAt(volts, battery);
 }
 
 std::vector<TeamBall> agreedBalls(std::span<const RobotFrame> robots) {

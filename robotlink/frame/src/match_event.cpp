@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include <base/duration_words.h>
+#include <base/duration_text.h>
 #include <robotlink/frame/match_frame.h>
 #include <simcore/world/action_codes.h>
 
@@ -45,12 +45,12 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
     {Kind::SecondReferee, "second-referee", "a second referee program is sending", Shape::None, 0,
      false, true, "referee"},
     {Kind::RobotReceived, "robot-heard", "is online", Shape::None, 0, false, false, ""},
-    {Kind::RobotOffline, "timeout", "went offline", Shape::Silent, 7, false, true, ""},
+    {Kind::RobotOffline, "timeout", "went offline", Shape::Offline, 7, false, true, ""},
     {Kind::RobotBack, "recovery", "is online again", Shape::Back, 2, false, false, ""},
     {Kind::SecondSender, "second-sender", "is also sent by another program", Shape::None, 0, false,
      true, ""},
     {Kind::BatteryLow, "battery-low", "has a low battery", Shape::Warning, 4, false, true, ""},
-    {Kind::AddressChanged, "address-changed", "has another address", Shape::None, 0, false, false,
+    {Kind::AddressChanged, "address-changed", "changed its address", Shape::None, 0, false, false,
      ""},
     {Kind::ClockSet, "clock-set", "the computer's clock was set", Shape::None, 0, false, true,
      "studio"},
@@ -61,14 +61,14 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
      ""},
     {Kind::ProcessEnded, "process-ended", "ended", Shape::None, 0, false, false, ""},
     {Kind::ProcessDied, "process-died", "died", Shape::Died, 8, false, true, ""},
-    {Kind::ProcessSilent, "process-silent", "stopped responding", Shape::Silent, 7, false, true,
-     ""},
+    {Kind::ProcessNotResponding, "process-silent", "stopped responding", Shape::Offline, 7, false,
+     true, ""},
     {Kind::ProcessGivenUp, "process-given-up", "is no longer restarted", Shape::Died, 8, false,
      true, ""},
     {Kind::ProcessRealTime, "process-real-time", "uses real time", Shape::None, 0, false, true, ""},
     {Kind::ProcessNotAttached, "process-not-attached", "has not attached to its blackboard",
      Shape::Warning, 5, false, true, ""},
-    {Kind::CycleLate, "cycle-late", "did not finish its cycle in time", Shape::Silent, 7, false,
+    {Kind::CycleLate, "cycle-late", "did not finish its cycle in time", Shape::Offline, 7, false,
      true, ""},
     {Kind::PortLost, "port-lost", "cannot be received", Shape::None, 0, false, true, "network"},
     {Kind::PortBack, "port-back", "is open now", Shape::None, 0, false, false, "network"},
@@ -85,7 +85,7 @@ constexpr bool inOrder() {
 }
 static_assert(inOrder());
 
-std::string clockWords(int seconds) {
+std::string clockText(int seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%s%02d:%02d", seconds < 0 ? "-" : "", std::abs(seconds) / 60,
                 std::abs(seconds) % 60);
@@ -93,7 +93,7 @@ std::string clockWords(int seconds) {
 }
 
 /// "BLUE", "TEAM 12", "the left side".
-std::string teamWords(const MatchEvent& event) {
+std::string teamText(const MatchEvent& event) {
   if (!event.colour.empty() && event.colour != "unknown") {
     std::string out = event.colour;
     for (char& c : out) {
@@ -119,7 +119,7 @@ std::string predicateOf(const MatchEvent& event) {
     case Kind::Goal:
     case Kind::ScoreCorrected: {
       std::string out(info(event.kind).words);
-      if (const std::string team = teamWords(event); !team.empty()) out += " for " + team;
+      if (const std::string team = teamText(event); !team.empty()) out += " for " + team;
       if (event.score) {
         out +=
             ", " + std::to_string(event.score->left) + " : " + std::to_string(event.score->right);
@@ -127,21 +127,20 @@ std::string predicateOf(const MatchEvent& event) {
       return out;
     }
     case Kind::Kick:
-      return event.value ? std::string(info(event.kind).words) + ": " + actionWords(*event.value)
+      return event.value ? std::string(info(event.kind).words) + ": " + actionLabel(*event.value)
                          : wordsAnd(event);
     case Kind::UnknownAction:
       return event.value ? "chose the unknown action code " + std::to_string(*event.value) +
                                ", which counts as stop"
                          : wordsAnd(event);
     case Kind::GameState:
-      return event.detail + (event.value ? " at " + clockWords(*event.value) : std::string());
+      return event.detail + (event.value ? " at " + clockText(*event.value) : std::string());
     case Kind::MatchOver:
       return wordsAnd(event, " (") + (event.detail.empty() ? "" : ")");
     case Kind::Half:
       return event.value == 2 ? "second half" : "first half";
     case Kind::SetPlay:
-      if (!event.detail.empty() && event.team != 0)
-        return event.detail + " for " + teamWords(event);
+      if (!event.detail.empty() && event.team != 0) return event.detail + " for " + teamText(event);
       [[fallthrough]];
     case Kind::GamePhase:
       return event.detail.empty() ? std::string(info(event.kind).words) : event.detail;
@@ -149,7 +148,7 @@ std::string predicateOf(const MatchEvent& event) {
       return wordsAnd(event) +
              (event.value ? ", version " + std::to_string(*event.value) : std::string());
     case Kind::SecondReferee:
-      return wordsAnd(event, "; shown is ");
+      return wordsAnd(event, "; showing ");
     case Kind::RobotReceived:
       return wordsAnd(event, " from ");
     case Kind::SecondSender:
@@ -161,14 +160,16 @@ std::string predicateOf(const MatchEvent& event) {
                                           : std::string());
     case Kind::ClockSet:
       return wordsAnd(event) + " by " + (event.value.value_or(0) > 0 ? "+" : "") +
-             std::to_string(event.value.value_or(0)) + " s; times in Live go on as before";
+             std::to_string(event.value.value_or(0)) + " s; timestamps in Live are not affected";
     case Kind::Penalised:
       return wordsAnd(event) +
-             (event.value.value_or(0) > 0 ? ", " + durationWords(*event.value) : std::string());
+             (event.value.value_or(0) > 0 ? ", " + durationText(*event.value) : std::string());
     case Kind::ProcessStarted:
     case Kind::ProcessRestarted:
       return std::string(info(event.kind).words) +
              (event.value ? " (process " + std::to_string(*event.value) + ')' : std::string());
+    case Kind::ProcessEnded:
+      return event.detail.empty() ? "stopped" : wordsAnd(event);
     case Kind::ProcessNotAttached:
       return wordsAnd(event, " ");
     case Kind::PortLost:
@@ -181,7 +182,7 @@ std::string predicateOf(const MatchEvent& event) {
   }
 }
 
-/// "B1", "B1 decision"; empty where nobody is concerned.
+/// Returns "B1" or "B1 decision"; empty for events that concern no robot.
 std::string subjectOf(const MatchEvent& event) {
   std::string out = event.name;
   if (!event.process.empty()) out += (out.empty() ? "" : " ") + event.process;
@@ -267,23 +268,23 @@ MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state) {
       out.value = event.value;
       break;
     case sim::EventKind::PlayStateChanged:
-      out.detail = wordsOf(static_cast<sim::PlayState>(event.value));
+      out.detail = labelOf(static_cast<sim::PlayState>(event.value));
       if (state.game) {
         out.value = static_cast<int>(std::ceil(state.game->clock / state.settings.tickRate - 1e-9));
       }
       break;
     case sim::EventKind::PhaseChanged:
-      if (event.value != 0) out.detail = wordsOf(static_cast<sim::GamePhase>(event.value));
+      if (event.value != 0) out.detail = labelOf(static_cast<sim::GamePhase>(event.value));
       break;
     case sim::EventKind::SetPlayBegan:
       out.detail =
-          std::string(wordsOf(static_cast<sim::SetPlay>(event.value))) + sideWithBall(state);
+          std::string(labelOf(static_cast<sim::SetPlay>(event.value))) + sideWithBall(state);
       break;
     case sim::EventKind::DropBall:
       out.detail = "drop ball";
       break;
     case sim::EventKind::Penalised:
-      out.detail = wordsOf(static_cast<sim::PenaltyKind>(event.value));
+      out.detail = labelOf(static_cast<sim::PenaltyKind>(event.value));
       break;
     case sim::EventKind::FinalWhistle:
       out.detail = "final whistle";
@@ -320,7 +321,7 @@ std::string labelOf(const MatchEvent& event) {
     case Kind::Goal: {
       const std::string team = event.colour.empty() && event.team == 0 && event.side
                                    ? std::string(sideName(*event.side))
-                                   : teamWords(event);
+                                   : teamText(event);
       return team.empty() ? "goal" : "goal " + team;
     }
     case Kind::MatchOver:

@@ -12,14 +12,14 @@ using telemetry::RefereeTeam;
 void describeSetPlay(const RefereeState& state, std::string& setPlay, std::string& phase) {
   constexpr int normal = 0, shootout = 1, overtime = 2;
   if (state.secState && *state.secState != normal) {
-    const std::string words(telemetry::setPlayWords(telemetry::League::Humanoid, *state.secState));
+    const std::string words(telemetry::setPlayLabel(telemetry::League::Humanoid, *state.secState));
     (*state.secState == overtime || *state.secState == shootout ? phase : setPlay) = words;
   }
   if (state.gamePhase && *state.gamePhase != 0) {
-    phase = telemetry::gamePhaseWords(*state.gamePhase);
+    phase = telemetry::gamePhaseLabel(*state.gamePhase);
   }
   if (state.setPlay && *state.setPlay != 0) {
-    setPlay = telemetry::setPlayWords(state.league, *state.setPlay);
+    setPlay = telemetry::setPlayLabel(state.league, *state.setPlay);
   }
 }
 
@@ -54,13 +54,13 @@ std::string countdownOf(const RefereeView& view) {
 
 RefereeTeamView teamView(const RefereeState& state, const RefereeTeam& team) {
   RefereeTeamView view{
-      team.number, std::string(telemetry::colourWords(team.colour)), team.score, 0, {}};
+      team.number, std::string(telemetry::colourLabel(team.colour)), team.score, 0, {}};
   for (const RefereePlayer& player : team.players()) {
     // Slots without a player are substitutes, and so are those who wait.
     if (player.unreliable || telemetry::isSubstitute(state, player)) continue;
     view.playersLeft += player.penalty == 0 ? 1 : 0;
     view.players.push_back(
-        {player.number, std::string(telemetry::penaltyWords(state, player)), player.secondsLeft,
+        {player.number, std::string(telemetry::penaltyLabel(state, player)), player.secondsLeft,
          player.warnings.value_or(0), player.yellow.value_or(0), player.red.value_or(0),
          player.cautions.value_or(0),
          player.goalkeeper.value_or(0) != 0 || team.goalkeeper == player.number});
@@ -107,7 +107,7 @@ std::optional<Penalty> penaltyOf(const RefereeState& packet, int team, int playe
   if (own == nullptr) return std::nullopt;
   for (const RefereePlayer& one : own->players()) {
     if (one.number != player || one.penalty == 0 || one.unreliable) continue;
-    return Penalty{std::string(telemetry::penaltyWords(packet, one)), one.secondsLeft};
+    return Penalty{std::string(telemetry::penaltyLabel(packet, one)), one.secondsLeft};
   }
   return std::nullopt;
 }

@@ -160,7 +160,7 @@ class Learner {
     std::error_code code;
     std::filesystem::create_directories(m_settings.folder, code);
     if (code) {
-      return failure(ErrorCode::SystemError, "the folder cannot be made: " + code.message(),
+      return failure(ErrorCode::SystemError, "cannot create the folder: " + code.message(),
                      m_settings.folder);
     }
     const std::string path = inLearnFolder(m_settings, "learn.json");

@@ -332,7 +332,7 @@ Result<Learning> learningFromJson(std::string_view text, std::string_view source
   const auto root = parseJson(text, report);
   if (!root) return tl::unexpected(report.error());
   if (root->kind != JsonNode::Kind::Object) {
-    return failure(ErrorCode::ParseError, "is no JSON object", std::string(source));
+    return failure(ErrorCode::ParseError, "is not a JSON object", std::string(source));
   }
   Learning out = LearnReader(*root, report, text, source, folder).read();
   if (report.failed()) return tl::unexpected(report.error());

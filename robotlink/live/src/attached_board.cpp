@@ -76,7 +76,7 @@ Result<AttachedBoard> parseAttachedBoard(std::string_view text) {
     }
     if (!good) {
       return tl::unexpected(
-          problem("is not understood; write KEY[,catalog=FILE][,size=BYTES][,robot=N][,rate=R]"
+          problem("is not valid; write KEY[,catalog=FILE][,size=BYTES][,robot=N][,rate=R]"
                   "[,team=COLOUR], such as 100,catalog=blackboard.h,robot=3",
                   part));
     }
@@ -89,7 +89,7 @@ Result<void> validate(const std::vector<AttachedBoard>& boards) {
   std::set<int> keys;
   for (const AttachedBoard& board : boards) {
     const std::string key = std::to_string(board.key);
-    if (board.key <= 0) return tl::unexpected(problem("a key is a positive number", key));
+    if (board.key <= 0) return tl::unexpected(problem("a key must be a positive number", key));
     if (!keys.insert(board.key).second) {
       return tl::unexpected(problem("this key is attached twice", key));
     }
@@ -97,10 +97,10 @@ Result<void> validate(const std::vector<AttachedBoard>& boards) {
       return tl::unexpected(problem("the rate must lie between 0.1 and 1000 a second", key));
     }
     if (board.robot < 0 || board.robot > 999) {
-      return tl::unexpected(problem("the number of a robot is from 1 to 999", key));
+      return tl::unexpected(problem("a robot number must be 1 to 999", key));
     }
     if (board.bytes % 4 != 0 || board.bytes > SegmentLayout::mostBytes) {
-      return tl::unexpected(problem("the size is a multiple of 4, at most 1 MiB", key));
+      return tl::unexpected(problem("the size must be a multiple of 4, at most 1 MiB", key));
     }
     TRY(mapOf(board));
   }

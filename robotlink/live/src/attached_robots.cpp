@@ -15,7 +15,7 @@
 #include <robotlink/live/board_columns.h>
 
 #include "board_map.h"
-#include "board_words.h"
+#include "board_meanings.h"
 
 namespace pitchboard::link {
 namespace {
@@ -67,7 +67,8 @@ class AttachedRobots::Reader {
     return std::exchange(m_rows, {});
   }
 
-  std::optional<RobotFrame> robot(const sim::FieldSpec& field) const {
+  std::optional<RobotFrame> robot(const sim::FieldSpec& field,
+                                  const telemetry::BatteryLimits& battery) const {
     const std::lock_guard lock(m_mutex);
     if (m_newest.words.empty()) return std::nullopt;
     RobotFrame robot;
@@ -79,7 +80,8 @@ class AttachedRobots::Reader {
     robot.link = boardLink(std::max(0.0, m_seconds() - m_newest.time), m_board.rate, gone);
     robot.link->messages = m_status.samples;
     if (!gone) robot.lamps = m_lamps;
-    buildRobot(m_meanings.reader(m_newest), m_meanings.adviceReader(m_newest), field, false, robot);
+    buildRobot(m_meanings.reader(m_newest), m_meanings.adviceReader(m_newest), field, battery,
+               false, robot);
     robot.action = robot.decided.value_or(0);
     robot.board = m_meanings.contents(m_newest);
     robot.name = m_group.name;
@@ -143,7 +145,7 @@ class AttachedRobots::Reader {
       m_status.problem.clear();
     } else if (had || m_status.samples > 0) {
       m_status.problem = "Segment " + std::to_string(m_board.key) +
-                         " was removed; it is taken up when it comes again.";
+                         " was removed; it will be attached again when it is back.";
     } else {
       m_status.problem = attached.error().text();
     }
@@ -208,7 +210,7 @@ void AttachedRobots::set(const std::vector<AttachedBoard>& boards,
         })) {
       continue;
     }
-    // One that goes on under another name begins anew.
+    // A board with another name starts over.
     std::erase_if(m_readers, [&](const auto& reader) { return reader->board() == boards[i]; });
     if (auto map = mapOf(boards[i], m_catalog)) {
       m_readers.push_back(
@@ -217,10 +219,11 @@ void AttachedRobots::set(const std::vector<AttachedBoard>& boards,
   }
 }
 
-std::vector<RobotFrame> AttachedRobots::robots(const sim::FieldSpec& field) const {
+std::vector<RobotFrame> AttachedRobots::robots(const sim::FieldSpec& field,
+                                               const telemetry::BatteryLimits& battery) const {
   std::vector<RobotFrame> all;
   for (const auto& reader : m_readers) {
-    if (auto robot = reader->robot(field)) all.push_back(std::move(*robot));
+    if (auto robot = reader->robot(field, battery)) all.push_back(std::move(*robot));
   }
   return all;
 }
@@ -259,7 +262,7 @@ void BoardRowKeeper::take(const std::string& board, const telemetry::GroupInfo& 
   for (const BoardRow& row : rows) m_sink->append(now.id, {row.time, row.words, row.values});
 }
 
-void BoardRowKeeper::giveWay(const std::map<std::string, Name>& names) {
+void BoardRowKeeper::releaseNames(const std::map<std::string, Name>& names) {
   std::erase_if(m_groups, [&names](const auto& known) { return !names.contains(known.first); });
   for (auto& [board, known] : m_groups) {
     if (known.info.name == names.at(board).name) continue;

@@ -20,7 +20,7 @@ MatchEvent made(Kind kind, double time, std::string detail = {}, std::optional<i
   return event;
 }
 
-std::string teamWords(const RefereeTeamView& team) {
+std::string teamText(const RefereeTeamView& team) {
   return "team " + std::to_string(team.number) +
          (team.colour == "unknown" ? std::string() : " (" + team.colour + ")");
 }
@@ -41,7 +41,7 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, std::vector
   if (m_referee) before = *m_referee;
   if (isFirst || now.sender != before.sender || now.version != before.version) {
     std::string who = now.sender;
-    if (isFirst) who += ", " + teamWords(now.teams[0]) + " against " + teamWords(now.teams[1]);
+    if (isFirst) who += ", " + teamText(now.teams[0]) + " against " + teamText(now.teams[1]);
     out.push_back(made(Kind::RefereeReceived, time, std::move(who), now.version));
   }
   if (now.state != before.state) {

@@ -50,7 +50,7 @@ std::vector<RobotReplyView> repliesOf(const telemetry::RefereeTracker& tracker,
   return views;
 }
 
-/// As it is heard: from whom, how long ago, and what else is known.
+/// Returns the referee as received: its sender, the age of the packet, and what else is known.
 RefereeView receivedView(const telemetry::RefereeTracker& tracker, const Teams& teams, int ourTeam,
                          telemetry::WallTime now) {
   RefereeView view = viewOf(*tracker.state(), teams);
@@ -110,7 +110,7 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
       // The decoder has left out a ball that is not seen.
       return meaning == FieldMeaning::BallSeen ? std::nullopt : robot.value(meaning);
     };
-    buildRobot(reader, {}, options.field, false, out);
+    buildRobot(reader, {}, options.field, options.team.battery, false, out);
     out.battery = robot.battery;
     out.action = out.decided.value_or(0);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Makes frames of what was heard: a pure function of its arguments. Private to robotlink.
+// Makes frames from received messages: a pure function of its arguments. Private to robotlink.
 
 #include <robotlink/live/live_watch.h>
 

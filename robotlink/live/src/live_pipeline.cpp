@@ -21,7 +21,7 @@ using telemetry::WallTime;
 
 constexpr double reportPeriod = 0.25;  // s
 constexpr double snapshotPeriod =
-    15.0;  // s; a moment of a recording is made from the books before it
+    15.0;  // s; moments of a recording are rebuilt from the last snapshot before them
 constexpr double sentReportPeriod = 1.0;  // s
 constexpr std::size_t maxQueued = 10'000;
 
@@ -94,6 +94,7 @@ void RowFan::append(GroupId group, const telemetry::RowView& row) {
 
 LivePipeline::LivePipeline(LiveOptions options, WallTime zero)
     : m_options(std::move(options)),
+      m_monitorOptions(monitorOptions(m_options)),
       m_zero(zero),
       m_state(m_options),
       m_rows(m_fan, rowsOptions(m_options, m_teams, zero)),
@@ -122,7 +123,8 @@ void LivePipeline::useCatalogs() {
 void LivePipeline::setOptions(LiveOptions options, WallTime now) {
   const LiveOptions old = std::exchange(m_options, std::move(options));
   if (!(old.profile == m_options.profile)) m_state.monitor.setProfile(m_options.profile);
-  m_state.setTeams(monitorOptions(m_options));
+  m_monitorOptions = monitorOptions(m_options);
+  m_state.setTeams(m_monitorOptions);
   m_state.referee.setOptions(LiveState::refereeOptions(m_options));
   useCatalogs();
   noteTeams(m_state.monitor.renamings());
@@ -262,10 +264,10 @@ void LivePipeline::addBoards(MatchFrame& frame, AttachedRobots* attached, WallTi
   std::vector<RobotFrame> boards;
   if (attached != nullptr) {
     attached->takeRows(keep);
-    boards = attached->robots(m_options.field);
+    boards = attached->robots(m_options.field, m_options.team.battery);
   }
   m_sent.takeRows(keep);
-  for (RobotFrame& robot : m_sent.robots(now, m_options.field)) {
+  for (RobotFrame& robot : m_sent.robots(now, m_options.field, m_monitorOptions)) {
     robot.identity.team = drawnColour(m_options, robot.key, frame.teams);
     robot.ownName = ownNameOf(m_options, robot.key);
     boards.push_back(std::move(robot));
@@ -295,7 +297,7 @@ void LivePipeline::addBoards(MatchFrame& frame, AttachedRobots* attached, WallTi
     name.attributes["sent"] = senders[i].first.text();
   }
   // Messages and variables may exchange their names.
-  m_boardRows.giveWay(names);
+  m_boardRows.releaseNames(names);
   if (robots != m_boardNames) {
     m_boardNames = std::move(robots);
     noteTeams({});
@@ -321,7 +323,7 @@ void LivePipeline::reportSent(WallTime now) {
   for (const SentStatus& sent : all) {
     names[boardOf(sent)] = {sent.name + " agent", {{"link", sent.name}}};
   }
-  m_sentHealth.giveWay(names);
+  m_sentHealth.releaseNames(names);
   m_sentHealth.rename(names);
   for (const SentStatus& sent : all) {
     const telemetry::LinkHealth& link = sent.link;
@@ -373,7 +375,7 @@ LiveDetails LivePipeline::details(WallTime now) const {
   return details;
 }
 
-/// What an observer hears after it, is not in the books.
+/// Later calls of the observer are not part of the snapshot.
 void LivePipeline::sendSnapshot(WallTime now) {
   const double time = seconds(now);
   m_nextSnapshot = time + snapshotPeriod;

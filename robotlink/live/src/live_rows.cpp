@@ -173,7 +173,7 @@ LiveRows::Robot* LiveRows::robotOf(const RobotKey& key, const Sender& sender) {
   return &m_robots.back();
 }
 
-/// The place of a column of this name, which is made where there is room.
+/// Returns the index of the column with this name, which is added if the limit allows it.
 std::size_t LiveRows::placeOf(Robot& robot, ColumnInfo column, bool& changed) {
   const auto known = std::ranges::find(robot.columns, column.name, &ColumnInfo::name);
   if (known != robot.columns.end()) return static_cast<std::size_t>(known - robot.columns.begin());

@@ -211,7 +211,7 @@ Result<LiveState::Read> LiveState::read(std::string_view bytes, WallTime zero) {
   const Json json = lenient::parsed<Json>(bytes);
   const Json* options = json.is_object() ? member(json, "options") : nullptr;
   if (options == nullptr || !options->is_object()) {
-    return failure(ErrorCode::ParseError, "This is no state of a live match.");
+    return failure(ErrorCode::ParseError, "This is not a saved state of a live match.");
   }
   LiveOptions known = optionsFrom(*options);
   Read out{known, LiveState(known)};

@@ -5,6 +5,8 @@
 #include <charconv>
 
 #include <robotlink/blackboard/variable_meanings.h>
+#include <robotlink/frame/build_robot.h>
+#include <robotlink/models/robot_models.h>
 #include <telemetry/wire/gamecontroller.h>
 
 #include "live_frame.h"
@@ -36,6 +38,14 @@ telemetry::Surroundings surroundingsOf(const sim::FieldSpec& field) {
 telemetry::MonitorOptions monitorOptions(const LiveOptions& options) {
   telemetry::MonitorOptions made = options.team;
   made.field = surroundingsOf(options.field);
+  made.teamBatteries.clear();
+  for (std::size_t i = 0; i < options.team.teams.size(); ++i) {
+    const std::string& name = options.team.teams[i].model;
+    if (name.empty()) continue;
+    // validate() has refused unknown models. A recording may name a file of another computer.
+    const auto model = loadRobotModel(name);
+    if (model) made.teamBatteries[static_cast<int>(i) + 1] = batteryLimitsOf(*model);
+  }
   return made;
 }
 
@@ -58,7 +68,7 @@ Result<void> chooseOurTeam(LiveOptions& options, std::string_view text) {
 int ourNumber(const LiveOptions& options, const telemetry::RefereeState* referee) {
   if (options.ourTeam != 0 || !options.ourColour || referee == nullptr) return options.ourTeam;
   for (const telemetry::RefereeTeam& team : referee->teams) {
-    if (teamColorNamed(telemetry::colourWords(team.colour)) == options.ourColour)
+    if (teamColorNamed(telemetry::colourLabel(team.colour)) == options.ourColour)
       return team.number;
   }
   return 0;
@@ -67,7 +77,7 @@ int ourNumber(const LiveOptions& options, const telemetry::RefereeState* referee
 Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee) {
   const auto toldOf = [referee](int number) -> std::optional<TeamColor> {
     const auto* team = referee != nullptr && number > 0 ? referee->team(number) : nullptr;
-    return team == nullptr ? std::nullopt : teamColorNamed(telemetry::colourWords(team->colour));
+    return team == nullptr ? std::nullopt : teamColorNamed(telemetry::colourLabel(team->colour));
   };
   const std::vector<TeamSetup>& setups = options.team.teams;
   const int chosen = ourNumber(options, referee);

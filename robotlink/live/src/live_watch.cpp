@@ -7,6 +7,7 @@
 
 #include <base/try.h>
 #include <robotlink/live/live_pipeline.h>
+#include <robotlink/models/robot_models.h>
 
 namespace pitchboard::link {
 namespace {
@@ -16,7 +17,7 @@ using Steady = std::chrono::steady_clock;
 using telemetry::DatagramBatch;
 
 constexpr auto framePeriod = 16ms;  // at most so often while something arrives
-constexpr auto idlePeriod = 100ms;  // ages and timeouts go on without messages
+constexpr auto idlePeriod = 100ms;  // ages and timeouts have to advance without messages
 constexpr auto portsPeriod = 500ms;
 constexpr std::size_t flood = 16;  // datagrams in one go from which on it pays to gather
 
@@ -62,6 +63,14 @@ Result<void> validate(const LiveOptions& options) {
   TRY(portsOf(options));
   for (const std::string& file : options.catalogs) TRY(VariableCatalog::fromFile(file));
   if (const auto good = telemetry::validate(options.profile); !good) return good;
+  for (const telemetry::TeamSetup& team : options.team.teams) {
+    if (team.model.empty()) continue;
+    if (auto model = loadRobotModel(team.model); !model) {
+      Error error = model.error();
+      error.context = team.title() + ", model";
+      return tl::unexpected(std::move(error));
+    }
+  }
   if (const auto good = validate(options.boards); !good) return good;
   return sim::validate(options.field);
 }

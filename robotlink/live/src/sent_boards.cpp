@@ -15,7 +15,7 @@
 #include <telemetry/wire/arrival_stats.h>
 #include <telemetry/wire/sequence_stats.h>
 
-#include "board_words.h"
+#include "board_meanings.h"
 
 namespace pitchboard::link {
 namespace {
@@ -115,7 +115,7 @@ SentBoards::Robot* SentBoards::robotOf(int number, const telemetry::Sender& send
     const bool isSilent = time - robot->last >= m_timeout;
     if (robot->number == number) {
       if (robot->sender.address == sender.address) return robot.get();
-      // It has another address now.
+      // It changed its address now.
       if (isSilent) moved = robot.get();
     }
     if (isSilent && (oldest == nullptr || robot->last < oldest->last)) oldest = robot.get();
@@ -286,7 +286,8 @@ telemetry::LinkHealth SentBoards::linkOf(const Robot& robot, WallTime now) const
   return link;
 }
 
-std::vector<RobotFrame> SentBoards::robots(WallTime now, const sim::FieldSpec& field) const {
+std::vector<RobotFrame> SentBoards::robots(WallTime now, const sim::FieldSpec& field,
+                                           const telemetry::MonitorOptions& teams) const {
   std::vector<RobotFrame> all;
   for (const auto& robot : m_robots) {
     if (!robot->isDescribed()) continue;
@@ -298,7 +299,7 @@ std::vector<RobotFrame> SentBoards::robots(WallTime now, const sim::FieldSpec& f
     out.link = linkOf(*robot, now);
     if (!out.timedOut()) out.lamps = robot->lamps;
     buildRobot(robot->meanings.reader(robot->row), robot->meanings.adviceReader(robot->row), field,
-               false, out);
+               teams.batteryOf(robot->place), false, out);
     out.action = out.decided.value_or(0);
     out.board = robot->meanings.contents(robot->row);
   }

@@ -120,7 +120,7 @@ void FrameBuilder::takeProcesses(const RobotSlots& robots) {
   for (const ProcessStatus& one : processes.statuses()) {
     byRobot[one.robot].push_back({one.id, one.name, one.state, one.pid, one.restarts, one.detail,
                                   one.lastLines, one.started, one.cpu, one.memoryBytes,
-                                  one.heartbeatAge, one.foreign, one.speed, one.achieved,
+                                  one.heartbeatAge, one.isTeamProgram, one.speed, one.achieved,
                                   whyRealTime(one.clock), one.missedCycles});
   }
   // In the order of the robot's runtime profile, whichever was started last.
@@ -160,7 +160,8 @@ void FrameBuilder::fillRobot(const SimulatedMatch& match, RobotFrame& out) {
   out.boardKey = board->key();
   out.behaviour = match.robots().find(out.slot())->behaviour;
   out.lamps = m_lamps[out.slot()].note(reader, m_playing);
-  buildRobot(reader, advice, match.simulation().state().settings.field, true, out);
+  buildRobot(reader, advice, match.simulation().state().settings.field,
+             batteryLimitsOf(*match.robots().model(out.slot())), true, out);
 }
 
 void FrameBuilder::fillSpeed(const SimulatedMatch& match, Time now, bool still, MatchFrame& out) {

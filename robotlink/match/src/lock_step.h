@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The robots' reference processes in time: whose turn it is after a tick, in lock-step and running
-// freely. Private to the room.
+// Starts the cycles of the robots' reference processes that are due after a tick, in lock-step or
+// running freely. Match thread. Private to the module.
 
 #include <cstdint>
 #include <optional>
@@ -21,19 +21,19 @@ class LockStep {
       : m_base(base), m_slots(slots), m_pace(pace), m_cycles(base, slots, pace) {}
 
   /// After a tick, in the order of the robots: each reference process whose period has passed.
-  /// Waits for separate ones in lock-step, and for team programs that cooperate, but not for ever.
+  /// Waits for separate ones in lock-step, and for team programs that cooperate, but not forever.
   void run();
   /// Another moment was put back: what is due follows the simulation's time.
   void jump();
 
  private:
-  void takeTurns();
+  void runCycles();
   void giveIfReady(RobotSlot& slot, SlotProcess& process);
   void runSeparate(RobotSlot& slot, SlotProcess& process);
   void runFreely(RobotSlot& slot, SlotProcess& process);
   bool dueNow(SlotProcess& process, std::optional<double> period) const;
   void planNext(SlotProcess& process) const;
-  void giveTurn(RobotSlot& slot, SlotProcess& process, bool lockStep);
+  void startCycle(RobotSlot& slot, SlotProcess& process, bool lockStep);
 
   const MatchBase& m_base;
   RobotSlots& m_slots;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the parts of a simulated match share. Private to the room.
+// What the parts of a simulated match share. Private to the module.
 
 #include <optional>
 #include <vector>

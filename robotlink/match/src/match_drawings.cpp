@@ -41,7 +41,7 @@ void MatchDrawings::lookAtPort() {
   const telemetry::PortStatus port = m_receiver->status().ports.front();
   m_isBound = port.bound;
   m_problem = m_isBound ? std::string()
-                        : "drawings are not heard on UDP " + std::to_string(port.port) + ": " +
+                        : "cannot receive drawings on UDP " + std::to_string(port.port) + ": " +
                               port.problem;
 }
 

@@ -9,10 +9,11 @@ namespace pitchboard::link {
 namespace {
 
 /// Of a process that ran before, in the order of ProcessNewsKind.
-constexpr std::array kindOfNews{MatchEventKind::ProcessRestarted, MatchEventKind::ProcessRestarted,
-                                MatchEventKind::ProcessEnded,     MatchEventKind::ProcessDied,
-                                MatchEventKind::ProcessSilent,    MatchEventKind::ProcessGivenUp,
-                                MatchEventKind::ProcessRealTime};
+constexpr std::array kindOfNews{
+    MatchEventKind::ProcessRestarted,     MatchEventKind::ProcessRestarted,
+    MatchEventKind::ProcessEnded,         MatchEventKind::ProcessDied,
+    MatchEventKind::ProcessNotResponding, MatchEventKind::ProcessGivenUp,
+    MatchEventKind::ProcessRealTime};
 static_assert(kindOfNews.size() == static_cast<std::size_t>(ProcessNewsKind::RealTime) + 1);
 
 }  // namespace
@@ -71,7 +72,7 @@ MatchEvent MatchEvents::ofProcess(MatchEventKind kind, const sim::WorldState& st
 void MatchEvents::takeNews(const sim::WorldState& state, const std::vector<ProcessNews>& news) {
   for (const ProcessNews& one : news) {
     const bool starts = one.kind <= ProcessNewsKind::Restarted;
-    // The first of this name since the match began, whoever started it.
+    // The first process of this name since the match began.
     const bool isFirst = starts && m_everRan.emplace(one.robot, one.process).second;
     const auto kind =
         isFirst ? MatchEventKind::ProcessStarted : kindOfNews[static_cast<std::size_t>(one.kind)];
@@ -92,7 +93,7 @@ void MatchEvents::notAttached(const sim::WorldState& state, RobotId robot,
 
 void MatchEvents::lateCycle(const sim::WorldState& state, RobotId robot, const std::string& why) {
   MatchEvent event = ofProcess(MatchEventKind::CycleLate, state, robot, "");
-  event.detail = why + "; the match goes on without it and is not repeatable";
+  event.detail = why + "; the match continues without it and is not repeatable";
   add(std::move(event));
 }
 

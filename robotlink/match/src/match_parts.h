@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a simulated match consists of. Private to the room.
+// What a simulated match consists of. Private to the module.
 
 #include <cstdint>
 #include <memory>

@@ -3,8 +3,8 @@
 
 // How a match's robots hear its referee: packets to the match's port, as the GameController sends
 // them, and COM_REFEREE on the blackboards of inline robots, in the same rhythm. Or the other way
-// round: hears a GameController and makes the game obey it. Private to the room; on the match's
-// thread.
+// round: receives a GameController's packets and makes the game obey them. Private to the module;
+// on the match's thread.
 
 #include <memory>
 #include <optional>
@@ -23,13 +23,13 @@ class MatchReferee {
  public:
   /// Sends to every process of this computer that listens on `port`.
   Result<void> sendTo(int port);
-  /// Obeys the GameController that is heard on `port`; the game is refereed by it alone.
+  /// Obeys the GameController that sends to `port`, which alone referees the game.
   Result<void> obey(int port, sim::Simulation& simulation);
   /// Robots answer what they obey: to this port of the sender, or 0 for that of the version.
   void answerTo(int port) { m_answerPort = port; }
 
-  /// After a tick: takes what an external referee has said, and sends what is due. True when
-  /// robots hear the referee now: packet() is news. A tick that is played `again` hears and sends
+  /// After a tick: takes what a GameController has said, and sends what is due. True when
+  /// robots receive a packet now: packet() is new. A tick that is played `again` receives and sends
   /// nothing.
   bool tick(sim::Simulation& simulation, bool again = false);
   const RefereeRhythm& rhythm() const { return m_rhythm; }

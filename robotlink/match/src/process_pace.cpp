@@ -79,7 +79,7 @@ double ProcessPace::teamProgramPace(double wanted, double now) {
   bool any = false, unknown = false;
   std::optional<double> slowest;
   for (const ProcessStatus& one : m_slots.processes().statuses()) {
-    if (!one.foreign || one.pid == 0 || cooperates(one)) continue;
+    if (!one.isTeamProgram || one.pid == 0 || cooperates(one)) continue;
     any = true;
     if (one.clock != ProcessClock::Match) {
       most = std::min(most, 1.0);  // slower does not help it either
@@ -120,7 +120,7 @@ bool ProcessPace::awaitsPrograms(Await whom, Time now) {
     }
   }
   if (awaits) {
-    // Meanwhile their time goes on.
+    // Their time advances meanwhile.
     m_awaited += RestartRule::Seconds(now - m_awaitedAt.value_or(now)).count();
     m_awaitedAt = now;
     m_reached = 1.0;
@@ -151,11 +151,11 @@ bool ProcessPace::awaitsFirstCycle(RobotSlot& slot, Time now) {
   if (waited < std::max(leastPatience, Seconds(RobotSlots::silentAfter(slot)))) return true;
   slot.hasMissedCycle = true;
   m_events.lateCycle(m_base.simulation.state(), slot.id,
-                     "it has not said that it is there after " + inSeconds(waited));
+                     "it has not finished its first cycle after " + inSeconds(waited));
   return false;
 }
 
-/// The match waits for its cycles, whatever its pace.
+/// Returns whether the match waits for cycles of this program at every pace.
 bool ProcessPace::cooperates(const ProcessStatus& program) const {
   const RobotSlot* slot = m_slots.find(program.robot);
   return slot && slot->cooperates;
@@ -182,7 +182,7 @@ bool ProcessPace::isAwaited(const RobotSlot& slot, SlotProcess& process, Time no
   process.settled = true;
   m_events.notAttached(m_base.simulation.state(), slot.id, process.profile.name,
                        "after " + inSeconds(waited) + "; the match " +
-                           (process.startTick == 0 ? "starts" : "goes on") + " without it");
+                           (process.startTick == 0 ? "starts" : "continues") + " without it");
   return false;
 }
 
@@ -197,7 +197,7 @@ bool ProcessPace::hasAttached(const ProcessStatus& program) const {
 
 void ProcessPace::letTeamProgramsRun(std::chrono::duration<double> time) {
   ProcessManager& processes = m_slots.processes();
-  if (std::ranges::none_of(processes.statuses(), &ProcessStatus::foreign)) return;
+  if (std::ranges::none_of(processes.statuses(), &ProcessStatus::isTeamProgram)) return;
   processes.setPaused(false, std::chrono::steady_clock::now());
   std::this_thread::sleep_for(time);
   processes.setPaused(m_still, std::chrono::steady_clock::now());

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <base/try.h>
-#include <robotlink/cognition/told_set_play.h>
+#include <robotlink/cognition/announced_set_play.h>
 #include <robotlink/frame/referee_view.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <simcore/rules/game_start.h>
@@ -289,7 +289,7 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
     return GameState::nobody;
   };
   game.restart = {};
-  const ToldSetPlay told = setPlayIn(packet);
+  const AnnouncedSetPlay told = setPlayIn(packet);
   game.restart.kind = told.kind;
   if (told.kind != SetPlay::None) {
     const bool says = packet.secStateInfo && packet.size == 688;

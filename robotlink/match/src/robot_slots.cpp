@@ -92,7 +92,7 @@ RobotSlots::~RobotSlots() {
     }
   }
   m_processes.reset();
-  m_slots.clear();  // its robots before its number: whoever gets that takes them at once
+  m_slots.clear();  // robots first: the next owner of the match number claims them at once
 }
 
 RobotSlot* RobotSlots::find(RobotId id) const {
@@ -245,9 +245,9 @@ Result<void> RobotSlots::setBehaviour(RobotId id, const std::string& behaviour) 
 Result<void> RobotSlots::setBehaviour(RobotSlot& slot, const std::string& behaviour) const {
   TRY(checkBehaviour(behaviour));
   slot.behaviour = behaviour;
-  // Nobody said who runs, so the behaviour does: without one the robot is somebody else's.
+  // No runtime was chosen, so the behaviour decides: without one, somebody else's programs play.
   slot.runtime = TRY(runtimeFor(behaviour, slot.choice));
-  // What hangs on the behaviour starts anew, the rest goes on.
+  // Processes that depend on the behaviour restart, the others continue.
   std::erase_if(slot.processes,
                 [](const auto& process) { return process->profile.onlyFor == OnlyFor::Behaviour; });
   return {};
@@ -260,7 +260,7 @@ Result<void> RobotSlots::setRuntime(RobotId id, const RuntimeChoice& choice) {
     if (slot.board.key() == 0 && slot.runtime.hasOwn() && choice.isChosen()) {
       return failure(
           ErrorCode::Unsupported,
-          "this match runs inside one program, where no other one reaches its blackboards; "
+          "this match runs inside one program, so other programs cannot reach its blackboards; "
           "start it with separate processes");
     }
     slot.choice = choice;
@@ -351,7 +351,7 @@ Result<std::shared_ptr<RobotSlot>> RobotSlots::make(RobotId id, const std::strin
     const int key = blackboardKey(id, base);
     slot->claim = TRY(BridgeClaim::take(key));
     // The guard is there before the segment, so that not even a kill between the two leaves it. A
-    // match without processes goes on without it; one with processes says why it cannot.
+    // match without processes continues without it; one with processes reports the reason.
     if (!options.robotProgram.empty()) (void)m_processes->keepGuard();
     slot->board = TRY(SystemVSegments::open(key, AttachMode::AttachOrCreate));
     m_processes->guardSegment(slot->board);
@@ -432,7 +432,7 @@ const AdvisorOptions* RobotSlots::advisorOf(const RobotSlot& slot) const {
   return found == advisors.end() ? nullptr : &found->second;
 }
 
-/// Index below 0 if the match waits for nobody.
+/// The index is below 0 if the match does not wait for cycles.
 Result<IntVar> RobotSlots::cycleOf(const RobotSlot& slot) const {
   auto name = expanded(slot.runtime.cycle, valuesFor(slot));
   if (name && name->empty()) return IntVar{-1};
@@ -440,8 +440,7 @@ Result<IntVar> RobotSlots::cycleOf(const RobotSlot& slot) const {
       name ? m_base.catalog->withExtension().intVar(*name) : std::optional<IntVar>();
   if (variable) return *variable;
   return failure(ErrorCode::NotFound,
-                 name ? "waits for \"" + *name +
-                            "\", which is no whole-number variable of this variable catalog"
+                 name ? "waits for \"" + *name + "\", which is not an int variable of this catalog"
                       : name.error().message,
                  "the runtime profile " + slot.runtime.name + ", cycle");
 }
@@ -469,7 +468,7 @@ Result<void> RobotSlots::startMissing(RobotSlot& slot, std::vector<SlotProcess*>
 
 void RobotSlots::forget(SlotProcess& process) {
   if (process.id != 0) m_processes->removeOne(process.id);
-  if (process.place >= 0) m_turns->giveBack(process.place);
+  if (process.lockStepSlot >= 0) m_lockStepSlots->release(process.lockStepSlot);
 }
 
 Result<void> RobotSlots::start(RobotSlot& slot, SlotProcess& process) {
@@ -495,7 +494,7 @@ Result<void> RobotSlots::start(RobotSlot& slot, SlotProcess& process) {
   managed.delay = profile.delay;
   managed.silentAfter = RestartRule::Seconds(profile.silentAfter);
   TRY(profile.isReference() ? describeReference(slot, process, managed)
-                            : describeForeign(slot, profile, managed));
+                            : describeTeamProgram(slot, profile, managed));
   if (!profile.isReference() && slot.cycle.index >= 0) {
     slot.board.write(slot.cycle, 0);  // what an earlier program left
     slot.cooperates = slot.hasMissedCycle = false;
@@ -515,29 +514,30 @@ Result<void> RobotSlots::startInside(const RobotSlot& slot, SlotProcess& process
 
 Result<void> RobotSlots::describeReference(const RobotSlot& slot, SlotProcess& process,
                                            ManagedProcess& managed) {
-  if (!m_turns) m_turns = TRY(MatchTurns::create());
+  if (!m_lockStepSlots) m_lockStepSlots = TRY(LockStepSlots::create());
   managed.spec.command = commandOf(slot, process.profile.reference);
   const std::string& program = slot.runtime.program;
   if (program.find('/') != std::string::npos && ::access(program.c_str(), X_OK) != 0) {
     return failure(ErrorCode::NotFound, "cannot run " + program + ": " + systemReason(errno),
                    "the runtime profile " + slot.runtime.name + ", program");
   }
-  managed.spec.inherited = m_turns->descriptor();
+  managed.spec.inherited = m_lockStepSlots->descriptor();
   managed.watch = ManagedProcess::Watch::Caller;
-  // Each start has a place of its own: nothing of the process before it stands there.
-  managed.prepare = [turns = m_turns, mine = &process](ChildSpec& spec) -> Result<void> {
-    if (mine->place >= 0) turns->giveBack(mine->place);
-    mine->place = -1;
+  // Each start gets a new slot, without data of the previous process.
+  managed.prepare = [slots = m_lockStepSlots, mine = &process](ChildSpec& spec) -> Result<void> {
+    if (mine->lockStepSlot >= 0) slots->release(mine->lockStepSlot);
+    mine->lockStepSlot = -1;
     mine->given = false;
-    mine->place = TRY(turns->takePlace());
-    spec.command.insert(spec.command.end(), {"--match-turns", std::to_string(mine->place)});
+    mine->lockStepSlot = TRY(slots->take());
+    spec.command.insert(spec.command.end(),
+                        {"--lock-step-slot", std::to_string(mine->lockStepSlot)});
     return {};
   };
   return {};
 }
 
-Result<void> RobotSlots::describeForeign(const RobotSlot& slot, const ProfileProcess& profile,
-                                         ManagedProcess& managed) const {
+Result<void> RobotSlots::describeTeamProgram(const RobotSlot& slot, const ProfileProcess& profile,
+                                             ManagedProcess& managed) const {
   const auto values = valuesFor(slot);
   const auto replaced = [&values, &slot](std::string& text) -> Result<void> {
     auto done = expanded(text, values);
@@ -567,16 +567,16 @@ Result<void> RobotSlots::describeForeign(const RobotSlot& slot, const ProfilePro
   if (slot.runtime.name == "published-tree") {
     TRY(checkPublishedTree(values, slot.board.key()));
   }
-  managed.spec.foreign = true;
+  managed.spec.isTeamProgram = true;
   managed.watchFile = profile.watchFile;
   managed.ownTime = profile.clock == ProfileProcess::Clock::Match;
   if (!profile.heartbeat.empty()) {
     const auto variable = m_base.catalog->intVar(profile.heartbeat);
     if (!variable) {
-      return failure(ErrorCode::NotFound,
-                     "listens for \"" + profile.heartbeat +
-                         "\", which is no whole-number variable of this variable catalog",
-                     "the runtime profile " + slot.runtime.name + ", process " + profile.name);
+      return failure(
+          ErrorCode::NotFound,
+          "listens for \"" + profile.heartbeat + "\", which is not an int variable of this catalog",
+          "the runtime profile " + slot.runtime.name + ", process " + profile.name);
     }
     managed.heartbeat = *variable;
     managed.watch = ManagedProcess::Watch::Variable;

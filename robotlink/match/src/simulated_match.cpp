@@ -92,7 +92,7 @@ void SimulatedMatch::Parts::rememberBeliefs() {
   }
 }
 
-/// Once everybody is there: who keeps which goal, and how the referee is heard.
+/// Called once all robots are there: sets their goals, and how they receive the referee.
 Result<void> SimulatedMatch::Parts::beginGame() {
   const auto& rules = base.scenario.settings.referee;
   if (base.options.obeyReferee && !rules) {
@@ -121,7 +121,7 @@ Result<void> SimulatedMatch::Parts::beginGame() {
   return {};
 }
 
-/// Our communication process would hear the packets at a time of its own, and many a program hears
+/// Our communication process would receive the packets at its own time, and many programs receive
 /// none: the match writes what they mean.
 void SimulatedMatch::Parts::hearReferee(bool again) {
   if (!referee.tick(base.simulation, again)) return;
@@ -172,7 +172,8 @@ void SimulatedMatch::tick() {
   m_parts->advance(false);
 }
 
-/// One tick with the commands that were read. One that is played `again` was told of already.
+/// One tick with the commands that were read. If it is played `again`, its events were reported
+/// before.
 void SimulatedMatch::Parts::advance(bool again) {
   base.simulation.step(base.commands, base.percepts);
   if (!again) events.stepped(base.simulation);
@@ -311,7 +312,8 @@ bool SimulatedMatch::isRepeatable() const {
                      std::ranges::find(others, slot->id, &sim::RobotIdentity::id) != others.end();
     return !own || (slot->cooperates && !slot->hasMissedCycle);
   };
-  return std::ranges::all_of(robots().all(), repeats) && (pace().inLockStep() || !robots().turns());
+  return std::ranges::all_of(robots().all(), repeats) &&
+         (pace().inLockStep() || !robots().lockStepSlots());
 }
 
 MatchResult SimulatedMatch::result() const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The blackboard writes that a scenario plans for times of its match. Private to the room.
+// The blackboard writes that a scenario plans for times of its match. Private to the module.
 
 #include <cstdint>
 #include <variant>

@@ -87,11 +87,14 @@ sim::RobotModel readRobotModelObject(JsonReport& report, const JsonNode& node,
     const std::vector<std::string_view> words(known.begin(), known.end());
     return object.choice(key, words, what).value_or(now);
   };
-  model.kickLaw = static_cast<sim::KickLaw>(choose("kick_law", sim::kickLawNames, "law of kicking",
-                                                   static_cast<std::size_t>(model.kickLaw)));
-  model.fromCamera = choose("distance_from", sim::distanceFromNames, "place to measure from",
+  model.kickLaw = static_cast<sim::KickLaw>(
+      choose("kick_law", sim::kickLawNames, "kick law", static_cast<std::size_t>(model.kickLaw)));
+  model.fromCamera = choose("distance_from", sim::distanceFromNames, "reference point",
                             model.fromCamera ? 1 : 0) == 1;
   if (const auto noise = readNoise(object, report, "noise")) model.noise = *noise;
+  if (!(model.batteryEmpty < model.batteryLow && model.batteryLow < model.batteryFull)) {
+    object.fail("battery_low", "must lie between battery_empty and battery_full");
+  }
   if (report.failed()) return model;
   if (const auto valid = sim::validate(model); !valid) {
     const std::string key = valid.error().context.substr(valid.error().context.find('.') + 1);

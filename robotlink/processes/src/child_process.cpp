@@ -49,7 +49,7 @@ ChildProcess::ChildProcess(Spawned child, UniqueFd keeper, pid_t pid)
 Result<ChildProcess> ChildProcess::start(const ChildSpec& spec, const std::string& robotProgram) {
   SpawnRequest request{spec.command, spec.directory, spec.environment};
   request.inherited = spec.inherited;
-  if (!spec.foreign) {
+  if (!spec.isTeamProgram) {
     Spawned child = TRY(spawn(request));
     const pid_t pid = child.pid;
     return ChildProcess(std::move(child), {}, pid);
@@ -90,12 +90,12 @@ std::optional<ChildProcess::End> ChildProcess::poll(std::vector<std::string>& li
   }
   readOutput(lines, bytesAtEnd);
   if (!m_partial.empty()) endLine(lines);
-  if (unknown) return End{"ended, and the system did not say how", true};
+  if (unknown) return End{"ended for an unknown reason", true};
   return End{describe(end), end.si_code != CLD_EXITED || end.si_status != 0};
 }
 
 bool ChildProcess::tell(int epoll, std::uint64_t id) const {
-  // Once for each time: nobody has to read the end of a pipe that stays open.
+  // Edge-triggered, because the end of a pipe that stays open need not be read.
   epoll_event news{};
   news.events = EPOLLIN | EPOLLET;
   news.data.u64 = id;
@@ -108,7 +108,7 @@ void ChildProcess::readOutput(std::vector<std::string>& lines, std::size_t limit
   for (std::size_t total = 0; total < limit;) {
     const ssize_t got = ::read(m_child.output.get(), buffer, sizeof buffer);
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return;  // nothing now, or nobody writes any more
+    if (got <= 0) return;  // nothing to read now, or the writer has closed the pipe
     total += static_cast<std::size_t>(got);
     std::string_view rest(buffer, static_cast<std::size_t>(got));
     while (!rest.empty()) {

@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 constexpr auto patience = 10s;
 
-/// Removes what nobody uses any more; whether one of the segments is still used.
+/// Removes segments that are no longer used. Returns whether one is still in use.
 bool removeUnused(const std::map<int, int>& keysById) {
   bool used = false;
   for (const auto& [shmid, key] : keysById) {
@@ -42,7 +42,7 @@ void runGuard(int input) {
   std::array<char, 64> packet{};
   while (::recv(input, packet.data(), packet.size() - 1, 0) > 0) {
     int key = 0, shmid = 0;
-    if (packet.data() == std::string_view(guardWords::done)) return;
+    if (packet.data() == std::string_view(guardMessages::done)) return;
     if (std::sscanf(packet.data(), "segment %d %d", &key, &shmid) == 2) keysById[shmid] = key;
     packet.fill('\0');
   }

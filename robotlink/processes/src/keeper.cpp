@@ -76,7 +76,7 @@ Result<Kept> spawnKept(const SpawnRequest& request, const std::string& robotProg
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
     return failure(ErrorCode::SystemError,
-                   "the robots' processes cannot be kept: " + systemReason(errno));
+                   "cannot start the keeper of the robots' processes: " + systemReason(errno));
   }
   Kept kept{{}, UniqueFd(ends[0])};
   UniqueFd its(ends[1]);
@@ -137,7 +137,7 @@ void keep(const std::vector<std::string>& words) {
     char number = SIGKILL;
     if (sources[0].revents != 0) {
       const ssize_t got = ::recv(control, &number, 1, MSG_DONTWAIT);
-      if (got == 0) sources[0].fd = -1;  // whoever started us is gone
+      if (got == 0) sources[0].fd = -1;  // our parent has ended
       if (got >= 0) passOn(number, program->pid);
     }
     signalfd_siginfo signal;

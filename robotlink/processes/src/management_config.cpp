@@ -43,7 +43,7 @@ std::vector<std::string> namesIn(std::string_view text) {
 
 }  // namespace
 
-std::vector<std::string> commandWords(std::string_view text) {
+std::vector<std::string> splitCommand(std::string_view text) {
   std::vector<std::string> words;
   std::string word;
   bool quoted = false, any = false;
@@ -96,10 +96,10 @@ Result<ManagementConfig> managementFromIni(const IniFile& file,
     } else if (entry.name == "processes") {
       config.processes = namesIn(entry.value);
       list = &entry;
-      if (config.processes.empty()) return refuse("names no process");
+      if (config.processes.empty()) return refuse("must name at least one process");
     } else if (entry.name.starts_with(commandKey) && entry.name.size() > commandKey.size()) {
-      std::vector<std::string> words = commandWords(entry.value);
-      if (words.empty()) return refuse("names no program");
+      std::vector<std::string> words = splitCommand(entry.value);
+      if (words.empty()) return refuse("must name a program");
       config.commands[entry.name.substr(commandKey.size())] = std::move(words);
     } else {
       return failure(ErrorCode::ParseError, unknownName("key", entry.name, keys),
@@ -108,14 +108,14 @@ Result<ManagementConfig> managementFromIni(const IniFile& file,
   }
   for (auto name = config.processes.begin(); name != config.processes.end(); ++name) {
     if (std::find(config.processes.begin(), name, *name) != name) {
-      return failure(ErrorCode::ParseError, "'" + *name + "' stands twice among the processes",
+      return failure(ErrorCode::ParseError, "'" + *name + "' is listed twice in \"processes\"",
                      list ? file.place(*list) : file.source);
     }
     if (std::ranges::find(reference, *name) != reference.end() || config.commands.contains(*name))
       continue;
     return failure(ErrorCode::ParseError,
                    "there is no reference process '" + *name +
-                       "'; tell how to start yours: "
+                       "'; give the command of yours: "
                        "command." +
                        *name + " = PROGRAM ARGUMENTS",
                    list ? file.place(*list) : file.source);

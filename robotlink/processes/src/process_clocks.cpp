@@ -27,7 +27,8 @@ const char* whyRealTime(ProcessClock clock) {
 
 bool fallsBehind(const ProcessStatus& program) {
   constexpr double keepsUp = 0.95;
-  return program.foreign && program.achieved > 0.0 && program.achieved < keepsUp * program.speed;
+  return program.isTeamProgram && program.achieved > 0.0 &&
+         program.achieved < keepsUp * program.speed;
 }
 
 /// Before a start.
@@ -40,7 +41,7 @@ void ProcessManager::giveClock(Entry& entry, ChildSpec& spec, Time now) {
   auto clock = ProgramClock::create();
   if (!clock) {
     status.clock = ProcessClock::RealNoLibrary;
-    entry.toldRealTime = false;
+    entry.warnedOfRealTime = false;
     return;
   }
   entry.clock = std::move(*clock);
@@ -53,7 +54,7 @@ void ProcessManager::giveClock(Entry& entry, ChildSpec& spec, Time now) {
 
 /// A program that runs is to keep this speed from now on.
 void ProcessManager::askForSpeed(Entry& entry, Time now) {
-  if (!entry.process.spec.foreign) return;
+  if (!entry.process.spec.isTeamProgram) return;
   ProcessStatus& status = entry.status;
   // The speed that a match reaches is never quite the same.
   constexpr double alike = 0.05;
@@ -67,7 +68,7 @@ void ProcessManager::askForSpeed(Entry& entry, Time now) {
     entry.cpuSeconds = 0.0;  // no second that is not half of this speed
     entry.sampled = now;
   }
-  if (entry.clock || m_speed == 1.0 || std::exchange(entry.toldRealTime, true)) return;
+  if (entry.clock || m_speed == 1.0 || std::exchange(entry.warnedOfRealTime, true)) return;
   addNews(entry, ProcessNewsKind::RealTime, whyRealTime(status.clock));
 }
 
@@ -75,7 +76,7 @@ void ProcessManager::setPaused(bool paused, Time now) {
   if (m_paused == paused) return;
   m_paused = paused;
   bool follows = false;
-  // Their time stands still before they stop, and goes on before they go on.
+  // Their time stops before they are stopped, and continues before they continue.
   for (Entry& entry : m_entries) {
     if (!entry.child || !entry.clock) continue;
     entry.clock->setRate(paused ? 0.0 : m_speed, now);
@@ -85,7 +86,7 @@ void ProcessManager::setPaused(bool paused, Time now) {
   constexpr std::chrono::milliseconds forTimers{5};
   if (paused && follows) std::this_thread::sleep_for(forTimers);
   for (Entry& entry : m_entries) {
-    if (!entry.child || !entry.process.spec.foreign) continue;
+    if (!entry.child || !entry.process.spec.isTeamProgram) continue;
     entry.child->signal(paused ? SIGSTOP : SIGCONT);
     entry.lastSign = entry.stoppedSince = now;
   }
@@ -95,7 +96,7 @@ void ProcessManager::setTime(double matchSeconds, double speed, Time now) {
   m_matchSeconds = matchSeconds;
   const bool faster = std::exchange(m_speed, speed) != speed;
   for (Entry& entry : m_entries) {
-    if (!entry.child || !entry.process.spec.foreign) continue;
+    if (!entry.child || !entry.process.spec.isTeamProgram) continue;
     if (faster) askForSpeed(entry, now);
     if (entry.clock && !m_paused) steer(entry, now);
   }
@@ -138,7 +139,7 @@ void ProcessManager::lookForLibrary(Entry& entry, Time now) {
   if (entry.sawLibrary) return;
   entry.clock.reset();
   status.clock = ProcessClock::RealNotLoaded;
-  entry.toldRealTime = false;
+  entry.warnedOfRealTime = false;
   askForSpeed(entry, now);
 }
 

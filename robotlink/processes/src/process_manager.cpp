@@ -12,7 +12,7 @@
 #include <set>
 #include <thread>
 
-#include <base/duration_words.h>
+#include <base/duration_text.h>
 #include <base/system_reason.h>
 #include <base/try.h>
 #include <robotlink/blackboard/system_v.h>
@@ -38,7 +38,7 @@ Ticks ticks(Seconds seconds) {
 }  // namespace
 
 std::string inSeconds(Seconds seconds) {
-  if (seconds >= std::chrono::minutes(1)) return durationWords(seconds.count());
+  if (seconds >= std::chrono::minutes(1)) return durationText(seconds.count());
   char text[32];
   std::snprintf(text, sizeof text, "%.3g s", seconds.count());
   return text;
@@ -50,7 +50,7 @@ ProcessManager::ProcessManager(std::string robotProgram)
 ProcessManager::~ProcessManager() {
   stopAll();
   if (!m_guard) return;
-  tellGuard(guardWords::done);
+  tellGuard(guardMessages::done);
   // It ends at once; only one that was stopped would keep us.
   const auto last = std::chrono::steady_clock::now() + killPatience;
   while (::waitpid(m_guardPid, nullptr, WNOHANG) == 0 && std::chrono::steady_clock::now() < last) {
@@ -62,13 +62,13 @@ Result<void> ProcessManager::keepGuard() {
   if (m_guard) return {};
   if (m_program.empty()) {
     return failure(ErrorCode::InvalidArgument,
-                   "the robots' processes cannot be started: the path of pitchboard-robot is not "
+                   "cannot start the robots' processes: the path of pitchboard-robot is not "
                    "known; use inline cognition or give the path");
   }
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
     return failure(ErrorCode::SystemError,
-                   "the robots' processes cannot be guarded: " + systemReason(errno));
+                   "cannot start the guard of the robots' processes: " + systemReason(errno));
   }
   UniqueFd ours(ends[0]);
   const UniqueFd its(ends[1]);
@@ -84,7 +84,7 @@ Result<void> ProcessManager::keepGuard() {
 void ProcessManager::guardSegment(const Blackboard& board) {
   if (!m_guard || !board.created()) return;
   if (const auto info = SystemVSegments::info(board.key())) {
-    tellGuard(guardWords::segment(info->key, info->shmid));
+    tellGuard(guardMessages::segment(info->key, info->shmid));
   }
 }
 
@@ -124,7 +124,7 @@ Result<int> ProcessManager::add(const ManagedProcess& process, Blackboard& board
   entry.status.id = m_nextId++;
   entry.status.robot = robot;
   entry.status.name = process.spec.name;
-  entry.status.foreign = process.spec.foreign;
+  entry.status.isTeamProgram = process.spec.isTeamProgram;
   changed();
   if (waits || (process.delay > 0.0 && !isFirst)) return entry.status.id;
   if (auto started = startNow(entry, now); !started) {
@@ -301,7 +301,7 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
   status.started = now;
   status.detail.clear();
   if (again) ++status.restarts;
-  if (m_paused && spec.foreign) entry.child->signal(SIGSTOP);
+  if (m_paused && spec.isTeamProgram) entry.child->signal(SIGSTOP);
   addNews(entry, again ? ProcessNewsKind::Restarted : ProcessNewsKind::Started);
   askForSpeed(entry, now);
   return {};
@@ -311,7 +311,7 @@ void ProcessManager::addNews(const Entry& entry, ProcessNewsKind kind, const std
   m_news.push_back({kind, entry.status.robot, entry.status.name, entry.status.pid, detail});
 }
 
-/// It does not run any more, or could not be started.
+/// Called when a process has ended or could not be started.
 void ProcessManager::ended(Entry& entry, Time now, bool died, const std::string& detail,
                            bool byHand) {
   ProcessStatus& status = entry.status;
@@ -341,8 +341,7 @@ void ProcessManager::planRestart(Entry& entry, Time now, ProcessNews news) {
   if (rule.giveUpAfter > 0 && entry.inARow >= rule.giveUpAfter) {
     status.state = ProcessState::GivenUp;
     m_news.push_back(std::move(news));
-    addNews(entry, ProcessNewsKind::GivenUp,
-            std::to_string(entry.inARow) + " restarts did not help");
+    addNews(entry, ProcessNewsKind::GivenUp, std::to_string(entry.inARow) + " restarts failed");
     return;
   }
   ++entry.inARow;
@@ -359,7 +358,9 @@ void ProcessManager::start(int id, Time now) {
   if (!entry || entry->child) return;
   entry->wait = entry->process.restart.firstWait;
   entry->inARow = 0;
+  const int restarts = entry->status.restarts;
   (void)startNow(*entry, now);
+  entry->status.restarts = restarts;
 }
 
 void ProcessManager::stop(int id) {
@@ -367,7 +368,7 @@ void ProcessManager::stop(int id) {
   if (!entry) return;
   if (entry->child) {
     end({entry});
-    ended(*entry, {}, false, "it was asked to", true);
+    ended(*entry, {}, false, "", true);
   } else {
     entry->status.state = ProcessState::Stopped;
     entry->status.detail.clear();
@@ -378,6 +379,7 @@ void ProcessManager::stop(int id) {
 void ProcessManager::restart(int id, Time now) {
   stop(id);
   start(id, now);
+  if (Entry* entry = find(id)) ++entry->status.restarts;
 }
 
 void ProcessManager::kill(int id) {

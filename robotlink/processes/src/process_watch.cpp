@@ -29,19 +29,19 @@ void ProcessManager::watch(Entry& entry, Time now) {
       showSign(entry, now);
     }
   }
-  if (m_paused && process.spec.foreign) entry.lastSign = entry.stoppedSince = now;
+  if (m_paused && process.spec.isTeamProgram) entry.lastSign = entry.stoppedSince = now;
   if (now - entry.status.started >= process.restart.steadyAfter) {
     entry.wait = process.restart.firstWait;
     entry.inARow = 0;
   }
   // A team's program may block for long before its first cycle.
   const bool listens = (process.watch == Watch::Variable || process.watch == Watch::Sleeps) &&
-                       (entry.everSigned || !process.spec.foreign);
+                       (entry.everSigned || !process.spec.isTeamProgram);
   ProcessStatus& status = entry.status;
-  if (listens && isSilent(entry, now)) {
-    if (status.state == ProcessState::Silent) return;  // it has been told
-    silenced(entry, now, "no sign of life for " + inSeconds(process.silentAfter));
-  } else if (listens && status.state == ProcessState::Silent) {
+  if (listens && isOverdue(entry, now)) {
+    if (status.state == ProcessState::NotResponding) return;  // it has been told
+    reportOverdue(entry, now, "no sign of life for " + inSeconds(process.silentAfter));
+  } else if (listens && status.state == ProcessState::NotResponding) {
     status.state = ProcessState::Running;
     changed();
   }
@@ -55,7 +55,7 @@ void ProcessManager::showSign(Entry& entry, Time now) const {
 
 /// A program that lives in the match's time has match time to show that it lives, but at a high
 /// speed not less of the computer's than it takes to notice it.
-bool ProcessManager::isSilent(const Entry& entry, Time now) const {
+bool ProcessManager::isOverdue(const Entry& entry, Time now) const {
   constexpr Seconds least{1.0};
   const Seconds silentAfter = entry.process.silentAfter;
   if (!entry.clock) return now - entry.lastSign >= silentAfter;
@@ -63,16 +63,16 @@ bool ProcessManager::isSilent(const Entry& entry, Time now) const {
          now - entry.lastSign >= least;
 }
 
-void ProcessManager::silenced(Entry& entry, Time now, const std::string& detail) {
+void ProcessManager::reportOverdue(Entry& entry, Time now, const std::string& detail) {
   ProcessStatus& status = entry.status;
   const bool again =
       entry.process.watch != Watch::Nobody && entry.process.restart.policy != RestartPolicy::Never;
-  if (!again && status.state == ProcessState::Silent) return;
-  ProcessNews news{ProcessNewsKind::Silent, status.robot, status.name, status.pid, detail};
+  if (!again && status.state == ProcessState::NotResponding) return;
+  ProcessNews news{ProcessNewsKind::NotResponding, status.robot, status.name, status.pid, detail};
   status.detail = detail;
   changed();
   if (!again) {
-    status.state = ProcessState::Silent;
+    status.state = ProcessState::NotResponding;
     m_news.push_back(std::move(news));
     return;
   }
@@ -81,17 +81,17 @@ void ProcessManager::silenced(Entry& entry, Time now, const std::string& detail)
   planRestart(entry, now, std::move(news));
 }
 
-void ProcessManager::setSilent(int id, bool silent, Time now) {
+void ProcessManager::setResponding(int id, bool responding, Time now) {
   Entry* entry = find(id);
   if (!entry || !entry->child) return;
   ProcessStatus& status = entry->status;
-  if (silent) {
-    silenced(*entry, now, "no cycle done for " + inSeconds(entry->process.silentAfter));
-  } else if (status.state == ProcessState::Silent) {
+  if (!responding) {
+    reportOverdue(*entry, now, "no cycle done for " + inSeconds(entry->process.silentAfter));
+  } else if (status.state == ProcessState::NotResponding) {
     status.state = ProcessState::Running;
     changed();
   }
-  if (!silent) showSign(*entry, now);
+  if (responding) showSign(*entry, now);
 }
 
 void ProcessManager::sample(Entry& entry, Time now) {
@@ -102,7 +102,7 @@ void ProcessManager::sample(Entry& entry, Time now) {
   const double passed = Seconds(now - entry.sampled).count();
   const double own = ownSeconds(entry, now);
   if (entry.cpuSeconds > 0.0) status.cpu = (use->cpuSeconds - entry.cpuSeconds) / passed;
-  const auto rhythm = status.foreign ? processRhythm(status.pid) : std::nullopt;
+  const auto rhythm = status.isTeamProgram ? processRhythm(status.pid) : std::nullopt;
   if (rhythm) {
     const double ready = rhythm->readySeconds.value_or(use->cpuSeconds);
     if (entry.cpuSeconds > 0.0 && !m_paused) {
@@ -116,7 +116,7 @@ void ProcessManager::sample(Entry& entry, Time now) {
   entry.cpuSeconds = std::max(use->cpuSeconds, 1e-9);
   entry.sampled = now;
   status.memoryBytes = use->memoryBytes;
-  // Of a match that stands still nobody expects any.
+  // No sign of life is expected while the match is paused.
   if (entry.process.watch != Watch::Nobody && !m_paused) {
     status.heartbeatAge = Seconds(now - entry.lastSign).count();
   }
@@ -127,12 +127,12 @@ void ProcessManager::sample(Entry& entry, Time now) {
       entry.process.watch == Watch::Variable || entry.process.watch == Watch::Sleeps;
   if (use->state != 'T' || listens) {
     entry.stoppedSince = now;
-    if (entry.process.watch == Watch::Nobody && status.state == ProcessState::Silent) {
+    if (entry.process.watch == Watch::Nobody && status.state == ProcessState::NotResponding) {
       status.state = ProcessState::Running;
       changed();
     }
   } else if (now - entry.stoppedSince >= entry.process.silentAfter) {
-    silenced(entry, now, "stopped by a signal for " + inSeconds(entry.process.silentAfter));
+    reportOverdue(entry, now, "stopped by a signal for " + inSeconds(entry.process.silentAfter));
   }
 }
 

@@ -78,7 +78,7 @@ Result<IniFile> iniFromText(std::string_view text, std::string_view source) {
     if (line.front() == '[') {
       const std::size_t end = line.find(']');
       if (end == std::string_view::npos) {
-        return failure(ErrorCode::ParseError, "a section's name has no ']'",
+        return failure(ErrorCode::ParseError, "a section name needs a closing ']'",
                        placeOf(source, number));
       }
       section = line.substr(1, end - 1);
@@ -87,9 +87,10 @@ Result<IniFile> iniFromText(std::string_view text, std::string_view source) {
     const std::size_t equals = line.find_first_of("=:");
     if (equals == std::string_view::npos || equals == 0) {
       if (!section.starts_with(ourSections)) continue;
-      return failure(ErrorCode::ParseError,
-                     "'" + std::string(line.substr(0, 40)) + "' has not the form 'name = value'",
-                     placeOf(source, number));
+      return failure(
+          ErrorCode::ParseError,
+          "'" + std::string(line.substr(0, 40)) + "' does not have the form 'name = value'",
+          placeOf(source, number));
     }
     file.entries.push_back({section, lower(trimmed(line.substr(0, equals))),
                             std::string(trimmed(withoutComment(line.substr(equals + 1)))), number});

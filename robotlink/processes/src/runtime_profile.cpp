@@ -60,8 +60,7 @@ class Reader {
     m_profile.title = m_root.text("title", m_profile.name, 200);
     m_profile.description = m_root.text("description", "", 5000);
     for (auto& [name, value] : texts(m_root, "values")) m_profile.values[name] = value;
-    m_profile.hearsReferee =
-        m_root.choice("referee", hearers, "hearer of the referee") == std::size_t{1};
+    m_profile.hearsReferee = m_root.choice("referee", hearers, "value") == std::size_t{1};
     m_profile.cycle = m_root.text("cycle", "", 200);
     m_profile.program = m_root.text("program", "", longestText);
     m_root.require("processes");
@@ -97,7 +96,7 @@ class Reader {
     object.require("name");
     process.name = readShortName(object, "name", "", longestProcessName);
     for (const ProfileProcess& other : m_profile.processes) {
-      if (other.name == process.name) object.fail("name", "stands twice among the processes");
+      if (other.name == process.name) object.fail("name", "is listed twice in \"processes\"");
     }
     process.reference = object.text("reference", "", 32);
     readCommand(object, process);
@@ -143,7 +142,7 @@ class Reader {
                   "needs either \"reference\", a process of pitchboard-robot, or \"command\", a "
                   "list of program and arguments");
     } else if (!process.isReference() && process.command.front().empty()) {
-      object.fail("command", "names no program");
+      object.fail("command", "must name a program");
     }
   }
 
@@ -298,9 +297,10 @@ Result<RuntimeChoice> runtimeChoiceFromText(std::string_view text) {
   while (!rest.empty()) {
     const std::size_t comma = rest.find(',');
     if (!take(rest.substr(0, comma))) {
-      return failure(ErrorCode::ParseError, "\"" + std::string(rest.substr(0, comma)) +
-                                                "\" has not the form name=value; write for example "
-                                                "published-tree:folder=/home/robot");
+      return failure(ErrorCode::ParseError,
+                     "\"" + std::string(rest.substr(0, comma)) +
+                         "\" does not have the form name=value; write for example "
+                         "published-tree:folder=/home/robot");
     }
     if (comma == std::string_view::npos) break;
     rest.remove_prefix(comma + 1);

@@ -185,7 +185,7 @@ Result<std::string> pathOf(const SpawnRequest& request) {
   const std::string path = inPath(program);
   if (path.empty()) {
     return failure(ErrorCode::NotFound, "cannot start '" + program +
-                                            "': there is no such program in the folders of PATH; "
+                                            "': no such program in PATH; "
                                             "write ./ before the name of a file in this folder");
   }
   struct stat status {};
@@ -195,7 +195,7 @@ Result<std::string> pathOf(const SpawnRequest& request) {
   if (!request.directory.empty() &&
       (::stat(request.directory.c_str(), &status) != 0 || !S_ISDIR(status.st_mode))) {
     return failure(ErrorCode::NotFound, "cannot start '" + program + "' in the folder '" +
-                                            request.directory + "': there is no such folder");
+                                            request.directory + "': no such folder");
   }
   return path;
 }

@@ -11,7 +11,7 @@ Result<std::string> teamProgram() {
   const auto path = std::filesystem::read_symlink("/proc/self/exe", error);
   if (!error) return path.string();
   return failure(ErrorCode::SystemError,
-                 "cannot find out where this program is: " + error.message());
+                 "cannot find the path of this program: " + error.message());
 }
 
 std::string besideTeamProgram(const std::string& name) {

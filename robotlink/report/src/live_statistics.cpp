@@ -51,7 +51,7 @@ class Walk {
       const auto found = m_robots.find(event.robot);
       if (found == m_robots.end()) continue;
       RobotSummary::Link& link = *found->second.out.link;
-      if (event.kind == MatchEventKind::RobotOffline) ++link.silences;
+      if (event.kind == MatchEventKind::RobotOffline) ++link.outages;
       if (event.kind == MatchEventKind::Penalised) ++link.penalties;
     }
     for (auto& [id, robot] : m_robots) {
@@ -66,7 +66,7 @@ class Walk {
       if (place < m_last.teams.size()) m_sums.team(s.team).name = m_last.teams[place].name;
       m_sums.add(s);
     }
-    // Both teams of the referee, also the one of which no robot is heard.
+    // Both teams of the referee, even if no robot of one of them was received.
     for (std::size_t i = 0; m_last.referee && i < m_last.referee->teams.size(); ++i) {
       const RefereeTeamView& side = m_last.referee->teams[i];
       const auto colour = teamColorNamed(side.colour);

@@ -130,7 +130,8 @@ std::string robots(const SessionStatistics& s) {
   }
   out +=
       "</tbody></table></div>\n<h2>Processes</h2>\n<p class=\"quiet\">Share of the time in which "
-      "they said that they work.</p>\n<div class=\"scroll\"><table><thead><tr><th class=\"l\">"
+      "each process reported that it was working.</p>\n<div class=\"scroll\"><table><thead><tr><th "
+      "class=\"l\">"
       "Robot</th>";
   for (const std::string_view name : telemetry::processNames)
     out += "<th>" + std::string(name) + "</th>";
@@ -151,8 +152,8 @@ std::string links(const SessionStatistics& s) {
     return {};
   }
   std::string out =
-      "<h2>How they were heard</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"l\">Robot"
-      "</th><th>Heard</th><th>Messages</th><th>Lost</th><th>Silences</th><th>Penalties</th>"
+      "<h2>Connection</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"l\">Robot"
+      "</th><th>Received</th><th>Messages</th><th>Lost</th><th>Outages</th><th>Penalties</th>"
       "<th>Least battery</th></tr></thead><tbody>\n";
   for (const RobotSummary& r : s.robots) {
     if (!r.link) continue;
@@ -161,7 +162,7 @@ std::string links(const SessionStatistics& s) {
         cell(fixed(100 * r.link->received, 1) + " %", r.link->received < lowUptime ? "low" : "") +
         cell(std::to_string(r.link->messages)) +
         cell(r.link->loss ? fixed(100 * *r.link->loss, 1) + " %" : "–") +
-        cell(std::to_string(r.link->silences)) + cell(std::to_string(r.link->penalties)) +
+        cell(std::to_string(r.link->outages)) + cell(std::to_string(r.link->penalties)) +
         cell(r.link->leastVolts ? fixed(*r.link->leastVolts, 1) + " V" : "–") + "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
@@ -196,7 +197,7 @@ std::string charts(const SessionStatistics& s) {
     out +=
         "<h2>Belief error</h2>\n<p class=\"quiet\">Distance between where a robot believed to be "
         "and "
-        "where it was; means. What is larger than the scale is cut off.</p>\n<div "
+        "where it was, averaged. Values beyond the scale are cut off.</p>\n<div "
         "class=\"charts\">\n" +
         errors + "</div>\n";
   }
@@ -230,7 +231,7 @@ std::string events(const ReportContent& c) {
     if (list.size() < mostEvents) list.push_back(&event);
   }
   std::string out = "<h2>Events</h2>\n";
-  out += main.empty() ? "<p class=\"quiet\">Nothing but play.</p>\n" : eventTable(main);
+  out += main.empty() ? "<p class=\"quiet\">No other events.</p>\n" : eventTable(main);
   if (!kicks.empty()) {
     out += "<details><summary>" + std::to_string(kicks.size()) +
            (kicks.size() == 1 ? " kick" : " kicks") + "</summary>\n" + eventTable(kicks) +

@@ -4,7 +4,7 @@
 #include <simcore/world/parameters.h>
 
 #include "game_json.h"
-#include "game_words.h"
+#include "game_names.h"
 
 namespace pitchboard::link {
 namespace {
@@ -40,12 +40,12 @@ class GameReader {
          "by_half",   "timeouts",   "removals",       "set_play",       "shoot_out",
          "drop_in",   "touch",      "ball_still",     "ball_near",      "ball_alone",
          "stopped",   "over"});
-    choose(game, "state", keysOf<sim::PlayState>(), "state of the game", m_out.state);
-    choose(game, "phase", keysOf<sim::GamePhase>(), "phase of the game", m_out.phase);
-    choose(game, "phase_before", keysOf<sim::GamePhase>(), "phase of the game", m_out.phaseBefore);
+    choose(game, "state", keysOf<sim::PlayState>(), "game state", m_out.state);
+    choose(game, "phase", keysOf<sim::GamePhase>(), "game phase", m_out.phase);
+    choose(game, "phase_before", keysOf<sim::GamePhase>(), "game phase", m_out.phaseBefore);
     m_out.half = game.integer("half", 1, 1, 2);
     m_out.clock = time(game, "clock", gameTimeBelowZero);
-    if (const auto use = game.choice("clock_use", clockUseKeys, "use of the clock")) {
+    if (const auto use = game.choice("clock_use", clockUseKeys, "clock use")) {
       m_out.clockUse = static_cast<sim::ClockUse>(*use);
     }
     m_out.stateTime = time(game, "state_time");
@@ -256,7 +256,7 @@ std::optional<sim::GameStart> readGameStart(JsonReport& report, const JsonObject
   }
   for (const std::string_view key : {"score", "clock"}) {
     if (node && root.find(key)) {
-      root.fail(key, "is said in \"game\" when there is one; remove it here");
+      root.fail(key, "belongs inside \"game\" if there is one; move it there");
     }
   }
   GameReader reader(report, scenario);

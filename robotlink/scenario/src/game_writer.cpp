@@ -5,7 +5,7 @@
 #include <robotlink/models/model_json.h>
 
 #include "game_json.h"
-#include "game_words.h"
+#include "game_names.h"
 
 namespace pitchboard::link {
 namespace {

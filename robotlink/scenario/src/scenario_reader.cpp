@@ -242,9 +242,9 @@ class Reader {
       const sim::TeamSettings team{teamColors[colour].color, object.integer("number", 0, 0, 255),
                                    object.text("name", "", longestTeamName)};
       for (const sim::TeamSettings& other : m_scenario.settings.teams) {
-        if (other.colour == team.colour) object.fail("colour", "is that of the other team");
+        if (other.colour == team.colour) object.fail("colour", "is also used by the other team");
         if (team.number != 0 && other.number == team.number) {
-          object.fail("number", "is that of the other team");
+          object.fail("number", "is also used by the other team");
         }
       }
       m_scenario.settings.teams.push_back(team);

@@ -15,7 +15,7 @@ using telemetry::WallTime;
 constexpr std::array snapshotsOnly{SessionStream::LiveState};
 constexpr std::array everything{SessionStream::Telemetry, SessionStream::RefereeRaw,
                                 SessionStream::LiveState};
-constexpr double usualStep = 20.0;   // s; books are kept every 15
+constexpr double usualStep = 20.0;   // s; a snapshot is kept every 15
 constexpr double lateness = 2.0;     // s; what was kept later may have come so much earlier
 constexpr double farAway = 1e9;      // s; no source lasts so long
 constexpr double tolerance = 5e-10;  // s; files keep whole nanoseconds
@@ -103,8 +103,8 @@ bool LiveMoments::goTo(const LiveHistory& history, double time) {
   bool begun = false;
   if (!start) {
     if (time < history.begin()) return false;
-    // They were lost with a part of the file: who is heard from its beginning on is shown, as the
-    // next ones say what the datagrams mean.
+    // They were lost with a part of the file: who is received from its beginning on is shown, as
+    // the next ones say what the datagrams mean.
     history.walk(snapshotsOnly, {until, farAway}, [&](const auto& record) {
       impl.take(record);
       return !impl.known;

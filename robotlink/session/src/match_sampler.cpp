@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <base/angles.h>
 #include <base/lined_json.h>
 #include <robotlink/frame/teams.h>
 #include <telemetry/series/group_order.h>
@@ -95,7 +96,8 @@ bool MatchSampler::sameRobots(const SimulatedMatch& match) const {
       m_sampled, m_snapshot.robots, [&](const SampledRobot& sampled, const auto& robot) {
         const RobotSlot* slot = match.robots().find(robot.identity.id);
         return sampled.identity == robot.identity && slot && sampled.key == slot->board.key() &&
-               sampled.behaviour == slot->behaviour;
+               sampled.behaviour == slot->behaviour && sampled.radius == robot.radius &&
+               sampled.fieldOfView == robot.fieldOfView && sampled.visionRange == robot.visionRange;
       });
 }
 
@@ -130,7 +132,8 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
   for (const sim::RobotSnapshot& robot : m_snapshot.robots) {
     const sim::RobotIdentity& identity = robot.identity;
     const RobotSlot& slot = *match.robots().find(identity.id);
-    SampledRobot sampled{identity, slot.board.key(), slot.behaviour};
+    SampledRobot sampled{identity,     slot.board.key(),  slot.behaviour,
+                         robot.radius, robot.fieldOfView, robot.visionRange};
     telemetry::GroupInfo info{groupName(identity), m_board->columns(), {}};
     info.columns.insert(info.columns.end(), truth.begin(), truth.end());
     info.attributes = {{"robot", std::to_string(identity.id.value)},
@@ -138,7 +141,16 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
                        {"number", std::to_string(identity.number)},
                        {"key", std::to_string(sampled.key)},
                        {"imu180", identity.imuStartsAt180 ? "1" : "0"},
-                       {"behaviour", sampled.behaviour}};
+                       {"behaviour", sampled.behaviour},
+                       {"radius", shortest(robot.radius)},
+                       {"field_of_view", shortest(degreesFromRadians(robot.fieldOfView))},
+                       {"vision_range", shortest(robot.visionRange)}};
+    const sim::RobotModel& model = *match.robots().model(identity.id);
+    for (const auto& [key, volts] : {std::pair("battery_full", model.batteryFull),
+                                     {"battery_low", model.batteryLow},
+                                     {"battery_empty", model.batteryEmpty}}) {
+      info.attributes[key] = shortest(volts);
+    }
     telemetry::setOrder(info, orderOf(keyOf(identity), teams));
     const std::string& team = teams[static_cast<std::size_t>(identity.team) + 1].name;
     if (!team.empty()) info.attributes["team_name"] = team;

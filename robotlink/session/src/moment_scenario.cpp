@@ -62,7 +62,7 @@ class Maker {
     if (sim::validate(m_frame.settings->field)) {
       settings.field = m_frame.settings->field;
     } else {
-      note("The field of this moment cannot be played on; the scenario has another one.");
+      note("The field of this moment cannot be used; the scenario has the default field.");
     }
     const auto models = sim::physicsModels();
     if (std::any_of(models.begin(), models.end(),
@@ -101,14 +101,14 @@ class Maker {
     }
     const std::string name = robot.identity.name();
     if (!robot.poseKnown()) {
-      note(name + " never said where it is; it is left out.");
+      note(name + " never reported its pose, so it is left out.");
       return;
     }
     if (m_frame.truthKnown && believed()) {
       if (robot.belief) {
         out.pose = *robot.belief;
       } else {
-        note(name + " does not know where it is; it stands where it truly was.");
+        note(name + " is not localized, so its true pose is used.");
       }
     }
     if (!robot.behaviour.empty()) out.behaviour = robot.behaviour;
@@ -147,7 +147,7 @@ class Maker {
     }
     if (unknown == 0) return;
     note(name + " sent " + std::to_string(unknown) + (unknown == 1 ? " variable" : " variables") +
-         " that this match's map does not have.");
+         " that the catalog of this match does not have.");
   }
 
   /// Numbers that are free and that a match has.
@@ -182,7 +182,8 @@ class Maker {
     };
     if (shirt < 1 || shirt > sim::highestShirtNumber || shirtTaken(shirt)) {
       for (shirt = 1; shirtTaken(shirt);) ++shirt;
-      note("Two robots were called " + name + "; one is " + robot.identity.name() + " here.");
+      note("Two robots had the name " + name + "; one of them is now " + robot.identity.name() +
+           ".");
     }
   }
 
@@ -190,13 +191,13 @@ class Maker {
     const sim::FieldSpec& field = m_out.scenario.settings.field;
     if (!sim::isFinite(robot.pose)) {
       robot.pose = {{0.0, 0.0}, 0.0};
-      note("Nobody knows where " + name + " was; it stands at the centre mark.");
+      note("The pose of " + name + " is unknown, so it is placed at the centre mark.");
     }
     const Point wanted = robot.pose.position;
     robot.pose.position = sim::insideWalls(field, wanted, radiusOf(robot));
     robot.pose.yaw = std::remainder(robot.pose.yaw, 2 * 3.141592653589793);
     if (robot.pose.position != wanted) {
-      note(name + " stood outside the walls and was moved inside.");
+      note(name + " was outside the walls and was moved inside.");
     }
   }
 
@@ -235,7 +236,7 @@ class Maker {
     for (const std::size_t i : moved) {
       names += (names.empty() ? "" : ", ") + robots[i].identity.name();
     }
-    note("Robots stood in each other and were pushed apart: " + names + '.');
+    note("Overlapping robots were moved apart: " + names + '.');
   }
 
   struct Sighting {
@@ -278,8 +279,8 @@ class Maker {
   void perceiveBall(Point& ball) {
     const std::vector<Sighting> seen = sightings();
     if (seen.empty()) {
-      note(m_frame.ballKnown ? "No robot sees the ball; it lies where it truly was."
-                             : "No robot sees the ball; it lies on the centre mark.");
+      note(m_frame.ballKnown ? "No robot sees the ball, so its true position is used."
+                             : "No robot sees the ball, so it is placed on the centre mark.");
       return;
     }
     // A team that sees another ball than the other does not outvote it.
@@ -288,8 +289,8 @@ class Maker {
     if (agreed != balls.end()) {
       ball = agreed->position;
       if (static_cast<std::size_t>(agreed->agree) == seen.size()) return;
-      note("The robots do not agree where the ball is: " + std::to_string(agreed->agree) +
-           " of the " + std::to_string(seen.size()) + " that see it are believed.");
+      note("The robots disagree about the ball; the estimate of " + std::to_string(agreed->agree) +
+           " of " + std::to_string(seen.size()) + " robots is used.");
       return;
     }
     // Far balls are seen less well.
@@ -297,8 +298,8 @@ class Maker {
         seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.range < b.range; });
     ball = nearest->ball;
     note(seen.size() == 1 ? "Only " + nearest->by + " sees the ball."
-                          : "No two robots agree where the ball is; " + nearest->by +
-                                ", which is nearest to its own, is believed.");
+                          : "No two robots agree about the ball; the estimate of " + nearest->by +
+                                ", the nearest to it, is used.");
   }
 
   void takeGame() {
@@ -326,14 +327,14 @@ class Maker {
     }
     const bool told = std::any_of(scenario.writes.begin(), scenario.writes.end(),
                                   [](const auto& w) { return w.variable == refereeVariable; });
-    // Without a word of the referee robots stand still for ever.
+    // Without orders of a referee the robots would never move.
     if (!told) {
       scenario.writes.insert(scenario.writes.begin(),
                              {{}, refereeVariable, static_cast<double>(refereePlay), 0.0});
     }
   }
 
-  /// The game of the moment to the tick, of the robots that are there.
+  /// Returns the exact game of the moment, for the robots that are left.
   bool takeExactGame() {
     Scenario& scenario = m_out.scenario;
     if (!m_options.base || !m_options.base->game || !scenario.settings.referee) return false;
@@ -364,7 +365,7 @@ class Maker {
     return true;
   }
 
-  /// The referee's numbers of the teams whose robots are there.
+  /// Sets the numbers in the GameController of the teams that have robots.
   void takeTeams() {
     auto& teams = m_out.scenario.settings.teams;
     if (!teams.empty()) return;

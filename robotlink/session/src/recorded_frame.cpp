@@ -24,6 +24,22 @@ std::uint32_t counter(double value) {
   return value >= 0.0 && value <= 4294967295.0 ? static_cast<std::uint32_t>(value) : 0U;
 }
 
+/// Returns an attribute as a number, or `value` if it is missing.
+double numberOr(const telemetry::GroupInfo& info, const char* name, double value) {
+  const std::string_view text = attribute(info, name);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+/// Returns the limits of the robot's model, or the usual ones if the recording has none.
+telemetry::BatteryLimits batteryOf(const telemetry::GroupInfo& info) {
+  sim::RobotModel model;
+  model.batteryFull = numberOr(info, "battery_full", model.batteryFull);
+  model.batteryLow = numberOr(info, "battery_low", model.batteryLow);
+  model.batteryEmpty = numberOr(info, "battery_empty", model.batteryEmpty);
+  return batteryLimitsOf(model);
+}
+
 }  // namespace
 
 FrameSettings backdropOf(const telemetry::SessionReader& session) {
@@ -219,6 +235,10 @@ RobotFrame RecordedFrames::robotOf(std::size_t group, double time, LampMemory& l
   robot.ownName = attribute(info, "name");
   if (!attribute(info, "key").empty()) robot.boardKey = attributeNumber(info, "key");
   robot.behaviour = attribute(info, "behaviour");
+  robot.radius = numberOr(info, "radius", robot.radius);
+  robot.fieldOfView =
+      radiansFromDegrees(numberOr(info, "field_of_view", degreesFromRadians(robot.fieldOfView)));
+  robot.visionRange = numberOr(info, "vision_range", robot.visionRange);
   const bool truth = l.trueX.present() && l.trueY.present();
   if (truth) {
     const double yaw = l.trueYaw.readOr(row, 0.0);
@@ -234,14 +254,9 @@ RobotFrame RecordedFrames::robotOf(std::size_t group, double time, LampMemory& l
                       l.lastUnknown.readInt(row)};
   if (l.isBoard()) {
     // As Live showed it.
-    const auto number = [&info](const char* name, double value) {
-      const std::string_view text = attribute(info, name);
-      std::from_chars(text.data(), text.data() + text.size(), value);
-      return value;
-    };
-    const double rate = number("rate", l.attached ? AttachedBoard().rate : 0.0);
+    const double rate = numberOr(info, "rate", l.attached ? AttachedBoard().rate : 0.0);
     const double timeout =
-        number("timeout", std::max(1.0, 2.0 / std::max(rate, AttachedBoard::slowest)));
+        numberOr(info, "timeout", std::max(1.0, 2.0 / std::max(rate, AttachedBoard::slowest)));
     const double age = std::clamp(time - row.time, 0.0, longestAge);
     robot.link = boardLink(age, rate, age > timeout);
     robot.link->sender.address = l.sent;
@@ -257,7 +272,7 @@ RobotFrame RecordedFrames::robotOf(std::size_t group, double time, LampMemory& l
     return l.advice[variable].present() ? std::optional(l.advice[variable].read(row))
                                         : std::nullopt;
   };
-  buildRobot(reader, advice, frame.settings->field, truth, robot);
+  buildRobot(reader, advice, frame.settings->field, batteryOf(info), truth, robot);
   if (l.isBoard()) {
     robot.action = robot.decided.value_or(0);
     robot.board.names = l.boardNames;

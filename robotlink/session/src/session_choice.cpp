@@ -175,7 +175,7 @@ void chooseRobots(const telemetry::SessionReader& session, telemetry::ExportForm
   for (auto& [stream, json] : opening) (void)choice->keeps(stream, json);
   if (format == telemetry::ExportFormat::Mcap) {
     selection.opening = std::move(opening);
-    // How a robot was heard is a group of its own.
+    // The link of a robot has its own group.
     const std::vector<std::string> chosen = selection.robots;
     for (const telemetry::SessionGroup& group : session.groups()) {
       const auto robot = group.info.attributes.find("link");

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::string_view magic = "PBst";
 // 4: versions 0.8 and 0.9; 5: 0.10 and 0.11, restarts as one value, counts of the rules as whole
-// numbers; 6: goals by half, who came back, rules of 2026.
-constexpr std::uint64_t version = 6, versionOf010 = 5, versionOf08 = 4;
+// numbers; 6: goals by half, who came back, rules of 2026; 7: battery limits of robot models.
+constexpr std::uint64_t version = 7, versionOf014 = 6, versionOf010 = 5, versionOf08 = 4;
 constexpr std::size_t longestText = 256;
 // Physics stays well-behaved within this.
 constexpr double farthest = 1e6;
@@ -41,6 +41,7 @@ class Writer {
       putVarint(m_out, static_cast<std::uint64_t>(value));
     }
   }
+  void label(double value) { this->value(value); }
   template <class T>
   void count(const std::vector<T>& list) {
     putVarint(m_out, list.size());
@@ -69,7 +70,11 @@ class Writer {
 
 class Reader {
  public:
-  explicit Reader(CodecReader& in) : m_in(in) {}
+  /// `hasLabels` is false for states that were saved without them; defaults are used then.
+  Reader(CodecReader& in, bool hasLabels) : m_in(in), m_hasLabels(hasLabels) {}
+  void label(double& value) {
+    if (m_hasLabels) this->value(value);
+  }
   void value(std::string& text) {
     const std::uint64_t size = m_in.varint();
     if (size > longestText) return m_in.fail();
@@ -145,6 +150,7 @@ class Reader {
     return 0;
   }
   CodecReader& m_in;
+  bool m_hasLabels;
 };
 
 /// The referee's rules of form 4: counts were written as other numbers are.
@@ -255,18 +261,18 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
   const std::uint64_t found = in.varint();
   if (in.ok() && found < versionOf08) {
     return failure(ErrorCode::Unsupported,
-                   "this state was saved by an earlier version of Pitchboard (form " +
+                   "this state was saved by an earlier version of Pitchboard (format " +
                        std::to_string(found) + ", this program reads " + std::to_string(version) +
                        "); you can view the recording, but not continue its match exactly");
   }
   if (in.ok() && found > version) {
     return failure(ErrorCode::Unsupported,
-                   "this state was saved by a later version of Pitchboard (form " +
+                   "this state was saved by a later version of Pitchboard (format " +
                        std::to_string(found) + ", this program reads " + std::to_string(version) +
                        "); use that version");
   }
   sim::WorldState state;
-  Reader reader(in);
+  Reader reader(in, found > versionOf014);
   if (found == versionOf08) {
     readState4(state, reader);
   } else if (found == versionOf010) {
@@ -283,7 +289,7 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
                       plausible(state);
   if (!usable) {
     return failure(ErrorCode::ParseError,
-                   "the saved state has impossible numbers (robots or places)");
+                   "the saved state has invalid values (robots or positions)");
   }
   // What only the simulation can judge: field, noise, the physics' own sizes.
   auto simulation = sim::Simulation::create({});

@@ -32,8 +32,7 @@ tl::unexpected<Error> cannotWrite(int reason, const std::string& path) {
       return failure(ErrorCode::SystemError,
                      "The disk is full; free some space or choose another disk.", path);
     case EFBIG:
-      return failure(ErrorCode::SystemError,
-                     "The file has reached the largest size that is allowed here.", path);
+      return failure(ErrorCode::SystemError, "The file has reached the size limit.", path);
     default:
       return failure(ErrorCode::SystemError, "Cannot write the file: " + systemReason(reason) + ".",
                      path);

@@ -94,7 +94,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool key(string_t& name) override {
     Level& level = m_levels.back();
     if (!level.keys.insert(name).second) {
-      m_report.fail(m_position.line, pathTo(name), "is given twice; keep one of them");
+      m_report.fail(m_position.line, pathTo(name), "is given twice; remove one of them");
       return false;
     }
     level.key = std::move(name);

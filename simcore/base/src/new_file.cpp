@@ -64,7 +64,7 @@ void NewFile::cutAt(std::uint64_t size) {
   if (::lseek(m_fd.get(), static_cast<off_t>(size), SEEK_SET) >= 0) m_size = size;
 }
 
-Result<void> NewFile::keepRoom(std::uint64_t bytes) {
+Result<void> NewFile::keepFreeSpace(std::uint64_t bytes) {
   const bool kept = ::fallocate(m_fd.get(), FALLOC_FL_KEEP_SIZE, static_cast<off_t>(m_size),
                                 static_cast<off_t>(bytes)) == 0;
   if (!kept && errno == ENOSPC) return cannotWrite(ENOSPC, m_path);

@@ -63,6 +63,7 @@ class RigidBodyModel final : public PhysicsModel {
     rigid::drawMotion(tick);
     for (std::size_t i = 0; i < robots; ++i) {
       percepts[i] = Percepts{};
+      percepts[i].voltage = simulatedVoltage(world.models[i]);
       rigid::stepControl(tick, i, commands[i], percepts[i]);
     }
     used.collisions.advance(tick);

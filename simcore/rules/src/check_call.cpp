@@ -35,8 +35,8 @@ Allowed checkState(const GameState& game, const RefereeRules& rules, PlayState s
     return false;
   }();
   if (!possible) {
-    return refused("The referee cannot go from " + std::string(wordsOf(from)) + " to " +
-                   std::string(wordsOf(state)) + ".");
+    return refused("The referee cannot go from " + std::string(labelOf(from)) + " to " +
+                   std::string(labelOf(state)) + ".");
   }
   if (state == PlayState::Set && from != PlayState::Ready && shootOutDecided(game, rules)) {
     return refused("The shoot-out is decided.");
@@ -69,8 +69,8 @@ Result<void> checkCall(const GameState& game, const RefereeRules& rules,
   const bool needsRobot = call.kind == CallKind::Penalise || call.kind == CallKind::Pardon ||
                           call.kind == CallKind::Card;
   if (needsRobot && player == nullptr) {
-    return failure(ErrorCode::NotFound, "Robot " + std::to_string(call.robot.value) +
-                                            " plays in neither of the two teams.");
+    return failure(ErrorCode::NotFound,
+                   "Robot " + std::to_string(call.robot.value) + " belongs to neither team.");
   }
   const bool playing = game.state == PlayState::Playing;
   const bool finished = game.state == PlayState::Finished;
@@ -92,13 +92,13 @@ Result<void> checkCall(const GameState& game, const RefereeRules& rules,
       }
       return {};
     case CallKind::NextStep:
-      if (!game.restart.isTold()) return refused("There is no set play to continue.");
+      if (!game.restart.isAnnounced()) return refused("There is no set play to continue.");
       return {};
     case CallKind::DropBall:
       if (!playing) return refused("A drop ball is possible only in PLAYING.");
       return {};
     case CallKind::Penalise:
-      if (call.penalty == PenaltyKind::None) return refused("Choose the reason of the penalty.");
+      if (call.penalty == PenaltyKind::None) return refused("Choose a reason for the penalty.");
       return {};
     case CallKind::Pardon:
       if (player->penalty == PenaltyKind::None) {

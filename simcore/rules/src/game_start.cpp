@@ -36,7 +36,7 @@ Result<void> RefereeTable::start(const GameStart& start) {
     for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
       if (m_world.robots[i].id == id && player(i)) return i;
     }
-    return wrong("Robot " + std::to_string(id.value) + " plays in neither of the two teams.");
+    return wrong("Robot " + std::to_string(id.value) + " belongs to neither team.");
   };
 
   if (start.left && TRY(indexOf(start.left)) != static_cast<int>(g.leftTeam())) swapSides(m_world);

@@ -128,8 +128,7 @@ Result<void> validate(const RefereeRules& rules) {
   check(refereeParameters);
   check(refereeCounts);
   if (!wrong) return {};
-  return failure(ErrorCode::InvalidArgument,
-                 "This value of the referee's rules is out of its range.",
+  return failure(ErrorCode::InvalidArgument, "This value of the rules is out of range.",
                  std::string("referee.") + wrong);
 }
 

@@ -38,7 +38,7 @@ void RefereeTable::judge(const BallSweep& sweep) {
   const PlayState before = m_game.state;
   if (m_rules.goals && judgeLines(sweep)) return;
   if (m_game.state != before || !m_rules.automatic) return;
-  if (!m_game.restart.isTold()) judgeRest();
+  if (!m_game.restart.isAnnounced()) judgeRest();
   if (m_game.state != PlayState::Playing) return;
   judgeRobots();
   if (m_game.state == PlayState::Playing) judgeHalf();
@@ -214,7 +214,7 @@ void RefereeTable::judgeRest() {
     double least = m_rules.localStuckReach * m_rules.localStuckReach;
     for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
       const double d = squared(m_now.robots[i].pose.position, m_now.ball);
-      if (!plays(i) || d > least || isOnItsWayBack(i)) continue;
+      if (!plays(i) || d > least || isReturning(i)) continue;
       least = d;
       nearest = i;
     }
@@ -380,14 +380,14 @@ bool RefereeTable::allStandReady() {
 /// At the whistle: who does not stand where it may begins beside the field.
 void RefereeTable::judgeKickOff() {
   for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
-    if (plays(i) && !isOnItsWayBack(i) && !mayStandThere(i)) {
+    if (plays(i) && !isReturning(i) && !mayStandThere(i)) {
       penalise(i, PenaltyKind::IllegalPosition);
     }
   }
 }
 
 /// Came back from a penalty a short time ago: it may still be where others must not be.
-bool RefereeTable::isOnItsWayBack(std::size_t robot) const {
+bool RefereeTable::isReturning(std::size_t robot) const {
   return m_game.watches[robot].backTicks >= 0;
 }
 
@@ -398,7 +398,7 @@ void RefereeTable::judgeSetPlay() {
   const auto clearBall = [this] {
     for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
       const int team = teamOf(i);
-      if (!plays(i) || team == m_game.restart.team || isOnItsWayBack(i)) continue;
+      if (!plays(i) || team == m_game.restart.team || isReturning(i)) continue;
       const bool keeper =
           player(i)->goalkeeper && -way(team) * m_now.robots[i].pose.position.x >
                                        m_field.halfLength() - std::max(0.5, m_field.goalAreaLength);

@@ -112,7 +112,7 @@ void RefereeTable::putOutside(std::size_t robot) {
 
 void RefereeTable::runPenalties() {
   if (m_game.phase == GamePhase::Timeout) return;
-  const bool stands = m_game.restart.isTold() && m_rules.clockStopsInSetPlays;
+  const bool stands = m_game.restart.isAnnounced() && m_rules.clockStopsInSetPlays;
   const bool runs = m_rules.countsAlways || (m_game.state == PlayState::Playing && !stands) ||
                     m_game.state == PlayState::Ready ||
                     (m_game.state == PlayState::Set && m_conduct.penaltiesCountInSet);

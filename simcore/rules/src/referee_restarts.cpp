@@ -166,7 +166,7 @@ void RefereeTable::inPlay() {
       m_game.state == PlayState::Playing && m_game.hidden > 0) {
     return;  // robots do not know that it has begun
   }
-  const bool told = m_game.restart.isTold();
+  const bool told = m_game.restart.isAnnounced();
   m_game.restart.step = Restart::Step::Free;
   if (!told) return;
   m_game.stopped = false;

@@ -160,7 +160,7 @@ void RefereeTable::beginPhase(GamePhase phase) {
 
 bool RefereeTable::clockRuns() const {
   if (m_game.phase == GamePhase::Timeout) return false;
-  const bool setPlay = m_game.restart.isTold() && m_rules.clockStopsInSetPlays;
+  const bool setPlay = m_game.restart.isAnnounced() && m_rules.clockStopsInSetPlays;
   switch (m_game.state) {
     case PlayState::Playing:
       return !setPlay;
@@ -220,7 +220,7 @@ void RefereeTable::whistle() {
       break;
     }
     case PlayState::Playing:
-      if (m_game.restart.isTold()) {
+      if (m_game.restart.isAnnounced()) {
         judgeSetPlay();
       } else if (m_game.countdown.runs && m_game.countdown.ticks <= 0) {
         m_game.countdown.runs = false;

@@ -88,7 +88,7 @@ class RefereeTable {
   void judgeKickOff();
   void judgeGoalAreas();
   bool isInOwnGoalArea(std::size_t robot) const;
-  bool isOnItsWayBack(std::size_t robot) const;
+  bool isReturning(std::size_t robot) const;
   bool mayStandThere(std::size_t robot);  ///< at a kick-off or a penalty kick
   bool allStandReady();
   void judgeDoubleTouch(std::size_t robot);

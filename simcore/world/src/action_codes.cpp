@@ -3,7 +3,7 @@
 
 namespace pitchboard {
 
-std::string actionWords(int code) {
+std::string actionLabel(int code) {
   const bool known = code >= 0 && code < static_cast<int>(knownActions.size());
   return known ? std::string(knownActions[static_cast<std::size_t>(code)].words)
                : "action " + std::to_string(code);

@@ -12,26 +12,26 @@ std::string_view at(const std::array<std::string_view, N>& words, Enum value) {
 
 }  // namespace
 
-std::string_view wordsOf(PlayState state) {
+std::string_view labelOf(PlayState state) {
   static constexpr std::array<std::string_view, 5> words{"INITIAL", "READY", "SET", "PLAYING",
                                                          "FINISHED"};
   return at(words, state);
 }
 
-std::string_view wordsOf(GamePhase phase) {
+std::string_view labelOf(GamePhase phase) {
   static constexpr std::array<std::string_view, 4> words{"normal time", "penalty shoot-out",
                                                          "overtime", "timeout"};
   return at(words, phase);
 }
 
-std::string_view wordsOf(SetPlay play) {
+std::string_view labelOf(SetPlay play) {
   static constexpr std::array<std::string_view, 7> words{
       "",         "direct free kick", "indirect free kick", "penalty kick",
       "throw-in", "goal kick",        "corner kick"};
   return at(words, play);
 }
 
-std::string_view wordsOf(PenaltyKind penalty) {
+std::string_view labelOf(PenaltyKind penalty) {
   static constexpr std::array<std::string_view, 18> words{"",
                                                           "ball manipulation",
                                                           "pushing",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Holds values against the ranges of the table. Private to the room; any thread.
+// Holds values against the ranges of the table. Private to the module; any thread.
 
 #include <span>
 #include <string>

@@ -2,6 +2,7 @@
 #include <simcore/world/robot_model.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <base/angles.h>
 #include <base/repeatable_math.h>
@@ -58,6 +59,12 @@ double kickSpeed(const RobotModel& model, double radius, int action, const BallA
   if (kick == nullptr || kick->kind != ActionKind::Kick) return 0.0;
   return model.kickLaw == KickLaw::Foot ? footKick(model, *kick, ball)
                                         : publishedKick(radius, kick->kick, ball);
+}
+
+int simulatedVoltage(const RobotModel& model) {
+  constexpr double charge = 17.0 / 18.0;
+  const double volts = model.batteryEmpty + charge * (model.batteryFull - model.batteryEmpty);
+  return static_cast<int>(std::lround(10.0 * volts));
 }
 
 GaitSpeed gaitSpeed(const RobotModel& model, int action, int b) {

@@ -195,9 +195,9 @@ Result<void> McapReader::Impl::unpack(std::string_view bytes, std::uint64_t size
     const std::size_t got =
         ZSTD_decompressDCtx(unpacker, body.data(), body.size(), bytes.data(), bytes.size());
     if (ZSTD_isError(got)) {
-      return wrong(std::string("it cannot be unpacked (") + ZSTD_getErrorName(got) + ")");
+      return wrong(std::string("it cannot be decompressed (") + ZSTD_getErrorName(got) + ")");
     }
-    if (got != size) return wrong("its size is not what it says");
+    if (got != size) return wrong("its size differs from its header");
     return {};
   }
   ZSTD_DCtx_reset(unpacker, ZSTD_reset_session_only);
@@ -210,12 +210,12 @@ Result<void> McapReader::Impl::unpack(std::string_view bytes, std::uint64_t size
     const std::size_t left = ZSTD_decompressStream(unpacker, &out, &in);
     body.resize(at + out.pos);
     if (ZSTD_isError(left)) {
-      return wrong(std::string("it cannot be unpacked (") + ZSTD_getErrorName(left) + ")");
+      return wrong(std::string("it cannot be decompressed (") + ZSTD_getErrorName(left) + ")");
     }
-    if (body.size() > size) return wrong("its size is not what it says");
+    if (body.size() > size) return wrong("its size differs from its header");
     if ((left == 0 || out.pos == 0) && in.pos == in.size) break;
   }
-  if (body.size() != size) return wrong("its size is not what it says");
+  if (body.size() != size) return wrong("its size differs from its header");
   return {};
 }
 
@@ -236,19 +236,20 @@ Result<void> McapReader::Impl::readChunk(const McapChunkInfo& chunk, std::string
   const auto length = in.number<std::uint64_t>();
   if (!in.ok() || op != static_cast<std::uint8_t>(McapOp::Chunk) ||
       length != chunk.length - recordHead) {
-    return wrong("there is no chunk here");
+    return wrong("there is no chunk at this position");
   }
   const auto head = parseChunkHead(look.substr(recordHead), length);
-  if (!head) return wrong("its head is not of its form");
+  if (!head) return wrong("its header is invalid");
   if (head->info.uncompressedSize > options.maxChunkBytes) {
-    return wrong("it says that it unpacks to " + std::to_string(head->info.uncompressedSize) +
-                 " bytes, which is more than is read");
+    return wrong("its uncompressed size of " + std::to_string(head->info.uncompressedSize) +
+                 " bytes is above the limit");
   }
   const bool plain = head->info.compression.empty();
   if (!plain && head->info.compression != "zstd") {
     return tl::unexpected(Error{ErrorCode::Unsupported,
-                                "This part is packed by \"" + head->info.compression.substr(0, 20) +
-                                    "\", which this program does not read.",
+                                "This part uses the compression \"" +
+                                    head->info.compression.substr(0, 20) +
+                                    "\", which is not supported.",
                                 source.name() + " " + atOffset(chunk.offset)});
   }
   if (!source.read(chunk.offset + recordHead + head->recordsAt,
@@ -275,7 +276,7 @@ Result<std::string> McapReader::readAttachment(const McapAttachmentInfo& attachm
         damaged(source, attachment.offset,
                 "The attachment \"" + attachment.name + "\" is damaged: " + why + "."));
   };
-  if (attachment.length > m_impl->options.maxAttachmentBytes) return wrong("it is too long");
+  if (attachment.length > m_impl->options.maxAttachmentBytes) return wrong("it is too large");
   std::string record;
   if (!source.read(attachment.offset, static_cast<std::size_t>(attachment.length), record)) {
     return wrong("it cannot be read");
@@ -287,7 +288,7 @@ Result<std::string> McapReader::readAttachment(const McapAttachmentInfo& attachm
   }
   const std::string_view content = std::string_view(record).substr(recordHead);
   const auto head = parseAttachmentHead(content.substr(0, longestHead), content.size());
-  if (!head) return wrong("its head is not of its form");
+  if (!head) return wrong("its header is invalid");
   const std::size_t covered = head->dataAt + static_cast<std::size_t>(head->info.dataSize);
   const auto crc = RecordReader(content.substr(covered)).number<std::uint32_t>();
   if (crc != 0 && crc != extendedCrc(0, content.substr(0, covered)))

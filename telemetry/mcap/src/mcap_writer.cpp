@@ -68,7 +68,7 @@ struct McapWriter::Impl {
   /// Whole records of the data section.
   Result<void> write(std::string_view records) {
     if (failed) return tl::unexpected(*failed);
-    const auto room = file.keepRoom(records.size() + summary.size() + spareRoom);
+    const auto room = file.keepFreeSpace(records.size() + summary.size() + spareRoom);
     if (!room) return fail(room.error());
     if (auto written = file.write(records); !written) return fail(written.error());
     whole = file.size();
@@ -295,7 +295,7 @@ Result<void> McapWriter::finish() {
   if (!written) {
     impl.file.cutAt(impl.whole);
   } else {
-    impl.file.cutAt(impl.file.size());  // gives back the room that was kept
+    impl.file.cutAt(impl.file.size());  // releases the reserved space
     if (impl.disk) written = impl.disk->finish();
   }
   impl.disk.reset();

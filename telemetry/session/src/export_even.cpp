@@ -32,7 +32,7 @@ EvenRows::EvenRows(const SessionReader& session, const std::vector<SelectedGroup
 
 bool EvenRows::add(const SessionItem& item, const Write& write) {
   take(item);
-  // A group that is silent is not waited for.
+  // A group without new rows is not waited for.
   return writeUntil(readyUntil(item.time), write);
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double longestAnswer = 2.0;     // s; a healthy disk takes milliseconds
 constexpr double littleTime = 15.0 * 60;  // s; enough to make room or to go to another disk
-constexpr std::uint64_t littleRoom = 64'000'000;
+constexpr std::uint64_t littleSpace = 64'000'000;
 
 std::string bytesText(std::uint64_t bytes) {
   char text[32];
@@ -47,8 +47,9 @@ std::optional<double> secondsLeft(const SessionStatus& status) {
 RecordingTrouble troubleOf(const SessionStatus& status) {
   if (status.owedSeconds > longestAnswer) return RecordingTrouble::DiskBehind;
   const auto left = secondsLeft(status);
-  if ((left && *left < littleTime) || (!left && status.freeBytes.value_or(littleRoom) < littleRoom))
-    return RecordingTrouble::LittleRoom;
+  if ((left && *left < littleTime) ||
+      (!left && status.freeBytes.value_or(littleSpace) < littleSpace))
+    return RecordingTrouble::LittleSpace;
   return status.dropped > 0 ? RecordingTrouble::Dropped : RecordingTrouble::None;
 }
 
@@ -65,7 +66,7 @@ std::string troubleText(const SessionStatus& status) {
                     status.owedSeconds);
       return text + missing;
     }
-    case RecordingTrouble::LittleRoom: {
+    case RecordingTrouble::LittleSpace: {
       const auto left = secondsLeft(status);
       const std::string free = bytesText(*status.freeBytes) + " free";
       return (left ? "The disk will be full in " + timeText(*left) + " (" + free + ")"
@@ -80,7 +81,7 @@ std::string troubleText(const SessionStatus& status) {
   return {};
 }
 
-std::string roomText(const SessionStatus& status) {
+std::string freeSpaceText(const SessionStatus& status) {
   if (!status.freeBytes) return {};
   const auto left = secondsLeft(status);
   return left ? "room for " + timeText(*left) : bytesText(*status.freeBytes) + " free";

@@ -59,8 +59,9 @@ void SessionReader::Impl::takeMetadata() {
     described = true;
   }
   if (described && format > sessionFormat) {
-    note("This file is of a newer version (format " + std::to_string(format) +
-         "; this program knows " + std::to_string(sessionFormat) + "): what is known is shown.");
+    note("This file was written by a newer version (format " + std::to_string(format) +
+         "; this program reads " + std::to_string(sessionFormat) +
+         "); parts that are unknown here are not shown.");
   }
 }
 
@@ -71,7 +72,7 @@ void SessionReader::Impl::findStart() {
   if (groups.empty()) {
     note("This file was not recorded by Pitchboard (it says \"" +
          file.contents().library.substr(0, 60) +
-         "\"); only what follows Pitchboard's format is shown.");
+         "\"); only channels in Pitchboard's format are shown.");
   }
   const auto fits = [](std::uint64_t time) {
     return static_cast<std::int64_t>(
@@ -167,7 +168,7 @@ void SessionReader::Impl::takeChannels() {
     note("The channel \"" + channel.topic.substr(0, 80) + "\" (" +
          channel.messageEncoding.substr(0, 20) +
          (schema == file.contents().schemas.end() ? "" : ", " + schema->second.name.substr(0, 80)) +
-         ") is not known here; its " + std::to_string(count) + " messages are left out.");
+         ") is unknown; its " + std::to_string(count) + " messages are left out.");
   }
 }
 

@@ -94,7 +94,7 @@ struct SessionWriter::Impl {
 
   void run();
   void write(std::deque<McapChunk>& chunks, std::deque<Attachment>& files);
-  bool hasRoom(std::unique_lock<std::mutex>& lock, std::size_t bytes);
+  bool hasSpace(std::unique_lock<std::mutex>& lock, std::size_t bytes);
   void fail(const Error& why);
   void closeCurrent();
   bool isEmpty() const { return current.empty() && sparse.empty(); }
@@ -205,7 +205,7 @@ std::uint16_t SessionWriter::addChannel(const McapChannel& channel, const GroupI
 void SessionWriter::append(const McapMessage& message, const RowView* row) {
   Impl& impl = *m_impl;
   std::unique_lock lock(impl.mutex);
-  if (!impl.hasRoom(lock, message.data.size() + 64)) return;
+  if (!impl.hasSpace(lock, message.data.size() + 64)) return;
   const Impl::Copied& copied = impl.copied[message.channel];
   (copied.isSparse ? impl.sparse : impl.current).add(message);
   ++(copied.group == Impl::noGroup ? impl.state.messages : impl.state.rows);
@@ -219,7 +219,7 @@ void SessionWriter::append(GroupId id, const RowView& row) {
   Impl& impl = *m_impl;
   std::unique_lock lock(impl.mutex);
   if (id >= impl.groups.size() || impl.groups[id].channel == 0) return;
-  if (!impl.hasRoom(lock, impl.groups[id].layout.size + 64)) return;
+  if (!impl.hasSpace(lock, impl.groups[id].layout.size + 64)) return;
   Impl::Group& group = impl.groups[id];
   const std::uint64_t publish = session::nanoseconds(impl.info.start, row.time);
   std::uint64_t log = publish + impl.shift;
@@ -255,7 +255,7 @@ void SessionWriter::append(SessionStream stream, const SessionDatagram& datagram
 void SessionWriter::appendJson(SessionStream stream, double time, std::string_view json) {
   Impl& impl = *m_impl;
   std::unique_lock lock(impl.mutex);
-  if (!impl.hasRoom(lock, json.size() + 64)) return;
+  if (!impl.hasSpace(lock, json.size() + 64)) return;
   const auto index = static_cast<std::size_t>(stream);
   Impl::Stream& state = impl.streams[index];
   const bool isSparse = stream == SessionStream::Events || stream == SessionStream::Log;
@@ -277,7 +277,7 @@ void SessionWriter::attach(std::string_view name, std::string_view mediaType,
                            std::string_view data) {
   Impl& impl = *m_impl;
   std::unique_lock lock(impl.mutex);
-  if (!impl.hasRoom(lock, data.size())) return;
+  if (!impl.hasSpace(lock, data.size())) return;
   const std::uint64_t now =
       impl.lastLog > 0 ? impl.lastLog : session::nanoseconds(impl.info.start, 0.0);
   impl.attachments.push_back({now, std::string(name), std::string(mediaType), std::string(data)});
@@ -396,7 +396,7 @@ void SessionWriter::Impl::fail(const Error& why) {
 }
 
 /// Needs the lock; may let go of it while it waits.
-bool SessionWriter::Impl::hasRoom(std::unique_lock<std::mutex>& lock, std::size_t bytes) {
+bool SessionWriter::Impl::hasSpace(std::unique_lock<std::mutex>& lock, std::size_t bytes) {
   if (stop || error) return false;
   // Who waits gets through with what is larger than the queue, too.
   const auto fits = [&] {

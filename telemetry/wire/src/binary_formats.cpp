@@ -10,7 +10,7 @@
 #include <base/angles.h>
 
 #include "message_readers.h"
-#include "profile_words.h"
+#include "profile_names.h"
 
 namespace pitchboard::telemetry {
 namespace {
@@ -26,7 +26,7 @@ std::optional<std::uint64_t> bitsAt(std::string_view bytes, std::size_t at, std:
 }
 
 std::optional<double> numberAt(std::string_view bytes, std::size_t at, WireType type) {
-  const auto bits = bitsAt(bytes, at, static_cast<std::size_t>(profile_words::bytesOf(type)));
+  const auto bits = bitsAt(bytes, at, static_cast<std::size_t>(profile_names::bytesOf(type)));
   if (!bits) return std::nullopt;
   switch (type) {
     case WireType::I8:
@@ -73,7 +73,7 @@ bool readBinary(const Profile& profile, std::string_view bytes, DecodedText& out
     const ProfileField& field = profile.fields[i];
     const auto at = static_cast<std::size_t>(field.at);
     const auto length = static_cast<std::size_t>(
-        field.as == WireType::Text ? field.length : profile_words::bytesOf(field.as));
+        field.as == WireType::Text ? field.length : profile_names::bytesOf(field.as));
     if (bytes.size() < at + length && !field.optional) out.errors.add(TextError::Truncated);
     if (field.as == WireType::Text) {
       if (at < bytes.size()) setWord(field, i, textAt(bytes, at, length), out);

@@ -57,7 +57,7 @@ Result<void> DrawingStore::take(Drawing drawing, double time, int team) {
   };
   const auto known = m_robots.find(robot);
   if (known == m_robots.end() && m_robots.size() == Limits::robots) {
-    return refuse("64 other robots already draw");
+    return refuse("64 robots are already drawing");
   }
   Layers layers = known == m_robots.end() ? Layers() : known->second;
   for (DrawingLayer& layer : drawing.layers) {

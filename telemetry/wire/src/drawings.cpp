@@ -17,12 +17,12 @@ using Limits = DrawingLimits;
 constexpr std::string_view magic = "PBD1 ";
 constexpr std::string_view blanks = " \t\r";
 
-struct ShapeWord {
+struct ShapeName {
   std::string_view word;
   ShapeKind kind;
   std::string_view needs;
 };
-constexpr std::array<ShapeWord, 8> shapeWords{{
+constexpr std::array<ShapeName, 8> shapeNames{{
     {"line", ShapeKind::Line, "x y of at least two points"},
     {"arrow", ShapeKind::Arrow, "x y of at least two points; its head is at the last"},
     {"circle", ShapeKind::Circle, "x, y and the radius"},
@@ -33,11 +33,11 @@ constexpr std::array<ShapeWord, 8> shapeWords{{
     {"text", ShapeKind::Text, "x, y and the text"},
 }};
 
-struct ColourWord {
+struct ColourName {
   std::string_view word;
   std::uint32_t value;
 };
-constexpr std::array<ColourWord, 14> colourWords{{{"white", 0xffffffff},
+constexpr std::array<ColourName, 14> colourNames{{{"white", 0xffffffff},
                                                   {"black", 0xff000000},
                                                   {"grey", 0xff9aa0a6},
                                                   {"gray", 0xff9aa0a6},
@@ -169,8 +169,8 @@ class DrawingReader {
     if (word == "layer" || word == "more") return readLayer(words, word == "more");
     if (word == "colour" || word == "color") return readColour(words);
     if (word == "width") return readWidth(words);
-    const auto shape = std::ranges::find(shapeWords, word, &ShapeWord::word);
-    if (shape == shapeWords.end()) {
+    const auto shape = std::ranges::find(shapeNames, word, &ShapeName::word);
+    if (shape == shapeNames.end()) {
       return refuse(shownWord(word) +
                     " is not one of layer, more, colour, width, line, arrow, circle, disc, "
                     "polygon, area, point, text");
@@ -215,10 +215,10 @@ class DrawingReader {
 
   Result<void> readColour(LineWords& words) {
     const std::string_view word = words.next();
-    const auto known = std::ranges::find(colourWords, word, &ColourWord::word);
+    const auto known = std::ranges::find(colourNames, word, &ColourName::word);
     if (word == "team") {
       m_colour.reset();
-    } else if (known != colourWords.end()) {
+    } else if (known != colourNames.end()) {
       m_colour = known->value;
     } else if (const auto hex = hexColour(word)) {
       m_colour = hex;
@@ -237,7 +237,7 @@ class DrawingReader {
     return {};
   }
 
-  Result<void> readShape(const ShapeWord& what, LineWords& words) {
+  Result<void> readShape(const ShapeName& what, LineWords& words) {
     DrawingLayer& layer = m_drawing.layers.back();
     const auto wrong = [&what] {
       return refuse(std::string(what.word) + " needs " + std::string(what.needs) +
@@ -342,7 +342,7 @@ std::string drawingText(const Drawing& drawing) {
       before.colour = shape.colour;
       before.width = shape.width;
       out += '\n';
-      out += shapeWords[static_cast<std::size_t>(shape.kind)].word;
+      out += shapeNames[static_cast<std::size_t>(shape.kind)].word;
       for (const Point& point : shape.points) {
         append(out, point.x);
         append(out, point.y);

@@ -97,7 +97,7 @@ Result<RefereePacket> decodeState(Bytes bytes) {
     const std::string start = "Referee packet of version " + std::to_string(version) + " with " +
                               std::to_string(bytes.size()) + " bytes: ";
     return failure(ErrorCode::Unsupported, sizes.empty()
-                                               ? start + "this version is not known."
+                                               ? start + "unknown version."
                                                : start + "this version has " + sizes + " bytes.");
   }
   RefereeState state;
@@ -143,7 +143,7 @@ Result<RobotReply> decodeReply(Bytes bytes) {
     return failure(ErrorCode::Unsupported, "A robot's reply to the referee (RGrt) of version " +
                                                std::to_string(reply.version) + " with " +
                                                std::to_string(bytes.size()) +
-                                               " bytes: this version is not known.");
+                                               " bytes: unknown version.");
   }
   return reply;
 }
@@ -158,7 +158,7 @@ const RefereeTeam* RefereeState::team(int number) const {
 
 Result<RefereePacket> decodeReferee(Bytes bytes) {
   if (bytes.size() < 5) {
-    return failure(ErrorCode::ParseError, "A referee's packet has at least 5 bytes, this one " +
+    return failure(ErrorCode::ParseError, "A referee packet has at least 5 bytes, this one " +
                                               std::to_string(bytes.size()) + ".");
   }
   const std::string_view magic(reinterpret_cast<const char*>(bytes.data()), 4);
@@ -177,7 +177,7 @@ Result<RefereePacket> decodeReferee(Bytes bytes) {
   }
   if (magic == "RGTr") return RefereePacket{TrueDataRequest{}};
   return failure(ErrorCode::ParseError,
-                 "Not a referee's packet: it does not begin with RGme, RGTD, RGrt or RGTr.");
+                 "Not a referee packet: it does not begin with RGme, RGTD, RGrt or RGTr.");
 }
 
 Result<RefereePacket> decodeReferee(std::string_view datagram) {

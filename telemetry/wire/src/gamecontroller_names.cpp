@@ -138,7 +138,7 @@ std::string_view gameTypeName(int gameType) {
   return pick(names, gameType, "UNKNOWN");
 }
 
-std::string_view gamePhaseWords(int gamePhase) {
+std::string_view gamePhaseLabel(int gamePhase) {
   static constexpr std::string_view names[] = {"normal", "penalty shoot-out", "overtime",
                                                "timeout"};
   return pick(names, gamePhase, "unknown");
@@ -154,19 +154,19 @@ std::string_view setPlayName(League league, int setPlay) {
                                           : pick(spl, setPlay, "unknown");
 }
 
-std::string_view setPlayWords(League league, int setPlay) {
+std::string_view setPlayLabel(League league, int setPlay) {
   static constexpr int firstOfHl = 4;  // of the secondary state; what is below are phases
   static constexpr std::string_view hl[] = {"direct free kick", "indirect free kick",
                                             "penalty kick",     "corner kick",
                                             "goal kick",        "throw-in"};
   if (league == League::Humanoid) {
-    return setPlay < firstOfHl ? gamePhaseWords(setPlay) : pick(hl, setPlay - firstOfHl, "unknown");
+    return setPlay < firstOfHl ? gamePhaseLabel(setPlay) : pick(hl, setPlay - firstOfHl, "unknown");
   }
   const std::string_view name = setPlayName(league, setPlay);
   return name == "corner" ? "corner kick" : name == "penalty" ? "penalty kick" : name;
 }
 
-std::string_view colourWords(int colour) {
+std::string_view colourLabel(int colour) {
   static constexpr std::string_view names[] = {"blue",  "red",    "yellow", "black", "white",
                                                "green", "orange", "purple", "brown", "gray"};
   return pick(names, colour, "unknown");
@@ -177,7 +177,7 @@ std::string_view penaltyName(const RefereeState& state, int penalty) {
   return code == nullptr ? "UNKNOWN" : code->name;
 }
 
-std::string_view penaltyWords(const RefereeState& state, const RefereePlayer& player) {
+std::string_view penaltyLabel(const RefereeState& state, const RefereePlayer& player) {
   if (player.penalty != 0 && player.red.value_or(0) > 0) return "sent off";
   const Code* code = find(codesOf(state), player.penalty);
   return code == nullptr ? "unknown penalty" : code->words;

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "message_readers.h"
-#include "profile_words.h"
+#include "profile_names.h"
 
 namespace pitchboard::telemetry {
 
@@ -27,7 +27,7 @@ const ProfileField* FieldMap::find(std::string_view key, std::size_t& index) con
 bool FieldSink::extra(std::string_view key, std::size_t& index) {
   if (!m_keepsExtras || key.empty()) return false;
   // As a name: without white space, of bounded length.
-  std::array<char, profile_words::maxNameBytes> name{};
+  std::array<char, profile_names::maxNameBytes> name{};
   const std::size_t length = std::min(key.size(), name.size());
   std::transform(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(length), name.begin(),
                  [](char c) { return c > ' ' && c < 0x7f ? c : '_'; });

@@ -7,7 +7,7 @@
 #include <base/read_file.h>
 #include <resources/resources.h>
 
-#include "profile_words.h"
+#include "profile_names.h"
 
 namespace pitchboard::telemetry {
 namespace {
@@ -27,7 +27,7 @@ std::string_view meaningName(FieldMeaning meaning) {
 }
 
 std::string_view formatName(MessageFormat format) {
-  return profile_words::formats[static_cast<std::size_t>(format)];
+  return profile_names::formats[static_cast<std::size_t>(format)];
 }
 
 std::optional<std::size_t> Profile::indexOf(FieldMeaning meaning) const {
@@ -47,7 +47,7 @@ Result<Profile> loadProfile(const std::string& pathOrName) {
   if (const std::string_view text = resourceText(resource); !text.empty()) {
     return parseProfile(text, resource);
   }
-  const auto text = readFile(pathOrName, profile_words::maxFileBytes, "The profile");
+  const auto text = readFile(pathOrName, profile_names::maxFileBytes, "The profile");
   if (text) return parseProfile(*text, pathOrName);
   if (text.error().code != ErrorCode::NotFound || isPath(pathOrName)) {
     return tl::unexpected(text.error());

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <set>
 
-#include "profile_words.h"
+#include "profile_names.h"
 #include "published_values.h"
 
 namespace pitchboard::telemetry {
 namespace {
 
 bool isWord(std::string_view text) {
-  return !text.empty() && text.size() <= profile_words::maxNameBytes &&
+  return !text.empty() && text.size() <= profile_names::maxNameBytes &&
          std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 0x7f; });
 }
 
@@ -28,11 +28,11 @@ std::string nameProblem(const ProfileField& field, std::set<std::string>& names)
   }
   if (!names.insert(field.name).second)
     return "Two fields are called " + inQuotes(field.name) + ".";
-  if (field.unit.size() > profile_words::maxNameBytes ||
-      field.category.size() > profile_words::maxNameBytes) {
+  if (field.unit.size() > profile_names::maxNameBytes ||
+      field.category.size() > profile_names::maxNameBytes) {
     return "A unit or category has at most 60 characters.";
   }
-  if (field.key.size() > 2 * profile_words::maxNameBytes) {
+  if (field.key.size() > 2 * profile_names::maxNameBytes) {
     return "A key has at most 120 characters.";
   }
   if (field.variable.empty()) return {};
@@ -72,7 +72,7 @@ std::string valueProblem(const Profile& profile, const ProfileField& field) {
            unitsOf(field.meaning) + ".";
   }
   if (profile.format != MessageFormat::Binary) return {};
-  if (field.as == WireType::None) return "A field of a binary message says \"at\" and \"as\".";
+  if (field.as == WireType::None) return "A field of a binary message needs \"at\" and \"as\".";
   if ((field.as == WireType::Text) != (field.type == FieldType::Text)) {
     return "A field of the type text, and no other, is read as text.";
   }
@@ -100,7 +100,7 @@ Result<void> validateAt(const Profile& profile, const std::vector<std::string>& 
     return tl::unexpected(problemOf("A profile has 1 to 100 fields.", whole + ": fields"));
   }
   const bool protobuf = profile.format == MessageFormat::Protobuf;
-  const auto& known = profile_words::messages;
+  const auto& known = profile_names::messages;
   if (protobuf && std::find(known.begin(), known.end(), profile.message) == known.end()) {
     return tl::unexpected(
         problemOf("The message is robocup, nubots, rhoban or utra.", whole + ": message"));
@@ -117,8 +117,8 @@ Result<void> validateAt(const Profile& profile, const std::vector<std::string>& 
   const bool fromMessage = profile.robotFrom.source == RobotFrom::Source::Message;
   if (fromMessage && !used.contains(FieldMeaning::Robot)) {
     return tl::unexpected(
-        problemOf("No field has the meaning \"robot\", so messages could not be told apart; a "
-                  "message without a number says \"robotFrom\".",
+        problemOf("No field has the meaning \"robot\", so robots could not be distinguished; a "
+                  "message without a number needs \"robotFrom\".",
                   whole + ": fields"));
   }
   if (!fromMessage && used.contains(FieldMeaning::Robot)) {

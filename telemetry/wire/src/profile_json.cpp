@@ -8,13 +8,13 @@
 #include <base/lined_json.h>
 
 #include "profile_check.h"
-#include "profile_words.h"
+#include "profile_names.h"
 
 namespace pitchboard::telemetry {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using namespace profile_words;
+using namespace profile_names;
 
 constexpr std::array<std::string_view, 18> fieldKeys{
     "name",   "type",   "unit",   "category", "group", "meaning", "variable", "key",  "scale",
@@ -57,7 +57,7 @@ ProfileField fieldFrom(JsonReport& report, const JsonObject& object) {
   field.unit = object.text("unit", {}, maxFileBytes);
   // Profiles of version 0.1 call it "group".
   field.category = object.text(object.find("category") ? "category" : "group", {}, maxFileBytes);
-  field.meaning = chosen(object, "meaning", meaningWords, "meaning", FieldMeaning::None);
+  field.meaning = chosen(object, "meaning", meaningNames, "meaning", FieldMeaning::None);
   field.variable = object.text("variable", {}, maxFileBytes);
   field.key = object.text("key", {}, maxFileBytes);
   field.scale = object.number("scale", 1.0, anyNumber);

@@ -72,7 +72,7 @@ Json stateJson(const RefereeState& state) {
   }
   if (state.secStateInfo) json["secGameStateInfoHex"] = hex(*state.secStateInfo);
   put(json, "gamePhase", state.gamePhase);
-  if (state.gamePhase) json["gamePhaseName"] = gamePhaseWords(*state.gamePhase);
+  if (state.gamePhase) json["gamePhaseName"] = gamePhaseLabel(*state.gamePhase);
   put(json, "setPlay", state.setPlay);
   if (state.setPlay) json["setPlayName"] = setPlayName(state.league, *state.setPlay);
   put(json, "competitionType", state.competitionType);

@@ -204,7 +204,7 @@ TeamMonitor::Robot* TeamMonitor::findRobot(int team, int number, const Sender& s
     }
   }
   Robot* same = restarted != nullptr ? restarted : moved;
-  // It was heard before its team was known.
+  // It was received before its team was known.
   if (team != 0 && restarted == nullptr) {
     const auto teamless = std::ranges::find_if(m_robots, [&](const Robot& robot) {
       return robot.key.team == 0 && robot.key.number == number &&
@@ -240,14 +240,14 @@ TeamMonitor::Robot* TeamMonitor::findRobot(int team, int number, const Sender& s
   return made;
 }
 
-/// It is not shown any more: a second program, or a robot without a team, that fell silent.
+/// It is not shown any more: a second program, or a robot without a team, that went offline.
 bool TeamMonitor::isGone(const Robot& robot, WallTime time) const {
   const bool hasNoTeam = robot.key.team == 0 && !m_options.teams.empty();
   return (robot.key.sender > 0 || hasNoTeam) && since(time, robot.last) >= m_options.timeout;
 }
 
-/// A second program is the robot of its number once the first one is silent; a little before that
-/// one times out, so that nobody misses a robot that is heard.
+/// A second program is the robot of its number once the first one stops sending; a little before
+/// that one times out, so that a robot that is received is always shown.
 void TeamMonitor::foldAway(WallTime time) {
   std::erase_if(m_robots, [&](const Robot& robot) { return isGone(robot, time); });
   for (std::size_t i = 0; i < m_robots.size(); ++i) {
@@ -429,11 +429,12 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
     if (!process.known) continue;
     out.since = since(now, status.timedOut ? robot.last : process.since);
     if (status.timedOut) continue;
-    out.state = process.filter.working() ? HeartbeatState::Working : HeartbeatState::Silent;
+    out.state = process.filter.working() ? HeartbeatState::Working : HeartbeatState::NotResponding;
   }
-  if (robot.volts) status.battery = batteryAt(*robot.volts, m_options.battery, robot.highestVolts);
+  const BatteryLimits& limits = m_options.batteryOf(robot.key.team);
+  if (robot.volts) status.battery = batteryAt(*robot.volts, limits, robot.highestVolts);
   if (robot.charge) {
-    status.battery = batteryOf(*robot.charge, robot.volts.value_or(0.0), m_options.battery);
+    status.battery = batteryOf(*robot.charge, robot.volts.value_or(0.0), limits);
   }
   status.decoder = robot.decoder;
   status.values = robot.values;

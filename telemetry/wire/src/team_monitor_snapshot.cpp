@@ -9,7 +9,7 @@
 
 #include <telemetry/wire/lenient_json.h>
 
-#include "profile_words.h"
+#include "profile_names.h"
 
 namespace pitchboard::telemetry {
 namespace {
@@ -70,7 +70,7 @@ SequenceStats sequenceFrom(const MonitorJson* json) {
 
 }  // namespace
 
-/// How robots write whose books do not say it: as their team does.
+/// The profile of robots whose saved state names none: that of their team.
 class UsualProfiles {
  public:
   UsualProfiles(const Profile& profile, const MonitorOptions& options)
@@ -205,7 +205,7 @@ struct MonitorSnapshot {
     });
     each(json, "extras", DecodedText::maxExtras, [&](std::size_t, const MonitorJson& key) {
       robot.extras.push_back(key.is_string()
-                                 ? key.get<std::string>().substr(0, profile_words::maxNameBytes)
+                                 ? key.get<std::string>().substr(0, profile_names::maxNameBytes)
                                  : std::string());
     });
     robot.decoder = usual.decoderOf(robot.key.team);

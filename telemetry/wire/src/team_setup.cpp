@@ -22,8 +22,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t mostSetupBytes = 256 * 1024, longestText = 60, mostSenders = 64;
 constexpr int highestTeam = 65535;
 constexpr std::array<std::string_view, 2> directions{"right", "left"};
-constexpr std::array<std::string_view, 8> setupKeys{"name",    "number",  "colour",  "ports",
-                                                    "senders", "profile", "attacks", "robots"};
+constexpr std::array<std::string_view, 9> setupKeys{
+    "name", "number", "colour", "ports", "senders", "profile", "model", "attacks", "robots"};
 
 /// Those of the GameController's colours in which robots are drawn.
 constexpr std::array<std::string_view, 5> drawnColours{"blue", "red", "black", "orange", "yellow"};
@@ -45,7 +45,8 @@ void readPorts(const JsonObject& top, TeamSetup& setup) {
     setup.firstPort = portAt(0);
     setup.lastPort = portAt(1);
   } else {
-    top.fail("ports", "is one port, or the first and the last of at most 64, each from 1 to 65535");
+    top.fail("ports",
+             "must be one port, or the first and the last of at most 64, each from 1 to 65535");
   }
 }
 
@@ -74,7 +75,7 @@ void readRobots(JsonReport& report, const JsonObject& top, TeamSetup& setup) {
     const auto [stop, error] = std::from_chars(key.data(), key.data() + key.size(), number);
     if (error != std::errc{} || stop != key.data() + key.size() || number < 1 ||
         number > mostNumber) {
-      return robots.fail(key, "the number of a robot is from 1 to 999");
+      return robots.fail(key, "a robot number must be 1 to 999");
     }
     setup.robots[number] = robots.text(key, {}, longestText);
   }
@@ -98,6 +99,7 @@ TeamSetup readSetup(JsonReport& report, const JsonObject& top) {
   setup.attacksLeft = top.choice("attacks", directions, "direction").value_or(0) == 1;
   readRobots(report, top, setup);
   setup.profileName = top.text("profile", setup.profileName, 4096);
+  setup.model = top.text("model", {}, 4096);
   return setup;
 }
 
@@ -169,6 +171,7 @@ std::string teamSetupText(const TeamSetup& setup) {
   if (setup.firstPort < setup.lastPort) json["ports"] = {setup.firstPort, setup.lastPort};
   if (!setup.senders.empty()) json["senders"] = setup.senders;
   json["profile"] = setup.profileName;
+  if (!setup.model.empty()) json["model"] = setup.model;
   if (setup.attacksLeft) json["attacks"] = directions[1];
   for (const auto& [number, name] : setup.robots) json["robots"][std::to_string(number)] = name;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -35,7 +35,7 @@ constexpr std::array<Text, textErrorCount> texts{{
 std::string_view errorName(TextError error) {
   return texts[static_cast<std::size_t>(error)].name;
 }
-std::string_view errorWords(TextError error) {
+std::string_view errorText(TextError error) {
   return texts[static_cast<std::size_t>(error)].words;
 }
 

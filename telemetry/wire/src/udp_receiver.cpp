@@ -164,7 +164,7 @@ Result<std::unique_ptr<UdpReceiver>> UdpReceiver::start(ReceiverOptions options,
   auto impl = std::make_unique<Impl>(std::move(options), std::move(onReady));
   if (impl->poll.get() < 0 || impl->wake.get() < 0 || !impl->watch(impl->wake.get(), stopEvent)) {
     return failure(ErrorCode::SystemError,
-                   "The network cannot be watched: " + systemReason(errno) + ".");
+                   "Cannot wait for data from the network: " + systemReason(errno) + ".");
   }
   // Bound before the thread starts, so that whoever started it may send at once.
   impl->bindMissing();

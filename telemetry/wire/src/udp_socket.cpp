@@ -16,14 +16,14 @@ WallTime wallTime(const timespec& time) {
 }
 
 void setOption(int descriptor, int option, int value) {
-  // Each of these is a wish; without it less is known about the datagrams.
+  // Each of these options may fail; then less is known about the datagrams.
   (void)setsockopt(descriptor, SOL_SOCKET, option, &value, sizeof value);
 }
 
 std::string reason(int error) {
   switch (error) {
     case EADDRINUSE:
-      return "another program uses it and does not share it";
+      return "another program is using it";
     case EADDRNOTAVAIL:
       return "no network interface of this computer has that address";
     case EACCES:

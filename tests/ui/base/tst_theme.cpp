@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/base/scoreboard_state.h>
+#include <QComboBox>
 #include <QPainter>
+#include <QStandardItemModel>
 #include <QStyleOptionButton>
 #include <QtTest>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <ui/base/elided_words.h>
 #include <ui/base/quick_painting.h>
 #include <ui/base/robot_words.h>
+#include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 
 namespace tst_theme {
@@ -273,6 +276,42 @@ class TestTheme : public QObject {
         QVERIFY2(best >= 3.0, qPrintable(QString::number(best)));
       }
     }
+  }
+
+  void cellsAndBoxesKeepTheirNumbers() {
+    setTheme(*qApp, ThemeChoice::Dark);
+    const QString text = QStringLiteral("D silent 4 min 20 s");
+    const auto drawn = [](QWidget& widget, int wide) {
+      widget.ensurePolished();
+      widget.resize(wide, 24);
+      return widget.grab().toImage();
+    };
+    const int wide = QFontMetrics(qApp->font()).horizontalAdvance(text);
+    const auto cell = [&](const QString& shown) {
+      QStandardItemModel model(1, 1);
+      model.setData(model.index(0, 0), shown);
+      QTableView table;
+      styleTable(&table);
+      table.horizontalHeader()->hide();
+      table.setModel(&model);
+      return drawn(table, wide - 16);
+    };
+    const auto box = [&](const QString& shown) {
+      QComboBox combo;
+      combo.addItem(shown);
+      return drawn(combo, wide + 10);
+    };
+    // What does not fit looks like a shorter text that ends in the whole number.
+    const auto endsInTheNumber = [&](const auto& picture) {
+      for (double fits = wide - 1.0; fits > 0.0; fits -= 1.0) {
+        const QString shorter = elidedWords(QFontMetricsF(qApp->font()), text, fits);
+        if (!shorter.endsWith(QStringLiteral("4 min 20 s"))) return false;
+        if (picture(text) == picture(shorter)) return true;
+      }
+      return false;
+    };
+    QVERIFY(endsInTheNumber(cell));
+    QVERIFY(endsInTheNumber(box));
   }
 
   void aPastMomentIsNotPausedAndTheClockEndsAtZero() {

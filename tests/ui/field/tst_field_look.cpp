@@ -261,6 +261,31 @@ class TestFieldLook : public QObject {
     QVERIFY(!taken.intersects(QRectF(name - QPointF(9, 4.5), QSizeF(18, 9))));
   }
 
+  void robotsSideBySideShareAWord() {
+    // Four who are penalised stand at the touch line, and another one far from them.
+    std::vector<NamedRobot> all;
+    for (const double x : {0.0, 36.0, 72.0, 108.0, 400.0}) {
+      const int number = static_cast<int>(all.size()) + 1;
+      all.push_back({blue(number), {x, 0}, 12.0, {}, {70.0, 15.0}, "penalised"});
+    }
+    const QRectF area(-100, -300, 700, 340);
+    std::map<RobotKey, int> before;
+    const auto placed = placeWords(all, area, before);
+    QCOMPARE(placed.size(), std::size_t{2});
+    QCOMPARE(placed[0].id, blue(1));
+    QCOMPARE(placed[0].centre.x(), 54.0);
+    QCOMPARE(placed[1].id, blue(5));
+    const QRectF box(placed[0].centre - QPointF(35, 7.5), QSizeF(70, 15));
+    QVERIFY(area.contains(box));
+    for (const NamedRobot& robot : all) {
+      QVERIFY(!box.intersects(QRectF(robot.at - QPointF(12, 12), QSizeF(24, 24))));
+    }
+    // What differs is said of each.
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].said = QString("timeout %1 s").arg(i);
+    before.clear();
+    QCOMPARE(placeWords(all, area, before).size(), all.size());
+  }
+
   void aNumberThatCanBeReadNeedsNoName() {
     std::map<RobotKey, int> before;
     const std::vector<NamedRobot> robots{{blue(1), {0, 0}, 10.0, {18.0, 9.0}},

@@ -393,7 +393,7 @@ class TestPlots : public QObject {
       QCOMPARE(stretch.value, double(i % 3));
       QVERIFY(!stretch.mixed);
     }
-    QCOMPARE(lane->curves()[0].codeText(1), QString::fromStdString(actionWords(1)));
+    QCOMPARE(lane->curves()[0].codeText(1), QString::fromStdString(actionLabel(1)));
     QCOMPARE(lane->curves()[0].codeText(99), QStringLiteral("99"));
     // Far out the changes are too close to be told apart, which is said.
     s.time.setRange({-5000.0, 5000.0});

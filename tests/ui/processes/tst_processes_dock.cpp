@@ -161,6 +161,7 @@ class TestProcessesDock : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
     const pid_t second = process("decision").pid;
     QVERIFY(second != first);
+    QCOMPARE(process("decision").restarts, 0);
 
     choose("decision", QStringLiteral("Restart decision of B1"));
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && process("decision").pid != second, 30'000);
@@ -302,7 +303,7 @@ class TestProcessesDock : public QObject {
     QVERIFY2(after < 0.5, qPrintable(QString::number(after)));
     QVERIFY(runs("localization"));
     QCOMPARE(events(link::MatchEventKind::ProcessRestarted), 0);
-    QCOMPARE(events(link::MatchEventKind::ProcessSilent), 0);
+    QCOMPARE(events(link::MatchEventKind::ProcessNotResponding), 0);
   }
 
   // A blackboard that an earlier run left: told by its key, removed when the user says so.

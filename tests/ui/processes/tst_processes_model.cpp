@@ -52,6 +52,13 @@ class TestProcessesModel : public QObject {
     QCOMPARE(text(0, ProcessesModel::Pid), QStringLiteral("4001"));
     QCOMPARE(text(0, ProcessesModel::Uptime), QStringLiteral("2 min 5 s"));
     QCOMPARE(text(0, ProcessesModel::Heartbeat), QString());
+    // Numbers stand at the right, beneath their titles.
+    for (int column = 0; column < ProcessesModel::columns; ++column) {
+      const QVariant title = model.headerData(column, Qt::Horizontal, Qt::TextAlignmentRole);
+      QCOMPARE(model.index(0, column).data(Qt::TextAlignmentRole), title);
+      const bool number = column >= ProcessesModel::Pid && column <= ProcessesModel::Heartbeat;
+      QCOMPARE(title.toInt() == (Qt::AlignRight | Qt::AlignVCenter), number);
+    }
     all[0].state = link::ProcessState::Restarting;
     all[0].pid = 0;
     all[0].detail = "exit code 2";

@@ -96,7 +96,14 @@ class TestRefereeModel : public QObject {
     model.setCompact(true);
     model.update(view().teams[0], {});
     QCOMPARE(cell(0, RefereeModel::Player), QStringLiteral("1"));
-    QCOMPARE(cell(1, RefereeModel::State), QStringLiteral("pushing · yellow"));
+    QCOMPARE(cell(1, RefereeModel::State), QStringLiteral("pushing 20 s · yellow"));
+    // In few words, so that the time fits; the tooltip has all.
+    link::RefereeTeamView other = view().teams[0];
+    other.players[0].penalty = "pickup or incapable";
+    model.update(other, {});
+    QCOMPARE(cell(1, RefereeModel::State), QStringLiteral("pickup 20 s · yellow"));
+    QCOMPARE(model.index(1, RefereeModel::State).data(Qt::ToolTipRole).toString(),
+             QStringLiteral("pickup or incapable · yellow"));
     model.update({}, {});
     QCOMPARE(model.rowCount(), 0);
   }

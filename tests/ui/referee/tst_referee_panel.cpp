@@ -272,8 +272,7 @@ class TestRefereePanel : public QObject {
     QTRY_COMPARE(desk.state(), QString("INITIAL"));
     desk.choose(1);
     desk.press("Penalise");
-    QTRY_COMPARE(desk.says(1), QString("pickup or incapable"));
-    QTRY_COMPARE(desk.says(1, RefereeModel::Left), QString("30 s"));
+    QTRY_COMPARE(desk.says(1), QString("pickup 30 s"));
     QCOMPARE(scoreboardOf(desk.frame()).penalties, QString("B2 30"));
     QTRY_COMPARE(desk.undo()->count(), 1);
     desk.undo()->undo();

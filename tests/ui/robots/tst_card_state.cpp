@@ -68,11 +68,20 @@ class TestCardState : public QObject {
   void aProcessThatStopsIsSilentAndSaysSinceWhen() {
     CardTracker tracker;
     link::MatchFrame frame = frameOf(1);
-    frame.robots[0].lamps[3] = {LampState::Silent, 0.0, std::chrono::milliseconds(8900)};
+    frame.robots[0].lamps[3] = {LampState::NotResponding, 0.0, std::chrono::milliseconds(8900)};
     const auto cards = tracker.update(frame, 0);
-    QCOMPARE(cards[0].lamps[3].state, LampState::Silent);
+    QCOMPARE(cards[0].lamps[3].state, LampState::NotResponding);
     QCOMPARE(cards[0].tag, QStringLiteral("D silent 8 s"));
     QCOMPARE(cards[0].tagKind, TagKind::Error);
+    // Nobody wonders for how long what somebody has stopped is silent.
+    link::ProcessSummary decision;
+    decision.name = "decision";
+    decision.state = link::ProcessState::Stopped;
+    frame.robots[0].processList =
+        std::make_shared<const std::vector<link::ProcessSummary>>(1, decision);
+    const CardState stopped = tracker.update(frame, 100)[0];
+    QCOMPARE(stopped.tag, QStringLiteral("D stopped"));
+    QCOMPARE(stopped.tagKind, TagKind::Warning);
   }
 
   void aPenaltyIsSaidInTheSameWordsEverywhere() {
@@ -89,7 +98,7 @@ class TestCardState : public QObject {
     link::ProcessSummary process;
     process.name = "decision";
     process.state = link::ProcessState::Running;
-    process.foreign = true;
+    process.isTeamProgram = true;
     process.whyRealTime =
         "the clock of the match cannot be loaded into it (static or setuid program)";
     for (const double speed : {8.0, 1.0, 0.1}) {
@@ -112,7 +121,7 @@ class TestCardState : public QObject {
     link::ProcessSummary process;
     process.name = "decision";
     process.state = link::ProcessState::Running;
-    process.foreign = true;
+    process.isTeamProgram = true;
     process.whyRealTime = link::whyRealTime(link::ProcessClock::Real);
     for (const double speed : {8.0, 1.0, 0.1}) {
       process.speed = speed;
@@ -128,7 +137,7 @@ class TestCardState : public QObject {
     link::ProcessSummary process;
     process.name = "decision";
     process.state = link::ProcessState::Running;
-    process.foreign = true;
+    process.isTeamProgram = true;
     process.speed = 8.0;
     process.achieved = 3.1;
     process.missedCycles = 12;
@@ -172,7 +181,7 @@ class TestCardState : public QObject {
   void statesLookDifferent() {
     CardState base = CardTracker().update(frameOf(1), 0)[0];
     CardState silent = base;
-    silent.lamps[3] = {LampState::Silent, 8};
+    silent.lamps[3] = {LampState::NotResponding, 8};
     CardState low = base;
     low.battery = telemetry::batteryAt(15.1, telemetry::usualBattery);
     CardState tagged = base;

@@ -97,7 +97,7 @@ class TestRuntimeMenu : public QObject {
                      [&errors](const QString& sentence) { errors << sentence; });
     controller.open(link::loadScenario("match-3v3").value());
     QTRY_VERIFY_WITH_TIMEOUT(decisionOf(controller, 1).pid > 0, 30'000);
-    QVERIFY(!decisionOf(controller, 1).foreign);
+    QVERIFY(!decisionOf(controller, 1).isTeamProgram);
 
     // The menu opens the dialog and waits for it.
     bool typed = false;
@@ -122,8 +122,8 @@ class TestRuntimeMenu : public QObject {
       const link::ProcessSummary now = decisionOf(controller, 1);
       const std::string wanted =
           (words + QLatin1Char(' ') + QString::number(m_base + 100)).toStdString();
-      return now.foreign && now.state == link::ProcessState::Running && !now.lastLines.empty() &&
-             now.lastLines.back() == wanted;
+      return now.isTeamProgram && now.state == link::ProcessState::Running &&
+             !now.lastLines.empty() && now.lastLines.back() == wanted;
     };
     QTRY_VERIFY_WITH_TIMEOUT(says(QStringLiteral("first")), 30'000);
     // It is watched: what runs beside it is ours and stays, planning is not.

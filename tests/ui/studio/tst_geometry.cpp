@@ -12,6 +12,8 @@
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
+#include <ui/sources/match_edits.h>
+#include <ui/sources/referee_calls.h>
 #include <ui/sources/session_recording.h>
 
 #include "field_scene.h"
@@ -68,6 +70,53 @@ class TestGeometry : public QObject {
     const double radius = scene->radius(s.controller.frame()->robots[0].key);
     const double wide = 2 * scene->style().drawRadius(radius) * canvas->transform().m11();
     QVERIFY2(wide >= scaled(canvas, 18) - 0.5, qPrintable(QString::number(wide)));
+  }
+
+  void robotsKeepTheirSizeInThePast() {
+    Studio s({1280, 800});
+    s.controller.open(link::loadScenario("kick-off").value(), true);
+    s.controller.runTo(60);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 60);
+    const sim::RobotSnapshot now = s.controller.frame()->robots[0];
+    const RobotKey first = s.controller.frame()->robots[0].key;
+    const auto* canvas = s.window.field()->findChild<QGraphicsView*>();
+    const auto* scene = static_cast<FieldScene*>(canvas->scene());
+    QVERIFY(now.radius > 0.0);  // its model's, not the field's
+    QTRY_COMPARE(scene->radius(first), now.radius);
+    s.timeline()->seek(0.5);
+    QTRY_COMPARE(scene->frame()->origin, link::FrameOrigin::Recorded);
+    const link::RobotFrame* past = scene->frame()->robot(first);
+    QCOMPARE(scene->radius(first), now.radius);
+    QVERIFY(std::abs(past->fieldOfView - now.fieldOfView) < 1e-9);
+    QCOMPARE(past->visionRange, now.visionRange);
+  }
+
+  void thePenaltyStripHidesNobody() {
+    Studio s({960, 600});
+    s.controller.open(link::loadScenario("kick-off").value(), true);
+    s.controller.runTo(60);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 60);
+    std::vector<RobotId> all;
+    for (const auto& robot : s.controller.frame()->robots) all.push_back(robot.slot());
+    callReferee(s.controller.edits(),
+                {.kind = sim::CallKind::Penalise, .penalty = sim::PenaltyKind::Pickup}, all,
+                QStringLiteral("penalise"));
+    // They are taken to the touch line.
+    s.controller.runTo(240);
+    QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t{240});
+    s.timeline()->seek(3.0);
+    const auto* strip = s.find<QLabel>("penaltyStrip");
+    const auto* past = s.find<QLabel>("lookingBack");
+    QTRY_VERIFY(strip->isVisible() && past->isVisible());
+    const QRect box = strip->geometry();
+    QVERIFY2(!s.window.field()->hasRobotIn(box), qPrintable(strip->text()));
+    QVERIFY(!box.intersects(past->geometry()));
+    // Every number is inside, in two lines if need be.
+    const QRect text =
+        strip->fontMetrics().boundingRect(QRect(0, 0, box.width() - 8, 1000),
+                                          strip->wordWrap() ? Qt::TextWordWrap : 0, strip->text());
+    QVERIFY2(text.width() <= box.width() && text.height() <= box.height(),
+             qPrintable(strip->text()));
   }
 
   void theRoomFollowsTheWindow() {

@@ -100,7 +100,7 @@ class TestVariablesDock : public QObject {
     QCOMPARE(bench.text(ballDistance, VariablesModel::Unit), QStringLiteral("cm"));
     QCOMPARE(bench.text(ballDistance, VariablesModel::Rate), QStringLiteral("−2.0"));
     QCOMPARE(bench.text(action, VariablesModel::Value), QStringLiteral("1"));
-    QCOMPARE(bench.text(action, VariablesModel::Unit), QString::fromStdString(actionWords(1)));
+    QCOMPARE(bench.text(action, VariablesModel::Unit), QString::fromStdString(actionLabel(1)));
     QCOMPARE(bench.text(action, VariablesModel::Age), QStringLiteral("1.0 s"));
     QTRY_COMPARE(bench.text(QStringLiteral("B2/VISION_LOST"), VariablesModel::Value),
                  QStringLiteral("1"));

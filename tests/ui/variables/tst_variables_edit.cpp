@@ -49,7 +49,7 @@ class TestVariablesEdit : public QObject {
     QVERIFY(bench.view->isEditing());
   }
 
-  void aSilentRobotIsHistoryFromItsNameOn() {
+  void anOfflineRobotIsGreyFromItsNameOn() {
     Bench bench;
     auto store = twoRobots();
     bench.hand.take(store, SourceKind::Live);

@@ -44,6 +44,8 @@ std::unique_ptr<Beat::Part> Beat::add(QWidget* seen, Milliseconds least, std::fu
   part->m_always = seen == nullptr;
   part->m_least = least;
   part->m_most = most;
+  // The first call is due at once; the clock itself may have begun a minute ago, with the computer.
+  part->m_called = Clock::now() - std::max(least, most);
   part->m_call = std::move(call);
   m_parts.push_back(part.get());
   if (seen != nullptr) seen->installEventFilter(this);

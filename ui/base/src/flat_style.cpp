@@ -7,6 +7,7 @@
 #include <QTabBar>
 #include <algorithm>
 
+#include <ui/base/elided_words.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -165,6 +166,21 @@ void FlatStyle::drawComplexControl(ComplexControl control, const QStyleOptionCom
   QProxyStyle::drawComplexControl(control, option, painter, widget);
 }
 
+// Fusion cuts off a text that does not fit in the middle of a letter.
+void FlatStyle::drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
+                            const QWidget* widget) const {
+  const auto* combo = qstyleoption_cast<const QStyleOptionComboBox*>(option);
+  if (element != CE_ComboBoxLabel || combo == nullptr || combo->editable) {
+    QProxyStyle::drawControl(element, option, painter, widget);
+    return;
+  }
+  QStyleOptionComboBox shown = *combo;
+  int room = subControlRect(CC_ComboBox, combo, SC_ComboBoxEditField, widget).width();
+  if (!combo->currentIcon.isNull()) room -= combo->iconSize.width() + textGap();
+  shown.currentText = elidedWords(QFontMetricsF(painter->font()), combo->currentText, room);
+  QProxyStyle::drawControl(element, &shown, painter, widget);
+}
+
 // A word says what a dialog's button does; a coloured tick beside it says it twice.
 int FlatStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                          QStyleHintReturn* more) const {
@@ -205,6 +221,9 @@ QSize FlatStyle::sizeFromContents(ContentsType type, const QStyleOption* option,
   QSize size = QProxyStyle::sizeFromContents(type, option, contents, widget);
   if (type == CT_ComboBox) {
     size.setWidth(qMax(size.width(), contents.width() + textGap() + arrowRoom() + 2));
+  }
+  if (type == CT_PushButton) {
+    size.setWidth(qMax(size.width(), contents.width() + 3 * textGap()));
   }
   return size;
 }

@@ -68,7 +68,7 @@ NoticeBar::NoticeBar(QWidget* parent)
   m_row->setSpacing(scaled(this, 8));
   m_side->setSpacing(scaled(this, 8));
   m_buttons->setSpacing(scaled(this, 4));
-  m_row->addWidget(m_text, 1);
+  m_row->addWidget(m_text, 1, Qt::AlignVCenter);
   m_row->addLayout(m_side);
   m_side->addStretch(1);
   m_side->addWidget(m_more);

@@ -27,6 +27,11 @@ QString teamOf(const link::RefereeView& view, int number) {
 
 }  // namespace
 
+QString penaltyTag(const std::string& penalty, int secondsLeft) {
+  const QString words = QString::fromStdString(penalty).section(QStringLiteral(" or "), 0, 0);
+  return secondsLeft > 0 ? QStringLiteral("%1 %2").arg(words, durationText(secondsLeft)) : words;
+}
+
 QString refereeClockText(int seconds) {
   return (seconds < 0 ? QString(QChar(0x2212)) : QString()) + clockText(std::abs(seconds));
 }

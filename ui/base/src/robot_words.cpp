@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <base/duration_words.h>
+#include <base/duration_text.h>
 #include <robotlink/frame/teams.h>
 #include <simcore/world/action_codes.h>
 #include <telemetry/wire/meanings.h>
@@ -32,7 +32,7 @@ bool isVariable(const QString& saved, const QString& variable) {
 }
 
 QString actionText(int code) {
-  return QString::fromStdString(actionWords(code));
+  return QString::fromStdString(actionLabel(code));
 }
 
 QString capitalised(std::string_view text) {
@@ -58,7 +58,7 @@ QString clockText(double seconds) {
 }
 
 QString durationText(double seconds, int decimals) {
-  return QString::fromStdString(durationWords(seconds, decimals));
+  return QString::fromStdString(pitchboard::durationText(seconds, decimals));
 }
 
 QString countText(qulonglong value) {

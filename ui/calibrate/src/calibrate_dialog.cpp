@@ -179,7 +179,7 @@ QWidget* CalibrateDialog::makeForm() {
   m_base = new QComboBox(form);
   m_base->setObjectName(QStringLiteral("calibrateBase"));
   m_base->setToolTip(QStringLiteral(
-      "Numbers of which the recordings say little or nothing stay as in this model."));
+      "Parameters that the recordings do not determine keep the values of this model."));
   for (const std::string& name : link::robotModels()) {
     m_base->addItem(QString::fromStdString(link::robotModelText(name).title),
                     QString::fromStdString(name));
@@ -195,6 +195,7 @@ QWidget* CalibrateDialog::makeForm() {
   m_progress = new QProgressBar(form);
   m_progress->setObjectName(QStringLiteral("calibrateProgress"));
   m_progress->setRange(0, 1000);
+  m_progress->setFormat(QStringLiteral("%p %"));
   m_progress->hide();
   m_message = new QLabel(form);
   m_message->setObjectName(QStringLiteral("calibrateMessage"));
@@ -236,11 +237,11 @@ QWidget* CalibrateDialog::makeForm() {
 QWidget* CalibrateDialog::makeResults() {
   m_results = new QTabWidget(this);
   m_results->setObjectName(QStringLiteral("calibrateResults"));
-  m_values =
-      makeTable({QStringLiteral("Number"), QStringLiteral("Value"), QStringLiteral("95 % interval"),
-                 QStringLiteral("Unit"), QStringLiteral("Base model"), QStringLiteral("From")},
-                "calibrateValues", m_results);
-  m_kept = makeTable({QStringLiteral("Number"), QStringLiteral("Why the base model's is kept")},
+  m_values = makeTable(
+      {QStringLiteral("Parameter"), QStringLiteral("Value"), QStringLiteral("95 % interval"),
+       QStringLiteral("Unit"), QStringLiteral("Base model"), QStringLiteral("From")},
+      "calibrateValues", m_results);
+  m_kept = makeTable({QStringLiteral("Parameter"), QStringLiteral("Why the base value is kept")},
                      "calibrateKept", m_results);
   m_predictions = new PredictionsView(m_results);
   auto* scroll = new QScrollArea(m_results);
@@ -354,7 +355,7 @@ void CalibrateDialog::finish(const Result<CalibrationPtr>& made, const sim::Fiel
     m_predictions->show(m_calibration, field);
     m_residuals->show(m_calibration);
     const auto& c = *m_calibration;
-    QString text = QStringLiteral("%1 numbers estimated from %2.")
+    QString text = QStringLiteral("%1 parameters estimated from %2.")
                        .arg(c.values.size())
                        .arg(durationText(c.seconds));
     for (const std::string& note : c.notes)
@@ -388,7 +389,7 @@ void CalibrateDialog::showValues() {
              {QString::fromStdString(value.key), fourDigits(w.value),
               QStringLiteral("%1 to %2").arg(fourDigits(w.low), fourDigits(w.high)),
               shortUnit(w.unit), base ? fourDigits(*base) : QStringLiteral("–"),
-              QStringLiteral("%1 %2").arg(value.samples).arg(QString::fromStdString(value.of))});
+              QString::fromStdString(link::samplesText(value))});
     }
   }
   for (const auto& [key, reason] : m_calibration->kept) {
@@ -440,8 +441,8 @@ void CalibrateDialog::showButtons() {
   for (QPushButton* use : {m_useRobot, m_useTeam}) {
     use->setEnabled(possible);
     use->setToolTip(
-        possible ? QStringLiteral("Gives the simulated robot these numbers. Undo takes them back. "
-                                  "Its noise acts if the noise of the match is “robot”.")
+        possible ? QStringLiteral("Gives the simulated robot these parameters; Undo reverts it. "
+                                  "Its noise is used if the noise of the match is “robot”.")
                  : QStringLiteral("The simulated match must have a robot %1 and a physics model "
                                   "with robot models.")
                        .arg(name));
@@ -455,7 +456,7 @@ void CalibrateDialog::use(bool team) {
   const QString whose =
       ids.size() == 1 ? QStringLiteral("%1 uses").arg(QString::fromStdString(m_calibration->robot))
                       : QStringLiteral("%1 robots use").arg(ids.size());
-  say(QStringLiteral("%1 these numbers now. Undo takes them back.").arg(whose));
+  say(QStringLiteral("%1 these parameters now. Undo reverts it.").arg(whose));
 }
 
 void CalibrateDialog::saveTo(const QString& path) {

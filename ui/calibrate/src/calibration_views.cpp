@@ -66,9 +66,9 @@ void paintPredictionsLegend(QPainter& p, const QRect& room, const link::Calibrat
 
 PredictionsView::PredictionsView(QWidget* parent) : QWidget(parent) {
   setObjectName(QStringLiteral("calibrationPredictions"));
-  setToolTip(QStringLiteral(
-      "Each line is 5 s of the part that was held out, predicted from the commands alone. "
-      "Errors are root mean squares at the end of all such windows."));
+  setToolTip(
+      QStringLiteral("Each line is 5 s of the held-out part, predicted from the commands alone. "
+                     "Errors are root mean squares at the end of all such windows."));
 }
 
 void PredictionsView::show(std::shared_ptr<const link::Calibration> calibration,
@@ -87,7 +87,7 @@ void PredictionsView::paintEvent(QPaintEvent* /*event*/) {
   if (check.windows.empty()) {
     p.setPen(theme().fieldLines);
     p.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
-               QStringLiteral("The robot never walked for 5 s in the part that was held out."));
+               QStringLiteral("The robot never walked for 5 s in the held-out part."));
     return;
   }
   const int legend = 2 * p.fontMetrics().height();
@@ -122,7 +122,7 @@ void PredictionsView::paintEvent(QPaintEvent* /*event*/) {
 ResidualsView::ResidualsView(QWidget* parent) : QWidget(parent) {
   setObjectName(QStringLiteral("calibrationResiduals"));
   setToolTip(QStringLiteral(
-      "What was measured minus what the calibrated model expected, divided by its standard "
+      "Measured minus expected by the calibrated model, divided by the model's standard "
       "deviation. Where the model is right, the size is 1 and the dots lie on the line."));
 }
 

@@ -154,7 +154,7 @@ void SituationDialog::makeRobotRows(QFormLayout* form) {
   }
   m_behaviour->setCurrentText(QString::fromStdString(link::MomentOptions{}.behaviour));
   m_behaviour->setToolTip(QStringLiteral("Robots with unknown behaviour"));
-  form->addRow(QStringLiteral("They play"), m_behaviour);
+  form->addRow(QStringLiteral("Their behaviour"), m_behaviour);
   form->setRowVisible(m_behaviour,
                       !std::all_of(m_frame->robots.begin(), m_frame->robots.end(), knowsBehaviour));
   m_noCalls->setObjectName(QStringLiteral("testNoCalls"));

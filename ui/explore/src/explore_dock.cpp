@@ -86,6 +86,7 @@ class ExploreDock : public ScrolledForm {
     m_progress = new QProgressBar(form);
     m_progress->setObjectName(QStringLiteral("exploreProgress"));
     m_progress->setRange(0, 100);
+    m_progress->setFormat(QStringLiteral("%p %"));
     running->addWidget(m_progress, 1);
     m_cancel = new QPushButton(QStringLiteral("Cancel"), form);
     m_cancel->setObjectName(QStringLiteral("exploreCancel"));
@@ -132,11 +133,11 @@ class ExploreDock : public ScrolledForm {
     m_actions = new QTableWidget(0, 3, m_result);
     m_actions->setObjectName(QStringLiteral("exploreActions"));
     m_actions->setHorizontalHeaderLabels(
-        {QStringLiteral("Action"), QStringLiteral("Goals"), QStringLiteral("Behind the best")});
+        {QStringLiteral("Action"), QStringLiteral("Goals"), QStringLiteral("Below the best")});
     m_actions->horizontalHeaderItem(1)->setToolTip(
         QStringLiteral("Expected goals for minus goals against in 30 s"));
     m_actions->horizontalHeaderItem(2)->setToolTip(
-        QStringLiteral("How much worse than the best action, with the 95 % interval of the pairs"));
+        QStringLiteral("How much worse than the best action, with the 95 % confidence interval"));
     styleTable(m_actions);
     m_actions->setSelectionMode(QAbstractItemView::NoSelection);
     m_actions->setFocusPolicy(Qt::NoFocus);
@@ -211,8 +212,8 @@ class ExploreDock : public ScrolledForm {
     if (!m_explorer->problem().isEmpty()) return m_explorer->problem();
     if (found == nullptr) {
       return QStringLiteral(
-                 "Shows where the ball may go in the next %1 s, how likely a goal is, and what the "
-                 "chosen robot had best do.")
+                 "Shows where the ball may go in the next %1 s, how likely a goal is, and which "
+                 "action is best for the chosen robot.")
           .arg(Explorer::seconds);
     }
     const QString from = momentText(found->time, 2, m_parts.timeline->clock());

@@ -22,7 +22,7 @@ const FieldKey table[] = {
     {Qt::Key_A, ctrl, "Ctrl+A", "Add a red robot", {AddRobot, 1}},
     {Qt::Key_A, alt, "Alt+A", "Add a black robot", {AddRobot, 2}},
     {Qt::Key_A, shift, "Shift+A", "Add a yellow robot (right Shift: orange)", {AddRobotByShift}},
-    {Qt::Key_B, none, "B", "Put the ball at the cursor", {PlaceBall}},
+    {Qt::Key_B, none, "B", "Place the ball at the cursor", {PlaceBall}},
     {Qt::Key_Insert, none, "Insert", "Move the selected robots to the cursor", {MoveHere}},
     {Qt::Key_0, ctrl, "Ctrl+0 to Ctrl+6", "Select robot 10 to 16", {Select, 10}, 7},
 

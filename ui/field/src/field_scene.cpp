@@ -196,7 +196,11 @@ void FieldScene::showNames() {
                      shown ? look.name : QString(), look.word});
   }
   m_names->setRobots(std::move(named));
-  for (const auto& [id, place] : m_names->words()) m_robots.at(id)->body.setWordPlace(place);
+  for (const auto& [id, robot] : m_robots) {
+    const auto place = m_names->words().find(id);
+    robot->body.setWordPlace(place == m_names->words().end() ? std::nullopt
+                                                             : std::optional(place->second));
+  }
   m_teamBalls->setRobots(std::move(places), m_style.robotDrawRadius());
 }
 

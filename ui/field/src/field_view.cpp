@@ -269,6 +269,11 @@ void FieldView::follow(std::optional<RobotKey> id) {
 std::optional<RobotKey> FieldView::followed() const {
   return d->scene->followed();
 }
+bool FieldView::hasRobotIn(const QRect& part) const {
+  const int edge = qRound(d->scene->style().robotDrawRadius() * d->scene->style().pixelsPerMetre);
+  const QRect reach = part.adjusted(-edge, -edge, edge, edge);
+  return !d->scene->robotsIn(d->canvas->mapToScene(reach).boundingRect()).empty();
+}
 const FieldActions& FieldView::actions() const {
   return d->tools->actions();
 }

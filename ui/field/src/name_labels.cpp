@@ -94,6 +94,22 @@ struct Search {
   }
 };
 
+/// The robots at `first` and all near it, or near one of those, of which the same is said.
+std::vector<const NamedRobot*> sharing(std::span<const NamedRobot> robots,
+                                       const NamedRobot& first) {
+  std::vector<const NamedRobot*> group{&first};
+  if (first.said.isEmpty()) return group;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    for (const NamedRobot& robot : robots) {
+      if (robot.said == first.said && distance(robot.at, group[i]->at) < first.word.width() &&
+          std::ranges::find(group, &robot) == group.end()) {
+        group.push_back(&robot);
+      }
+    }
+  }
+  return group;
+}
+
 const QFont& nameFont() {
   return fieldFont(namePixels, true);
 }
@@ -105,11 +121,19 @@ std::vector<PlacedName> placeWords(std::span<const NamedRobot> robots, const QRe
   std::vector<PlacedName> placed;
   Search search{robots, area, {}, wordSteps};
   DirectionsBefore kept;
+  std::vector<RobotKey> done;
   for (const NamedRobot& robot : robots) {
-    if (robot.word.isEmpty()) continue;
+    if (robot.word.isEmpty() || std::ranges::find(done, robot.id) != done.end()) continue;
+    NamedRobot middle = robot;
+    middle.at = QPointF();
+    const std::vector<const NamedRobot*> group = sharing(robots, robot);
+    for (const NamedRobot* one : group) {
+      middle.at += one->at / static_cast<double>(group.size());
+      done.push_back(one->id);
+    }
     const auto known = before.find(robot.id);
     const int first = known == before.end() ? below : known->second;
-    const auto [box, way] = search.place(robot, robot.word, nose * robot.radius + gap_px, first);
+    const auto [box, way] = search.place(middle, robot.word, nose * robot.radius + gap_px, first);
     kept[robot.id] = way;
     placed.push_back({robot.id, box.center(), false});
   }
@@ -151,7 +175,8 @@ void NameLabelsItem::place() {
                      {side * robot.at.x() * scale, -side * robot.at.y() * scale},
                      robot.radius * scale,
                      robot.name.isEmpty() ? QSizeF() : name,
-                     robot.word.isEmpty() ? QSizeF() : plateSize(robot.word)});
+                     robot.word.isEmpty() ? QSizeF() : plateSize(robot.word),
+                     robot.word});
   }
   const QRectF field = m_style->playingArea();
   const QRectF area = QRectF(side * field.left() * scale, -side * field.top() * scale,

@@ -21,8 +21,9 @@ struct NamedRobot {
   RobotKey id;
   QPointF at;
   double radius = 0.0;
-  QSizeF name;       ///< how large its name is when written
-  QSizeF word = {};  ///< the plate with what is said of it; empty: nothing
+  QSizeF name;        ///< how large its name is when written
+  QSizeF word = {};   ///< the plate with what is said of it; empty: nothing
+  QString said = {};  ///< robots side by side of which the same is said share a plate
 };
 
 /// Where a name or a word is written.
@@ -35,7 +36,8 @@ struct PlacedName {
 /// The direction that each of them had, which is kept where it can be.
 using DirectionsBefore = std::map<RobotKey, int>;
 
-/// Places for the words, below their robots where there is room, and inside `area`.
+/// Places for the words, below their robots where there is room, and inside `area`. Of robots that
+/// share a word only the first has a place: in the middle of them.
 std::vector<PlacedName> placeWords(std::span<const NamedRobot> robots, const QRectF& area,
                                    DirectionsBefore& before);
 /// Places for the names of those that need one; `taken` is not written on.
@@ -55,7 +57,7 @@ class NameLabelsItem : public FieldItem {
   };
   /// Also says where the words go, which the robots write themselves.
   void setRobots(std::vector<Robot> robots);
-  /// In pixels from the robot, of those that have a word.
+  /// In pixels from the robot, of those that write a word.
   const std::map<RobotKey, QPointF>& words() const { return m_words; }
 
   QRectF boundingRect() const override { return m_bounds; }

@@ -12,7 +12,6 @@ namespace pitchboard::ui {
 namespace {
 
 constexpr double handleGap_px = 18.0;
-constexpr double wordGap_px = 10.0;
 
 void paintNumber(QPainter& painter, double radius, const QString& text) {
   const double size = radius * (text.size() > 1 ? 1.12 : 1.38);
@@ -41,16 +40,11 @@ void RobotItem::setLook(const RobotLook& look) {
   update();
 }
 
-void RobotItem::setWordPlace(const QPointF& place) {
+void RobotItem::setWordPlace(const std::optional<QPointF>& place) {
   if (m_wordPlace == place) return;
   prepareGeometryChange();
   m_wordPlace = place;
   update();
-}
-
-QPointF RobotItem::wordPlace() const {
-  return m_wordPlace.value_or(
-      QPointF(0, bodyRadius() * 1.7 * m_style->pixelsPerMetre + wordGap_px));
 }
 
 QPointF RobotItem::handlePosition(const FieldStyle& style, const Pose& pose, double radius) {
@@ -71,11 +65,10 @@ QRectF RobotItem::boundingRect() const {
         std::max(radius * 1.8, radius * 1.7 + m_style->metres(handleGap_px)) + m_style->metres(8.0);
   }
   QRectF area(-reach, -reach, 2 * reach, 2 * reach);
-  if (!m_look.word.isEmpty()) {
+  if (m_wordPlace && !m_look.word.isEmpty()) {
     const QSizeF plate = plateSize(m_look.word) / 2;
-    const QPointF place = wordPlace();
-    const double half = m_style->metres(std::abs(place.x()) + plate.width() + 2.0);
-    const double tall = m_style->metres(std::abs(place.y()) + plate.height() + 2.0);
+    const double half = m_style->metres(std::abs(m_wordPlace->x()) + plate.width() + 2.0);
+    const double tall = m_style->metres(std::abs(m_wordPlace->y()) + plate.height() + 2.0);
     area = area.united(QRectF(-half, -tall, 2 * half, 2 * tall));
   }
   return area;
@@ -92,7 +85,9 @@ void RobotItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
   painter->setOpacity(before * m_look.opacity);
   paintBody(painter, screen, radius);
   painter->setOpacity(before);
-  if (!m_look.word.isEmpty()) drawPlateText(painter, wordPlace(), m_look.word);
+  if (m_wordPlace && !m_look.word.isEmpty()) {
+    drawPlateText(painter, *m_wordPlace, m_look.word);
+  }
 }
 
 void RobotItem::paintSelection(QPainter* painter, const ScreenPainting& screen,

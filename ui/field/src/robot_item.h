@@ -36,8 +36,8 @@ class RobotItem : public FieldItem {
   void setKey(const RobotKey& key) { m_id = key; }
   const RobotLook& look() const { return m_look; }
   void setLook(const RobotLook& look);
-  /// Where its word is written, in pixels from its centre; below it while nobody has said.
-  void setWordPlace(const QPointF& place);
+  /// Where its word is written, in pixels from its centre; null: it is not written.
+  void setWordPlace(const std::optional<QPointF>& place);
 
   /// Where the turning handle is, in metres of the scene.
   static QPointF handlePosition(const FieldStyle& style, const Pose& pose, double radius);
@@ -48,13 +48,12 @@ class RobotItem : public FieldItem {
 
  private:
   double bodyRadius() const { return m_style->drawRadius(m_look.radius); }  // metres
-  QPointF wordPlace() const;                                                // pixels
   void paintSelection(QPainter* painter, const ScreenPainting& screen, double radius) const;
   void paintBody(QPainter* painter, const ScreenPainting& screen, double radius) const;
 
   RobotKey m_id;
   RobotLook m_look;
-  std::optional<QPointF> m_wordPlace;
+  std::optional<QPointF> m_wordPlace;  // pixels
 };
 
 }  // namespace pitchboard::ui

@@ -172,7 +172,7 @@ void AttachDialog::listSegments() {
               userName(info.owner),
               info.attached == 1 ? QStringLiteral("1 process")
                                  : QStringLiteral("%1 processes").arg(info.attached),
-              info.blackboardSized ? QStringLiteral("same size as the published blackboard")
+              info.blackboardSized ? QStringLiteral("fits the published map")
                                    : QStringLiteral("needs its own catalog")});
     m_segments->item(row, 0)->setData(Qt::UserRole, info.key);
   }

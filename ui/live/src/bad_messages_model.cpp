@@ -10,7 +10,7 @@ void BadMessagesModel::add(std::vector<Row>& rows, const QString& who,
   for (std::size_t i = 0; i < telemetry::textErrorCount; ++i) {
     const auto error = static_cast<telemetry::TextError>(i);
     if (errors.count(error) == 0) continue;
-    const std::string_view words = telemetry::errorWords(error);
+    const std::string_view words = telemetry::errorText(error);
     rows.push_back({who, QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size())),
                     errors.count(error), QString::fromStdString(errors.sample(error))});
   }
@@ -81,9 +81,7 @@ int BadMessagesModel::columnCount(const QModelIndex& parent) const {
 QVariant BadMessagesModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
   const Row& row = m_rows[static_cast<std::size_t>(index.row())];
-  if (role == Qt::TextAlignmentRole && index.column() == Count) {
-    return QVariant(Qt::AlignRight | Qt::AlignVCenter);
-  }
+  if (role == Qt::TextAlignmentRole) return headerData(index.column(), Qt::Horizontal, role);
   if (role != Qt::DisplayRole && role != Qt::ToolTipRole) return {};
   switch (index.column()) {
     case Who:
@@ -100,6 +98,10 @@ QVariant BadMessagesModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant BadMessagesModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  // A column of numbers stands beneath its title.
+  if (role == Qt::TextAlignmentRole && section == Count) {
+    return QVariant(Qt::AlignRight | Qt::AlignVCenter);
+  }
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
   const QString names[] = {QStringLiteral("Sender"), QStringLiteral("Problem"),
                            QStringLiteral("Count"), QStringLiteral("Last message")};

@@ -174,9 +174,9 @@ QWidget* LiveSettingsDialog::makeRobots() {
                   QStringLiteral("Shown in red"));
   m_empty = addReal(form, "empty", QStringLiteral("Empty at"), 0.0, 10, 2, volts, {});
   m_colours = new QComboBox(widget);
-  m_colours->addItem(QStringLiteral("of the team"), false);
-  m_colours->addItem(QStringLiteral("one for each number"), true);
-  form->addRow(QStringLiteral("Colour"), m_colours);
+  m_colours->addItem(QStringLiteral("team colour"), false);
+  m_colours->addItem(QStringLiteral("by robot number"), true);
+  form->addRow(QStringLiteral("Robot colours"), m_colours);
   m_field = new QComboBox(widget);
   for (const sim::FieldSpec& field : sim::builtInFields()) {
     m_field->addItem(QStringLiteral("%1: %2 × %3 m")

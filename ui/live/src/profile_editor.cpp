@@ -96,7 +96,7 @@ ProfileEditor::ProfileEditor(const Profile& profile, const QString& file, QWidge
   m_end->setToolTip(QStringLiteral("The word that ends a message"));
   auto* form = new QFormLayout;
   form->addRow(QStringLiteral("Name"), m_name);
-  form->addRow(QStringLiteral("Last word"), m_end);
+  form->addRow(QStringLiteral("End word"), m_end);
   addFrame(form);
 
   m_table->setHorizontalHeaderLabels({QStringLiteral("Name"), QStringLiteral("Type"),
@@ -104,10 +104,10 @@ ProfileEditor::ProfileEditor(const Profile& profile, const QString& file, QWidge
                                       QStringLiteral("Offset"), QStringLiteral("Category"),
                                       QStringLiteral("Meaning"), QStringLiteral("Labels")});
   m_table->horizontalHeaderItem(Scale)->setToolTip(
-      QStringLiteral("Value in the unit = scale × what is sent + offset"));
+      QStringLiteral("Value = scale × received number + offset"));
   m_table->horizontalHeaderItem(Labels)->setToolTip(
       QStringLiteral("Labels of codes: 0 = stop, 1 = walk"));
-  const std::pair<int, int> widths[] = {{Name, 150},  {Type, 64},     {Unit, 52},    {Scale, 56},
+  const std::pair<int, int> widths[] = {{Name, 150},  {Type, 84},     {Unit, 52},    {Scale, 56},
                                         {Offset, 56}, {Category, 96}, {Meaning, 150}};
   for (const auto& [at, wide] : widths) m_table->setColumnWidth(at, scaled(this, wide));
   m_table->setSelectionBehavior(QAbstractItemView::SelectRows);

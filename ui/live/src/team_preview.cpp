@@ -79,7 +79,7 @@ std::vector<PreviewRow> previewOf(const std::vector<Arrival>& arrivals,
     QStringList why;
     for (std::size_t i = 0; decoder && i < telemetry::textErrorCount; ++i) {
       const auto error = static_cast<telemetry::TextError>(i);
-      if (decoded.errors.has(error)) why << QString::fromUtf8(telemetry::errorWords(error));
+      if (decoded.errors.has(error)) why << QString::fromUtf8(telemetry::errorText(error));
     }
     if (!listed) why << QStringLiteral("sender not on the team's list");
     if (listed && !decoder) why << QStringLiteral("no team has this sender and port");

@@ -135,12 +135,12 @@ QWidget* TeamsPage::makeForm() {
     connect(box, &QSpinBox::valueChanged, this, &TeamsPage::take);
     return box;
   };
-  m_name = addLine("teamName", QStringLiteral("Name"), QStringLiteral("from the referee's number"));
-  m_number = addSpin("teamNumber", 65535, QStringLiteral("not known"));
+  m_name = addLine("teamName", QStringLiteral("Name"), QStringLiteral("looked up by the number"));
+  m_number = addSpin("teamNumber", 65535, QStringLiteral("unknown"));
   m_number->setToolTip(QStringLiteral("Number of the team in the GameController"));
   m_colour = new QComboBox(widget);
   m_colour->setObjectName(QStringLiteral("teamColour"));
-  m_colour->addItem(QStringLiteral("the referee's"));
+  m_colour->addItem(QStringLiteral("as the referee says"));
   for (const TeamColorInfo& colour : teamColors) {
     const QString name = QString::fromUtf8(colour.name);
     m_colour->addItem(swatch(colour.color), name, name);
@@ -151,8 +151,8 @@ QWidget* TeamsPage::makeForm() {
   numbers->addWidget(new QLabel(QStringLiteral("Colour"), widget));
   numbers->addWidget(m_colour, 1);
   form->addRow(QStringLiteral("Number"), numbers);
-  m_firstPort = addSpin("teamFirstPort", 65535, QStringLiteral("those of Live"));
-  m_lastPort = addSpin("teamLastPort", 65535, QStringLiteral("this one only"));
+  m_firstPort = addSpin("teamFirstPort", 65535, QStringLiteral("same as Live"));
+  m_lastPort = addSpin("teamLastPort", 65535, QStringLiteral("first port only"));
   m_firstPort->setToolTip(QStringLiteral("UDP ports that this team sends to, at most 64"));
   auto* ports = new QHBoxLayout;
   ports->addWidget(m_firstPort, 1);

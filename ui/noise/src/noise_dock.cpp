@@ -105,8 +105,8 @@ class NoiseDock : public ScrolledForm {
     robots->addWidget(m_kind);
     m_kick = new QComboBox(m_robots);
     m_kick->setObjectName(QStringLiteral("kickLaw"));
-    m_kick->addItem(QStringLiteral("Kick: published force, fades at once"));
-    m_kick->addItem(QStringLiteral("Kick: a foot with reach and sector"));
+    m_kick->addItem(QStringLiteral("Kick: published force at a distance"));
+    m_kick->addItem(QStringLiteral("Kick: foot with reach and angle"));
     connect(m_kick, &QComboBox::activated, this, [this](int law) {
       m_robot.kickLaw = static_cast<sim::KickLaw>(law);
       changeRobots();

@@ -242,7 +242,7 @@ QStringList ChartPane::captions() const {
   if (any(&CurveTrace::reading)) {
     all << QStringLiteral("reading…");
   } else if (any(&CurveTrace::coarse)) {
-    all << QStringLiteral("envelope: zoom in for every sample");
+    all << QStringLiteral("envelope: zoom in to see every sample");
   }
   const auto isDrawn = [](const CurveTrace& trace) { return trace.any; };
   if (std::ranges::any_of(m_comparedTraces, isDrawn)) {

@@ -197,8 +197,8 @@ CurveDialog::CurveDialog(PlotFeed* feed, const CurveSpec& curve, QWidget* parent
                      "pi; t is the time in seconds. Variables: GROUP.NAME; each.NAME for every "
                      "robot, first.NAME for the first; {curve/NAME} is another computed curve"));
   completeNames(m_expression, m_names);
-  m_title->setPlaceholderText(QStringLiteral("as the variable"));
-  m_unit->setPlaceholderText(QStringLiteral("as the variable"));
+  m_title->setPlaceholderText(QStringLiteral("same as the variable"));
+  m_unit->setPlaceholderText(QStringLiteral("same as the variable"));
   m_form->addRow(QStringLiteral("Kind"), m_kind);
   m_form->addRow(QStringLiteral("Variable"), m_first);
   m_form->addRow(QStringLiteral("Minus"), m_second);
@@ -243,7 +243,7 @@ void CurveDialog::showKind() {
   show(m_parameter, parameter);
   show(m_offset, kind == CurveKind::Conversion);
   auto* label = qobject_cast<QLabel*>(m_form->labelForField(m_parameter));
-  label->setText(kind == CurveKind::MovingAverage ? QStringLiteral("Window, s")
+  label->setText(kind == CurveKind::MovingAverage ? QStringLiteral("Window (s)")
                  : kind == CurveKind::WrapAngle   ? QStringLiteral("Full turn")
                                                   : QStringLiteral("Factor"));
   if (m_parameter->value() == 0.0) {

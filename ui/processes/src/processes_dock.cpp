@@ -49,7 +49,9 @@ class ProcessesDock : public QStackedWidget {
         m_source(source),
         m_model(new ProcessesModel(this)),
         m_page(new QWidget(this)),
-        m_asNow(new QLabel(QStringLiteral("Processes are shown as they are now."), m_page)),
+        m_asNow(new QLabel(
+            QStringLiteral("You are viewing the past; processes are shown as they are now."),
+            m_page)),
         m_table(new QTableView(m_page)),
         m_empty(makeEmptyLabel(this, QStringLiteral("noProcesses"))) {
     constexpr Beat::Milliseconds least{250}, most{1000};
@@ -57,7 +59,7 @@ class ProcessesDock : public QStackedWidget {
     m_table->setModel(m_model);
     m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     styleTable(m_table);
-    const int widths[ProcessesModel::columns] = {56, 110, 260, 64, 64, 64, 60, 76, 80, 220};
+    const int widths[ProcessesModel::columns] = {56, 110, 240, 64, 84, 64, 60, 76, 80, 220};
     for (int column = 0; column < ProcessesModel::columns; ++column) {
       m_table->setColumnWidth(column, scaled(m_table, widths[column]));
     }

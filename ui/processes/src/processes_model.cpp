@@ -22,7 +22,7 @@ QString stateText(const link::ProcessSummary& status) {
       return QStringLiteral("waiting to start");
     case State::Running:
       return QStringLiteral("running");
-    case State::Silent:
+    case State::NotResponding:
       return with(QStringLiteral("silent"));
     case State::Restarting:
       return with(QStringLiteral("restarting"));
@@ -125,12 +125,10 @@ QVariant ProcessesModel::data(const QModelIndex& index, int role) const {
     for (const std::string& line : row.status.lastLines) lines << QString::fromStdString(line);
     return lines.join(QLatin1Char('\n'));
   }
-  if (role == Qt::TextAlignmentRole && index.column() >= Pid && index.column() <= Heartbeat) {
-    return static_cast<int>(Qt::AlignRight | Qt::AlignVCenter);
-  }
+  if (role == Qt::TextAlignmentRole) return headerData(index.column(), Qt::Horizontal, role);
   if (role == Qt::ForegroundRole && index.column() == State) {
     switch (row.status.state) {
-      case State::Silent:
+      case State::NotResponding:
       case State::Restarting:
         return theme().warningText;
       case State::GivenUp:
@@ -148,6 +146,10 @@ QVariant ProcessesModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant ProcessesModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  // A column of numbers stands beneath its title.
+  if (role == Qt::TextAlignmentRole && section >= Pid && section <= Heartbeat) {
+    return static_cast<int>(Qt::AlignRight | Qt::AlignVCenter);
+  }
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
   static const char* const names[columns] = {"Robot",     "Process",    "State", "PID",
                                              "Up",        "Restarts",   "CPU",   "Memory",

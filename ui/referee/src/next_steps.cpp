@@ -21,7 +21,7 @@ NextStep calling(CallKind kind, const char* text, const char* tip) {
 
 NextStep skipToKickOff() {
   return {std::nullopt, QStringLiteral("Skip to kick-off"),
-          QStringLiteral("Plays at full speed until the ball may be kicked off"), true};
+          QStringLiteral("Plays at full speed until kick-off"), true};
 }
 
 NextStep nextOfSetPlay(sim::Restart::Step step) {
@@ -74,20 +74,20 @@ std::vector<NextStep> nextSteps(const link::RefereeDesk& desk) {
       if (!shootOut && desk.rules.automatic) steps.push_back(skipToKickOff());
       break;
     case PlayState::Ready:
-      steps.push_back(toState(PlayState::Set, "SET", "Robots stand"));
+      steps.push_back(toState(PlayState::Set, "SET", "Robots stand still"));
       if (desk.rules.automatic) steps.push_back(skipToKickOff());
       break;
     case PlayState::Set:
-      steps.push_back(toState(PlayState::Playing, "PLAYING", "The whistle"));
+      steps.push_back(toState(PlayState::Playing, "PLAYING", "Starts play"));
       break;
     case PlayState::Playing:
-      if (game.restart.isTold()) steps.push_back(nextOfSetPlay(game.restart.step));
+      if (game.restart.isAnnounced()) steps.push_back(nextOfSetPlay(game.restart.step));
       steps.push_back(calling(CallKind::Stop, "Stop", "Play is stopped"));
-      if (!shootOut && !game.restart.isTold()) {
+      if (!shootOut && !game.restart.isAnnounced()) {
         steps.push_back(calling(CallKind::DropBall, "Drop ball", "READY, nobody's kick-off"));
       }
-      steps.push_back(shootOut ? toState(PlayState::Finished, "End the shot", "No goal")
-                               : toState(PlayState::Finished, "End the half", "FINISHED"));
+      steps.push_back(shootOut ? toState(PlayState::Finished, "End shot", "No goal")
+                               : toState(PlayState::Finished, "End half", "FINISHED"));
       break;
     case PlayState::Finished:
       steps = afterTheEnd(game);
@@ -103,7 +103,7 @@ QString playText(const link::RefereeDesk& desk) {
   const sim::GameState& game = desk.game;
   using Step = sim::Restart::Step;
   if (game.setPlay() == sim::SetPlay::None) return {};
-  const std::string_view words = wordsOf(game.setPlay());
+  const std::string_view words = labelOf(game.setPlay());
   QString text = QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
   if (game.setPlayTeam() >= 0) {
     text += QStringLiteral(" for ") +

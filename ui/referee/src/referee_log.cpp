@@ -84,7 +84,7 @@ RefereeLog::RefereeLog(Timeline* timeline, QWidget* parent) : QTableView(parent)
   styleTable(this);
   horizontalHeader()->hide();
   setColumnHidden(EventList::Note, true);
-  setColumnWidth(EventList::Time, scaled(this, 84));
+  horizontalHeader()->setSectionResizeMode(EventList::Time, QHeaderView::ResizeToContents);
   horizontalHeader()->setSectionResizeMode(EventList::What, QHeaderView::Stretch);
   setMinimumHeight(scaled(this, 84));
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored);  // what is left, at least that

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <ui/base/referee_words.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 
@@ -40,8 +41,13 @@ RefereeModel::Row RefereeModel::rowOf(const link::RefereePlayerView& player,
       row.penalised ? QString::fromStdString(player.penalty) : QStringLiteral("plays");
   if (row.penalised) row.texts[Left] = durationText(player.secondsLeft);
   row.texts[Cards] = cardsOf(player);
-  if (m_compact && !row.texts[Cards].isEmpty()) {
-    row.texts[State] += QStringLiteral(" · ") + row.texts[Cards];
+  row.stateTip = row.texts[State];
+  if (m_compact) {
+    if (row.penalised) row.texts[State] = penaltyTag(player.penalty, player.secondsLeft);
+    if (!row.texts[Cards].isEmpty()) {
+      row.texts[State] += QStringLiteral(" · ") + row.texts[Cards];
+      row.stateTip += QStringLiteral(" · ") + row.texts[Cards];
+    }
   }
   if (reply == nullptr) return row;
   row.offline = reply->age > lateUntil;
@@ -106,7 +112,9 @@ QVariant RefereeModel::data(const QModelIndex& index, int role) const {
     case numberRole:
       return row.number;
     case Qt::ToolTipRole:
-      return index.column() == Robot ? row.tip : row.texts[index.column()];
+      return index.column() == Robot   ? row.tip
+             : index.column() == State ? row.stateTip
+                                       : row.texts[index.column()];
     case Qt::ForegroundRole:
       if (index.column() == Robot && row.offline) return theme().errorText;
       if (index.column() == Robot && row.texts[Robot] != QStringLiteral("good")) {

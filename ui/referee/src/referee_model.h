@@ -18,8 +18,8 @@ class RefereeModel : public QAbstractTableModel {
   static constexpr int numberRole = Qt::UserRole;  ///< on the shirt
   using QAbstractTableModel::QAbstractTableModel;
 
-  /// In order of numbers and with the cards beside the state: rows keep their places while somebody
-  /// works with them.
+  /// In order of numbers, and with time and cards beside the state: rows keep their places while
+  /// somebody works with them.
   void setCompact(bool on) {
     if (on == m_compact) return;
     m_compact = on;
@@ -39,7 +39,7 @@ class RefereeModel : public QAbstractTableModel {
     int number = 0;
     bool penalised = false, offline = false;
     QString texts[columns];
-    QString tip;
+    QString tip, stateTip;
     bool operator==(const Row&) const = default;
   };
   Row rowOf(const link::RefereePlayerView& player, const link::RobotReplyView* reply) const;

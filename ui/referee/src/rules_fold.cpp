@@ -95,7 +95,7 @@ void RulesFold::addFormations() {
     connect(load, &QPushButton::clicked, this, [this, left] { loadFormation(left); });
     row->addWidget(load, 1);
   }
-  m_asSetPlay = new QCheckBox(QStringLiteral("Also give the set play"), m_inside);
+  m_asSetPlay = new QCheckBox(QStringLiteral("Also award the set play"), m_inside);
   m_asSetPlay->setObjectName(QStringLiteral("refereeAsSetPlay"));
   addRow(m_inside)->addWidget(m_asSetPlay);
   m_staysOff = new QLabel(m_inside);
@@ -199,7 +199,8 @@ void RulesFold::show(const link::MatchFrame* shown, const QString& why) {
   set(m_rules, "Restarts the game in INITIAL with these rules. Undo brings the old game back.");
   set(m_automatic, "When off, only your calls and the end of READY change the game.");
   set(m_formation, "Where both teams and the ball stand");
-  set(m_asSetPlay, "While PLAYING the side that attacks gets the corner kick, throw-in, … as well");
+  set(m_asSetPlay,
+      "During PLAYING, also awards the corner kick, throw-in, … to the attacking side");
   for (auto* button : m_inside->findChildren<QPushButton*>()) button->setEnabled(why.isEmpty());
   for (NumberBox* box : {m_x, m_y}) box->setEnabled(why.isEmpty());
   m_automatic->setEnabled(why.isEmpty() && refereed);

@@ -95,7 +95,7 @@ std::vector<link::RefereePlayerView> playersOf(const link::MatchFrame& frame,
     if (one == nullptr) continue;
     link::RefereePlayerView& player = players.emplace_back();
     player.number = robot.identity.number;
-    if (one->penalty != sim::PenaltyKind::None) player.penalty = wordsOf(one->penalty);
+    if (one->penalty != sim::PenaltyKind::None) player.penalty = labelOf(one->penalty);
     player.secondsLeft = std::max(0, sim::secondsOf(one->ticksLeft, frame.settings->tickRate));
     player.warnings = one->warnings;
     player.yellow = one->yellow;
@@ -132,10 +132,7 @@ void TeamColumn::show(const link::MatchFrame& frame, bool refereed) {
   m_model->update(team, view.replies);
   m_table->horizontalHeader()->setVisible(!refereed);
   m_table->setColumnHidden(RefereeModel::Cards, refereed);
-  // Beside the buttons there is little room: no column for nothing.
-  const bool anyOff =
-      std::ranges::any_of(team.players, [](const auto& player) { return !player.penalty.empty(); });
-  m_table->setColumnHidden(RefereeModel::Left, refereed && !anyOff);
+  m_table->setColumnHidden(RefereeModel::Left, refereed);
   // Robots answer the referee, who tells it in monitor mode only.
   m_table->setColumnHidden(RefereeModel::Robot, refereed || view.replies.empty());
   // Five rows; more are scrolled to.

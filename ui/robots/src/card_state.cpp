@@ -9,6 +9,7 @@
 #include <robotlink/processes/process_manager.h>
 #include <robotlink/scenario/scenario.h>
 #include <simcore/world/published_frame.h>
+#include <ui/base/referee_words.h>
 #include <ui/base/robot_words.h>
 
 namespace pitchboard::ui {
@@ -29,7 +30,13 @@ QString runsText(const link::RobotFrame& robot) {
 /// have slowed down to it.
 bool keepsRealTime(const link::ProcessSummary& program) {
   const bool meant = program.whyRealTime == link::whyRealTime(link::ProcessClock::Real);
-  return program.foreign && !program.whyRealTime.empty() && (!meant || program.speed != 1.0);
+  return program.isTeamProgram && !program.whyRealTime.empty() && (!meant || program.speed != 1.0);
+}
+
+bool isStopped(const link::RobotFrame& robot, const QString& process) {
+  return std::ranges::any_of(robot.processes(), [&](const link::ProcessSummary& one) {
+    return one.state == link::ProcessState::Stopped && QString::fromStdString(one.name) == process;
+  });
 }
 
 /// What is wrong with the separate processes of the robot; the least of it is one that is slow.
@@ -41,7 +48,7 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
       card.tag = QStringLiteral("%1 given up").arg(name);
       return;
     }
-    if (one.state == link::ProcessState::Silent) {
+    if (one.state == link::ProcessState::NotResponding) {
       card.tagKind = TagKind::Warning;
       card.tag = QStringLiteral("%1 silent").arg(name);
     } else if (card.tag.isEmpty() && keepsRealTime(one)) {
@@ -49,7 +56,7 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
       card.tag = QStringLiteral("%1 keeps real time").arg(name);
       card.tagTip = QStringLiteral("%1 %2 keeps real time: %3")
                         .arg(card.name, name, QString::fromStdString(one.whyRealTime));
-    } else if (card.tag.isEmpty() && one.foreign && one.achieved > 0.0 &&
+    } else if (card.tag.isEmpty() && one.isTeamProgram && one.achieved > 0.0 &&
                one.achieved < 0.95 * one.speed) {
       card.tagKind = TagKind::Warning;
       card.tag = QStringLiteral("%1 reaches ×%2").arg(name).arg(one.achieved, 0, 'f', 1);
@@ -96,7 +103,7 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
     card.tagKind = kind;
     card.tag = text;
   };
-  const auto silent = std::ranges::find(card.lamps, LampState::Silent, &Lamp::state);
+  const auto silent = std::ranges::find(card.lamps, LampState::NotResponding, &Lamp::state);
   const sim::RobotStatistics& statistics = robot.statistics;
   if (robot.timedOut()) {
     put(TagKind::Error,
@@ -104,19 +111,15 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
   } else if (robot.link && robot.link->conflict) {
     put(TagKind::Error, QStringLiteral("two senders"));
   } else if (robot.penalty) {
-    // "pickup or incapable": the seconds must not be cut off.
-    const QString words =
-        QString::fromStdString(robot.penalty->words).section(QStringLiteral(" or "), 0, 0);
-    put(TagKind::Warning,
-        robot.penalty->secondsLeft > 0
-            ? QStringLiteral("%1 %2").arg(words, durationText(robot.penalty->secondsLeft))
-            : words);
+    put(TagKind::Warning, penaltyTag(robot.penalty->words, robot.penalty->secondsLeft));
   } else if (silent != card.lamps.end()) {
-    put(TagKind::Error,
-        QStringLiteral("%1 silent %2")
-            .arg(QLatin1Char(
-                CardState::letters[static_cast<std::size_t>(silent - card.lamps.begin())]))
-            .arg(durationText(silent->seconds)));
+    const QLatin1Char letter(
+        CardState::letters[static_cast<std::size_t>(silent - card.lamps.begin())]);
+    if (silent->stopped)
+      put(TagKind::Warning, QStringLiteral("%1 stopped").arg(letter));
+    else
+      put(TagKind::Error,
+          QStringLiteral("%1 silent %2").arg(letter).arg(durationText(silent->seconds)));
   } else if (card.batteryLow()) {
     put(TagKind::Error, QStringLiteral("battery low"));
     card.tagIsBattery = true;
@@ -222,7 +225,9 @@ CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
   for (std::size_t i = 0; i < card.lamps.size(); ++i) {
     const telemetry::ProcessHeartbeat& lamp = robot.lamps[i];
     const double seconds = std::min(telemetry::secondsOf(lamp.since), 1e6);
-    card.lamps[i] = {lamp.state, lamp.state == LampState::Silent ? static_cast<int>(seconds) : 0};
+    const bool isSilent = lamp.state == LampState::NotResponding;
+    card.lamps[i] = {lamp.state, isSilent ? static_cast<int>(seconds) : 0,
+                     isSilent && isStopped(robot, card.process(i))};
   }
   if (robot.decided || !robot.link) card.action = actionText(robot.decided.value_or(robot.action));
   if (card.timedOut && !card.action.isEmpty()) {

@@ -211,7 +211,7 @@ void RobotCard::paintLamps(QPainter& painter) const {
     if (state == LampState::Working) {
       drawRoundBox(painter, box, 2, m_collapsed ? theme().workingMark : theme().workingGround);
       painter.setPen(theme().workingText);
-    } else if (state == LampState::Silent) {
+    } else if (state == LampState::NotResponding) {
       painter.setPen(theme().errorText);
       painter.setBrush(theme().errorGround);
       painter.drawRoundedRect(sharp(box), 2, 2);
@@ -228,7 +228,7 @@ void RobotCard::paintLamps(QPainter& painter) const {
     if (m_collapsed) continue;
     painter.setFont(themeFont(TypeRole::Small, true));
     drawWords(painter, box, Qt::AlignCenter, QString(QLatin1Char(CardState::letters[index])));
-    if (state != LampState::Silent) continue;
+    if (state != LampState::NotResponding) continue;
     const int inset = box.width() / 4;
     const int middle = box.center().y();
     painter.drawLine(box.left() + inset, middle, box.right() - inset, middle);

@@ -102,6 +102,7 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   m_message->setWordWrap(true);
   m_message->setForegroundRole(QPalette::PlaceholderText);
   m_progress->setRange(0, 1000);
+  m_progress->setFormat(QStringLiteral("%p %"));
   m_progress->hide();
   m_rows->addRow(QStringLiteral("Format"), m_format);
   m_rows->addRow(QStringLiteral("From"), m_begin);

@@ -15,14 +15,14 @@ namespace {
 using telemetry::ExportFormat;
 
 const ExportForm forms[] = {
-    {"Table, a row per time (CSV)", ExportKind::Numbers, ".csv", ExportFormat::CsvWide},
-    {"Table at even times (CSV)", ExportKind::Numbers, ".csv", ExportFormat::CsvEven},
-    {"Table, a row per value (CSV)", ExportKind::Numbers, ".csv", ExportFormat::CsvLong},
+    {"Table, one row per time (CSV)", ExportKind::Numbers, ".csv", ExportFormat::CsvWide},
+    {"Table at a fixed rate (CSV)", ExportKind::Numbers, ".csv", ExportFormat::CsvEven},
+    {"Table, one row per value (CSV)", ExportKind::Numbers, ".csv", ExportFormat::CsvLong},
     {"JSON lines", ExportKind::Numbers, ".jsonl", ExportFormat::JsonLines},
-    {"Shorter session (MCAP)", ExportKind::Numbers, ".mcap", ExportFormat::Mcap},
+    {"Part of the session (MCAP)", ExportKind::Numbers, ".mcap", ExportFormat::Mcap},
     {"Report (HTML)", ExportKind::Report, ".html"},
-    {"Field as it is shown (PNG)", ExportKind::Png, ".png"},
-    {"Field as it is shown (SVG)", ExportKind::Svg, ".svg"},
+    {"Picture of the field (PNG)", ExportKind::Png, ".png"},
+    {"Picture of the field (SVG)", ExportKind::Svg, ".svg"},
     {"Video of the field (MP4)", ExportKind::Video, ".mp4"},
     {"Video of the field (WebM)", ExportKind::Video, ".webm"},
 };

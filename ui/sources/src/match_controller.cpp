@@ -412,7 +412,7 @@ QStringList MatchController::realTimePrograms() const {
   if (!m_frame) return names;
   for (const link::RobotFrame& robot : m_frame->robots) {
     for (const link::ProcessSummary& one : robot.processes()) {
-      if (one.foreign && one.whyRealTime == link::whyRealTime(link::ProcessClock::Real)) {
+      if (one.isTeamProgram && one.whyRealTime == link::whyRealTime(link::ProcessClock::Real)) {
         names << robotName(robot.identity) + QLatin1Char(' ') + QString::fromStdString(one.name);
       }
     }

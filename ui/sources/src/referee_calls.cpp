@@ -172,7 +172,7 @@ void addRefereeMenu(QMenu* menu, MatchController* match, const std::vector<Robot
     if (kind == PenaltyKind::SentOff) continue;  // the red card
     addCall(penalise, match,
             kind == PenaltyKind::Substitute ? QStringLiteral("Take off as a substitute")
-                                            : asLabel(wordsOf(kind)),
+                                            : asLabel(labelOf(kind)),
             {.kind = CallKind::Penalise, .penalty = kind}, robots);
   }
   addCall(own, match, QStringLiteral("Pardon"), {.kind = CallKind::Pardon}, robots)

@@ -67,12 +67,12 @@ double ReplayPages::secondsThatFit() const {
 void ReplayPages::setBytes(std::size_t bytes) {
   const std::lock_guard lock(m_mutex);
   m_room = bytes;
-  keepRoom();
+  keepFreeSpace();
   forgetSummaries();
 }
 
 /// Of the stretches those that were used last stay. Needs the lock.
-void ReplayPages::keepRoom() {
+void ReplayPages::keepFreeSpace() {
   double rest = secondsThatFit();
   std::erase_if(m_held, [&rest](const Held& held) {
     rest -= held.range.end - held.range.begin;
@@ -251,7 +251,7 @@ void ReplayPages::readRows(TimeRange range) {
   // The part of it that was read first.
   m_held.remove_if([&range](const Held& held) { return contains(range, held.range); });
   m_held.push_front({range, std::move(rows)});
-  keepRoom();
+  keepFreeSpace();
   ++m_revision;
 }
 

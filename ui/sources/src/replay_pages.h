@@ -60,7 +60,7 @@ class ReplayPages : public telemetry::SeriesPages {
   void tell();
   void forgetSummaries();
   double secondsThatFit() const;
-  void keepRoom();
+  void keepFreeSpace();
 
   telemetry::SessionReader m_reader;  // of the worker
   telemetry::TimeRange m_range;

@@ -33,7 +33,7 @@ constexpr Offer offers[] = {
     {Kind::Penalised, "A robot is penalised"},
     {Kind::Fall, "A robot fell"},
     {Kind::ProcessDied, "A process died"},
-    {Kind::ProcessSilent, "A process stopped responding"},
+    {Kind::ProcessNotResponding, "A process stopped responding"},
     {Kind::RefereeOffline, "The referee went offline"},
     {Kind::SecondSender, "Two programs send as one robot"},
     {Kind::PortLost, "A port cannot be opened"},

@@ -13,6 +13,7 @@
 #include <ui/base/scoreboard_state.h>
 #include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
+#include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/source_switch.h>
@@ -39,15 +40,19 @@ class FieldSign : public QLabel {
   std::function<void()> clicked;
   /// Where; its size is what the text needs.
   std::function<QRect(QSize)> place;
+  /// It is placed again whenever another sign comes, goes or moves.
+  bool givesWay = false;
 
   void present() {
     const QString text = textNow();
     setText(text);
     setVisible(!text.isEmpty());
-    if (text.isEmpty()) return;
-    setWordWrap(false);  // its size hint is that of one line
-    setGeometry(place(sizeHint()));
-    raise();
+    if (!text.isEmpty()) {
+      setWordWrap(false);  // its size hint is that of one line
+      setGeometry(place(sizeHint()));
+      raise();
+    }
+    if (!givesWay) moveThoseThatGiveWay();
   }
 
  protected:
@@ -69,6 +74,13 @@ class FieldSign : public QLabel {
   }
 
  private:
+  void moveThoseThatGiveWay() {
+    for (QObject* child : parent()->children()) {
+      auto* sign = dynamic_cast<FieldSign*>(child);
+      if (sign && sign->givesWay && !sign->isHidden()) sign->present();
+    }
+  }
+
   QColor ThemeColors::*m_line;
 };
 
@@ -169,16 +181,30 @@ QWidget* makeFinalWhistleSign(SourceSwitch* source, QWidget* canvas) {
   return sign;
 }
 
-QWidget* makePenaltyStrip(FrameSource* source, QWidget* canvas) {
+QWidget* makePenaltyStrip(FrameSource* source, const FieldView* field, QWidget* canvas) {
   auto* sign = new FieldSign(canvas, QStringLiteral("penaltyStrip"), &ThemeColors::innerLine);
   sign->textNow = [source] {
     const FramePtr frame = source->frame();
     return frame ? scoreboardOf(*frame).penalties : QString();
   };
-  sign->place = [sign, canvas](QSize text) {
-    const int edge = scaled(sign, 8);
-    const int wide = qMin(text.width() + scaled(sign, 16), canvas->width() - 2 * edge);
-    return QRect(canvas->width() - wide - edge, edge, wide, scaled(sign, 22));
+  sign->givesWay = true;
+  sign->place = [sign, field, canvas](QSize text) {
+    // Below the others; what is wider than the field takes a second line.
+    const int edge = scaled(sign, 8), room = canvas->width() - 2 * edge;
+    const int whole = text.width() + scaled(sign, 16);
+    sign->setWordWrap(whole > room);
+    QRect box(0, edge, qMin(whole, room), scaled(sign, whole > room ? 38 : 22));
+    box.moveRight(canvas->width() - edge - 1);
+    QRect lower = box;
+    lower.moveBottom(canvas->height() - edge - 1);
+    if (field->hasRobotIn(box) && !field->hasRobotIn(lower)) return lower;
+    for (const QObject* child : canvas->children()) {
+      const auto* other = dynamic_cast<const FieldSign*>(child);
+      if (other && other != sign && !other->isHidden() && box.intersects(other->geometry())) {
+        box.moveTop(other->geometry().bottom() + 1 + edge / 2);
+      }
+    }
+    return box;
   };
   presentFrames(sign, source);
   return sign;

@@ -12,6 +12,7 @@ class QWidget;
 
 namespace pitchboard::ui {
 
+class FieldView;
 class FrameSource;
 class MatchController;
 class SourceSwitch;
@@ -30,8 +31,9 @@ QWidget* makeFinalWhistleSign(SourceSwitch* source, QWidget* canvas);
 QWidget* makeLookingBackSign(Timeline* timeline, QWidget* canvas);
 /// Says at the lower edge that a match stands still because no robot was told to play.
 QWidget* makeNobodyPlaysSign(FrameSource* source, QWidget* canvas);
-/// Who is penalised, and for how long, at the upper right: "B2 24 · R3 5".
-QWidget* makePenaltyStrip(FrameSource* source, QWidget* canvas);
+/// Who is penalised, and for how long, at the upper right: "B2 24 · R3 5"; at the lower right while
+/// robots stand up there.
+QWidget* makePenaltyStrip(FrameSource* source, const FieldView* field, QWidget* canvas);
 /// Says at the lower left that the mode is on; a click switches it off.
 QWidget* makePublishedKeysSign(QAction* publishedKeys, QWidget* canvas);
 

@@ -94,11 +94,11 @@ const KeyRow keyTable[] = {
     {nullptr, "Click", keysOfPlots, "Show that moment everywhere"},
     {nullptr, "Drag, wheel", keysOfPlots, "Move, zoom in time"},
     {nullptr, "Ctrl+wheel, Shift+drag", keysOfPlots, "Zoom the values, zoom into a box"},
-    {nullptr, "Double click", keysOfPlots, "Show everything"},
+    {nullptr, "Double-click", keysOfPlots, "Show everything"},
     {nullptr, "Wheel on the numbers", keysOfPlots, "Scroll the plots"},
 
     {nullptr, "Tab, Shift+Tab", keysOfPanels, "Next, previous control"},
-    {nullptr, "Enter", keysOfPanels, "Press a button, select a robot, plot a variable"},
+    {nullptr, "Enter", keysOfPanels, "Press a button, select a robot, plot"},
     {nullptr, "F2, *", keysOfPanels, "Edit the value, mark as favourite (Variables)"},
     {nullptr, "Ctrl+C", keysOfPanels, "Copy the selected lines"},
 };

@@ -145,7 +145,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
     makeLookingBackSign(m_timeline, canvas);
     makeNobodyPlaysSign(m_source, canvas);
     makePublishedKeysSign(m_field->actions().publishedKeys, canvas);
-    makePenaltyStrip(m_source, canvas);
+    makePenaltyStrip(m_source, m_field, canvas);
     makeFirstSteps(m_source, controller, m_timeline,
                    {m_keys->action("play"), m_keys->action("showKeys")}, settings, canvas);
   }
@@ -433,6 +433,9 @@ void MainWindow::connectNotices() {
     connect(m_recording, said, m_notices, tell(recording));
   }
   connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
+  connect(m_recording, &SessionRecording::changed, m_notices, [this] {
+    if (m_recording->isRecording()) m_notices->settle(recording);
+  });
   connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
     m_notices->show({recording, NoticeTone::Success}, QStringLiteral("Saved: %1").arg(path),
                     {{QStringLiteral("Open in Replay"), [this, path] { m_sessions->open(path); }},

@@ -107,7 +107,7 @@ void fillNumbers(QMenu* menu, MatchController* controller, MainWindow* window) {
       window, [begin, wanted, window] {
         bool chosen = false;
         const int number = QInputDialog::getInt(
-            window, QStringLiteral("Number of the match"),
+            window, QStringLiteral("Match number"),
             QStringLiteral("Sets blackboard keys and ports (0 to %1). The match restarts. Number:")
                 .arg(link::MatchNumber::most),
             wanted.value_or(0), 0, link::MatchNumber::most, 1, &chosen);

@@ -363,7 +363,7 @@ void StudioMenus::makeTimeline() {
       menu->addAction(QStringLiteral("E&xplore from this moment"), explorer, &Explorer::start);
   explore->setObjectName(QStringLiteral("exploreMoment"));
   explore->setToolTip(QStringLiteral(
-      "Shows where the ball may go, how likely a goal is, and what a robot had best do"));
+      "Shows where the ball may go, how likely a goal is, and which action is best"));
   for (QDockWidget* dock : m_context.docks) {
     if (dock->objectName() != QLatin1String("explore")) continue;
     QObject::connect(explore, &QAction::triggered, dock, [dock] {

@@ -94,7 +94,7 @@ void Scoreboard::paintEvent(QPaintEvent*) {
   const QRect rightName = take(w.name, px(square + 5) + w.gap);
   const int rightWide = word(rightName, m_state.rightName, w.names, Qt::AlignLeft);
   colourAt(rightName.left() + rightWide + px(5), m_state.rightColour);
-  painter.fillRect(QRect(left - w.gap / 2, px(4), 1, height() - px(8)), theme().innerLine);
+  painter.fillRect(QRect(left - 2 * w.gap / 3, px(4), 1, height() - px(8)), theme().innerLine);
   word(take(w.clock, w.gap), m_state.clock, w.names, Qt::AlignHCenter);
   if (m_state.state.isEmpty()) return;
   const QFont tagFont = themeFont(TypeRole::Secondary, true);

@@ -164,10 +164,10 @@ void StudioStatusBar::showSource() {
     const bool unrepeatable = m_context.replay->isUnrepeatable();
     m_processes->setText(unrepeatable ? QStringLiteral("Run is not repeatable") : QString());
     m_processes->setToolTip(
-        unrepeatable
-            ? QStringLiteral("A program decided that the match did not wait for. Playing the run "
-                             "again gives another result.")
-            : QString());
+        unrepeatable ? QStringLiteral(
+                           "A program took decisions without the match waiting for it. Playing the "
+                           "run again gives another result.")
+                     : QString());
   } else {
     showMatch(*frame);
   }
@@ -184,7 +184,7 @@ void StudioStatusBar::showMemory() {
   if (m_context.recording->isRecording()) {
     const telemetry::SessionStatus status = m_context.recording->status();
     const QString trouble = QString::fromStdString(telemetry::troubleText(status));
-    const QString room = QString::fromStdString(telemetry::roomText(status));
+    const QString room = QString::fromStdString(telemetry::freeSpaceText(status));
     QString text = QStringLiteral("recording %1, %2 MB")
                        .arg(longMomentText(status.seconds))
                        .arg(static_cast<double>(status.bytes) / 1e6, 0, 'f', 1);

@@ -173,11 +173,10 @@ void TransportBar::addSkip() {
     m_skips << action;
     return action;
   };
-  connect(make("skipToKickOff", "Skip to &kick-off",
-               "Plays at full speed until the ball may be kicked off"),
+  connect(make("skipToKickOff", "Skip to &kick-off", "Plays at full speed until kick-off"),
           &QAction::triggered, m_context.controller, &MatchController::skipToKickOff);
   connect(make("skipToEvent", "Skip to next &event",
-               "Plays at full speed until something happens that the timeline marks"),
+               "Plays at full speed until the next event on the timeline"),
           &QAction::triggered, this,
           [this] { m_context.controller->skipToEvent(m_context.timeline->eventFilter()); });
   auto* button = new QToolButton(this);
@@ -272,7 +271,7 @@ void TransportBar::showRecord() {
   m_record->setToolTip(
       on ? QStringLiteral("Stop recording into %1\n%2")
                .arg(m_context.recording->path(),
-                    QString::fromStdString(telemetry::roomText(m_context.recording->status())))
+                    QString::fromStdString(telemetry::freeSpaceText(m_context.recording->status())))
          : QStringLiteral("Record everything into a new file in %1")
                .arg(m_context.recording->folder()));
   m_record->setEnabled(on || m_context.recording->isPossible());

@@ -313,8 +313,7 @@ class HeaderReader {
                      where};
       case Value::Kind::Broken:
         return Error{ErrorCode::ParseError,
-                     "the value of \"" + name.substr(0, 64) + "\" begins like a number but is none",
-                     where};
+                     "the value of \"" + name.substr(0, 64) + "\" is not a number", where};
       default:
         break;
     }

@@ -71,11 +71,12 @@ bool isIdentifier(std::string_view name) {
 
 std::optional<Error> checkCatalogText(std::string_view& text, std::string_view source) {
   if (text.size() > maxCatalogBytes)
-    return Error{ErrorCode::ParseError,
-                 "the file has " + std::to_string(text.size()) +
-                     " bytes; a variable map has at most 1 MiB. Choose the team's blackboard.h, "
-                     "SharedMemory.py or a catalog in JSON",
-                 std::string(source)};
+    return Error{
+        ErrorCode::ParseError,
+        "the file has " + std::to_string(text.size()) +
+            " bytes; a variable catalog has at most 1 MiB. Choose the team's blackboard.h, "
+            "SharedMemory.py or a catalog in JSON",
+        std::string(source)};
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   int line = 1;
   for (const char c : text) {
@@ -144,15 +145,14 @@ Result<VariableCatalog> VariableCatalog::fromFile(const std::string& path) {
                                             : nullptr;
   if (reader == nullptr)
     return failure(ErrorCode::Unsupported,
-                   "a variable map is a .json, .h, .hpp or .py file; this name ends otherwise",
-                   path);
-  const auto text = TRY(readFile(path, maxCatalogBytes, "The variable map"));
+                   "unknown file type; a variable catalog is a .json, .h, .hpp or .py file", path);
+  const auto text = TRY(readFile(path, maxCatalogBytes, "The variable catalog"));
   return reader(text, path);
 }
 
 Result<VariableCatalog> VariableCatalog::fromFile(const std::string& path, SegmentLayout& layout) {
   if (std::filesystem::path(path).extension() != ".json") return fromFile(path);
-  const auto text = TRY(readFile(path, maxCatalogBytes, "The variable map"));
+  const auto text = TRY(readFile(path, maxCatalogBytes, "The variable catalog"));
   return readJson(text, path, layout, true);
 }
 
@@ -169,10 +169,10 @@ Result<VariableCatalog> VariableCatalog::make(const std::vector<CatalogEntry>& e
   std::vector<const CatalogEntry*> accepted;
   for (const CatalogEntry& entry : entries) {
     if (!isIdentifier(entry.name))
-      return failure(
-          ErrorCode::ParseError,
-          inQuotes(entry.name) + " is no variable name: use letters, digits and _, a letter first",
-          entry.where);
+      return failure(ErrorCode::ParseError,
+                     inQuotes(entry.name) +
+                         " is not a variable name; use letters, digits and _, a letter first",
+                     entry.where);
     const long long count =
         entry.type == VariableType::Int ? layout.words() : layout.words() - layout.floatOffset;
     if (entry.index < 0 || entry.index >= count)

@@ -37,7 +37,7 @@ class FastNoise {
     }
   }
 
-  /// `out` has particles::roomFor(count) places.
+  /// `out` has particles::capacityFor(count) places.
   void fillNormal(float* out, int count) { particles::kernels().fillNormal(m_lanes, out, count); }
 
  private:

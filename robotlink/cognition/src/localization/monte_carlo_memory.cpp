@@ -8,7 +8,7 @@ void MonteCarloLocalization::expand() {
   const auto cells = static_cast<std::size_t>(m_columns) * static_cast<std::size_t>(m_rows);
   m_cellStamp.resize(cells * headingCells, 0);
   m_cellWeight.resize(cells, 0.0F);
-  const int room = particles::roomFor(m_parameters.mostParticles);
+  const int room = particles::capacityFor(m_parameters.mostParticles);
   const auto grow = [room](Array& array) {
     const auto had = array.size();
     array.conservativeResize(room);
@@ -23,7 +23,7 @@ void MonteCarloLocalization::expand() {
 
 MonteCarloLocalization MonteCarloLocalization::compact() const {
   MonteCarloLocalization kept = *this;
-  const int room = particles::roomFor(m_count);
+  const int room = particles::capacityFor(m_count);
   for (Array* a : {&kept.m_now.x, &kept.m_now.y, &kept.m_now.c, &kept.m_now.s, &kept.m_weight}) {
     a->conservativeResize(room);
   }
@@ -37,7 +37,7 @@ MonteCarloLocalization MonteCarloLocalization::compact() const {
 
 std::size_t MonteCarloLocalization::compactBytes() const {
   constexpr std::size_t arrays = 5;  // place, heading, weight
-  return arrays * sizeof(float) * static_cast<std::size_t>(particles::roomFor(m_count));
+  return arrays * sizeof(float) * static_cast<std::size_t>(particles::capacityFor(m_count));
 }
 
 }  // namespace pitchboard::link

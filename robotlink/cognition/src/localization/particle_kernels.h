@@ -5,7 +5,7 @@
 // makes vectors of, without functions of the C library or of the processor whose last bits differ.
 // Each value depends on its own particle only, and sums are made in a fixed order: the same bits
 // everywhere. Metres and radians in single precision; a heading is its cosine and sine. Pure
-// functions; the arrays belong to the filter and have `roomFor(n)` places.
+// functions; the arrays belong to the filter and have `capacityFor(n)` places.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace pitchboard::link::particles {
 
 /// Kernels may write past n, up to whole blocks.
 inline constexpr int block = 16;
-constexpr int roomFor(int n) {
+constexpr int capacityFor(int n) {
   return (n + block - 1) / block * block;
 }
 

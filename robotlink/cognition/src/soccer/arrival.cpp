@@ -28,7 +28,7 @@ double walkingSpeed(const WorldModel& world) {
   return std::max(0.01, gait.forward);
 }
 
-double wayRound(const Point& robot, const Point& ball) {
+double pathLengthAround(const Point& robot, const Point& ball) {
   constexpr double round = 0.35;  // m from the ball
   const double off = std::abs(wrapToPi(direction(robot, ball)));
   return std::max(0.0, off - pi / 2) * round;
@@ -47,11 +47,12 @@ double secondsFrom(const WorldModel& world, const Point& from, const Point& plac
 }
 
 double secondsToBall(const WorldModel& world, const Point& ball) {
-  return secondsTo(world, ball) + secondsFor(world, 0.0, wayRound(world.pose().position, ball));
+  return secondsTo(world, ball) +
+         secondsFor(world, 0.0, pathLengthAround(world.pose().position, ball));
 }
 
 double secondsToBallFrom(const WorldModel& world, const Point& from, const Point& ball) {
-  return secondsFrom(world, from, ball) + secondsFor(world, 0.0, wayRound(from, ball));
+  return secondsFrom(world, from, ball) + secondsFor(world, 0.0, pathLengthAround(from, ball));
 }
 
 }  // namespace pitchboard::link

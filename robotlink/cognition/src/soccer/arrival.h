@@ -13,7 +13,7 @@ double walkingSpeed(const WorldModel& world);
 
 /// How much farther it is to a ball from where a robot has to go round it before it can play
 /// towards the opponents' goal, m.
-double wayRound(const Point& robot, const Point& ball);
+double pathLengthAround(const Point& robot, const Point& ball);
 
 /// This robot, from where it stands and looks, to `place`.
 double secondsTo(const WorldModel& world, const Point& place);

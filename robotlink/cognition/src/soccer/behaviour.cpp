@@ -72,7 +72,7 @@ Choice Behaviour::choose(const WorldModel& world) {
       // Standing it may see the same two corners for ever, and they do not say where it is.
       m_search.restart();
       return {acts::turnRight, Intention::Idle, {}, true};
-    case Referee::Silent:
+    case Referee::None:
     case Referee::Stop:
     case Referee::Set:
       break;
@@ -184,8 +184,8 @@ bool Behaviour::takesBall(const WorldModel& world, const Point& ball, bool has) 
     } else if (goes) {
       if (own > its - m_numbers.takesAfter) return false;
     } else if (mate->intention != Intention::Keep &&
-               distance(mate->position, ball) + wayRound(mate->position, ball) <
-                   away + wayRound(world.pose().position, ball)) {
+               distance(mate->position, ball) + pathLengthAround(mate->position, ball) <
+                   away + pathLengthAround(world.pose().position, ball)) {
       return false;
     }
   }
@@ -231,8 +231,9 @@ Choice Striker::support(const WorldModel& world, const Point& ball) {
     m_place.reset();
   }
   m_place = placeOf(robots, places, m_place);
-  const bool isTold = isAdvised(world, AdviceKind::Stand);
-  const Point place = isTold ? inField(world, world.advice()->place.position) : places[*m_place];
+  const bool isAnnounced = isAdvised(world, AdviceKind::Stand);
+  const Point place =
+      isAnnounced ? inField(world, world.advice()->place.position) : places[*m_place];
   Choice choice = goTo(world, {place, direction(place, ball)}, Intention::Support, 0.25);
   if (auto* target = std::get_if<Target>(&choice.move)) target->apart = true;
   return choice;

@@ -112,7 +112,7 @@ class WorldModel {
   bool m_first = true;
   unsigned m_cycle = 0;
   bool m_looksForOpponents = false;
-  Referee m_referee = Referee::Silent;
+  Referee m_referee = Referee::None;
   bool m_fallen = false;
   sim::SetPlay m_setPlay = sim::SetPlay::None;
   bool m_setPlayOurs = false;

@@ -21,7 +21,7 @@ constexpr int distanceMessage = 2;  // the kind of team message, and the request
 constexpr double listenPeriod = 0.05;  // s: how soon a referee's word is on the blackboard
 
 /// Hears the GameController for one robot, on a UDP port that it shares with others of this
-/// computer: each hears every broadcast. While the port cannot be had it is tried again every few
+/// computer: each receives every broadcast. While the port is in use it is tried again every few
 /// seconds.
 class RefereeListener {
  public:
@@ -29,7 +29,7 @@ class RefereeListener {
       : m_team(team), m_player(player), m_receiver(std::move(receiver)) {}
 
   /// What the newest packet since the last call means to this robot; nothing when there was none
-  /// for it. Never waits. A referee that falls silent has said its last word: it stays.
+  /// for it. Never blocks. If the referee goes offline, the last orders stay.
   std::optional<RefereeOrder> newOrder() {
     std::optional<RefereeOrder> order;
     if (!m_receiver->take(m_batch)) return order;
@@ -192,8 +192,7 @@ Result<std::unique_ptr<CognitiveProcess>> makeCommunication(const ProcessOptions
   const auto address = TRY(telemetry::parseAddress(options.udpAddress));
   auto sender = TRY(telemetry::UdpSender::to(address));
   if (!(options.telemetryPeriod >= listenPeriod && options.telemetryPeriod <= 60.0)) {
-    return failure(ErrorCode::InvalidArgument,
-                   "telemetry can be sent every 0.05 to 60 seconds, not more often or seldom");
+    return failure(ErrorCode::InvalidArgument, "the telemetry period must be 0.05 to 60 seconds");
   }
   std::unique_ptr<RefereeListener> referee;
   if (options.refereeTeam) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/cognition/announced_set_play.h>
 #include <robotlink/cognition/referee_orders.h>
-#include <robotlink/cognition/told_set_play.h>
 
 namespace pitchboard::link {
 namespace {
@@ -44,7 +44,7 @@ std::optional<RefereeOrder> RefereeOrders::take(const telemetry::RefereeState& s
   if (state.trueData()) return std::nullopt;
   const telemetry::RefereeTeam* own = state.team(team);
   if (own == nullptr) return std::nullopt;
-  const ToldSetPlay told = setPlayIn(state);
+  const AnnouncedSetPlay told = setPlayIn(state);
   RefereeOrder order{refereeStop, told.kind, told.team == team, own->score};
   for (const telemetry::RefereeTeam& one : state.teams) {
     if (one.number != team) order.goalsTheirs = one.score;

@@ -10,7 +10,7 @@
 #include <base/system_reason.h>
 #include <base/try.h>
 #include <base/unique_fd.h>
-#include <robotlink/processes/match_turns.h>
+#include <robotlink/processes/lock_step_slots.h>
 #include <telemetry/wire/socket_address.h>
 #include <telemetry/wire/udp_sender.h>
 
@@ -55,22 +55,22 @@ class UdpTeamChannel final : public TeamChannel {
   std::uint16_t m_port;
 };
 
-class TurnsChannel final : public TeamChannel {
+class LockStepChannel final : public TeamChannel {
  public:
-  TurnsChannel(std::shared_ptr<ProcessTurns> turns, std::unique_ptr<TeamChannel> udp)
-      : m_turns(std::move(turns)), m_udp(std::move(udp)) {}
+  LockStepChannel(std::shared_ptr<LockStepSlot> slot, std::unique_ptr<TeamChannel> udp)
+      : m_slot(std::move(slot)), m_udp(std::move(udp)) {}
 
   void post(RobotId from, std::string_view message) override {
-    if (m_turns->inLockStep()) m_turns->post(message);
+    if (m_slot->inLockStep()) m_slot->post(message);
     m_udp->post(from, message);
   }
   std::vector<std::string> take(RobotId to) override {
     std::vector<std::string> received = m_udp->take(to);  // what lies there would be old news later
-    return m_turns->inLockStep() ? m_turns->messages() : received;
+    return m_slot->inLockStep() ? m_slot->messages() : received;
   }
 
  private:
-  std::shared_ptr<ProcessTurns> m_turns;
+  std::shared_ptr<LockStepSlot> m_slot;
   std::unique_ptr<TeamChannel> m_udp;
 };
 
@@ -103,9 +103,9 @@ void InProcessTeamChannel::clear() {
   for (Box& box : m_boxes) box.messages.clear();
 }
 
-std::unique_ptr<TeamChannel> makeTurnsChannel(std::shared_ptr<ProcessTurns> turns,
-                                              std::unique_ptr<TeamChannel> udp) {
-  return std::make_unique<TurnsChannel>(std::move(turns), std::move(udp));
+std::unique_ptr<TeamChannel> makeLockStepChannel(std::shared_ptr<LockStepSlot> slot,
+                                                 std::unique_ptr<TeamChannel> udp) {
+  return std::make_unique<LockStepChannel>(std::move(slot), std::move(udp));
 }
 
 Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& address, int team,
@@ -130,11 +130,11 @@ Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& addre
   }
   auto sender = TRY(telemetry::UdpSender::to(*to));
   UniqueFd socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  if (!socket) return tl::unexpected<Error>(systemError("The system gives no UDP socket"));
+  if (!socket) return tl::unexpected<Error>(systemError("Cannot open a UDP socket"));
   const int on = 1;
   // Several robots of one computer listen on the same port.
   ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  // Bound to the loopback broadcast address, nothing from outside is heard.
+  // Bound to the loopback broadcast address, it receives nothing from outside.
   const sockaddr_in here =
       telemetry::socketAddress(onlyHere ? *to : telemetry::Address{INADDR_ANY}, port);
   if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&here), sizeof here) != 0) {

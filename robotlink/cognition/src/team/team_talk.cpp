@@ -172,7 +172,8 @@ Result<std::unique_ptr<CognitiveProcess>> makeTeamTalk(const ProcessOptions& opt
   std::shared_ptr<TeamChannel> channel = options.teamChannel;
   if (!channel) {
     auto udp = TRY(makeUdpTeamChannel(options.udpAddress, options.team, options.channelPortBase));
-    channel = options.turns ? makeTurnsChannel(options.turns, std::move(udp)) : std::move(udp);
+    channel = options.lockStepSlot ? makeLockStepChannel(options.lockStepSlot, std::move(udp))
+                                   : std::move(udp);
   }
   return std::make_unique<TeamTalk>(options.robot, std::move(channel));
 }

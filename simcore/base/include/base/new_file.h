@@ -33,7 +33,7 @@ class NewFile {
   void cutAt(std::uint64_t size);
   /// Reserves space after the end, so that the last bytes still fit on a disk that becomes full.
   /// Fails if the disk does not have that space; succeeds on file systems that cannot reserve any.
-  Result<void> keepRoom(std::uint64_t bytes);
+  Result<void> keepFreeSpace(std::uint64_t bytes);
   /// Fails if somebody removed the file while it was written.
   Result<void> stillThere() const;
   Result<void> close();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Every reference process of a robot, those of cognition and the advisor: the one list that
-// programs, matches and tests read. Any thread.
+// Lists all reference processes of a robot: those of cognition, and the advisor. Programs, matches
+// and tests read this list. Pure functions; any thread.
 
 #include <span>
 #include <string_view>
@@ -11,9 +11,9 @@
 
 namespace pitchboard::link {
 
-/// In starting order.
+/// Returns the processes in the order in which they are started.
 std::span<const ProcessInfo> referenceProcesses();
-/// Null for an unknown name.
+/// Returns a process by name; null for an unknown one.
 const ProcessInfo* findProcess(std::string_view name);
 
 }  // namespace pitchboard::link

@@ -24,8 +24,11 @@ struct CalibratedValue {
       key;  ///< as in robot files ("turn", "noise.imu_white"), or of the field ("field....")
   double value = 0.0, low = 0.0, high = 0.0;  ///< median of the posterior; m, s, rad
   std::size_t samples = 0;
-  std::string of;  ///< what `samples` counts: "stints", "percepts"
+  std::string of;  ///< what `samples` counts, in the plural: "actions", "percepts"
 };
+
+/// "950 percepts", "1 action".
+std::string samplesText(const CalibratedValue& value);
 
 /// A window of the recording, and the motion predicted from its start.
 struct PredictedWindow {
@@ -62,7 +65,7 @@ struct Calibration {
   sim::RobotModel model;  ///< the base model with the estimated numbers
   std::vector<CalibratedValue> values;
   std::map<std::string, std::string> kept;  ///< keys that were not estimated, with the reason
-  /// Results that are not part of a model: time to reach and leave a speed, spread between stints.
+  /// Results that are not part of a model: time to reach and leave a speed, spread between actions.
   std::vector<CalibratedValue> told;
   std::map<std::string, double> leftOut;  ///< seconds that were not used, by reason
   std::vector<std::string> sessions;

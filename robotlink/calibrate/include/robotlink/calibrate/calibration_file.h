@@ -23,8 +23,10 @@ struct WrittenValue {
   double value = 0.0, low = 0.0, high = 0.0;
   std::string unit;  ///< "m/s"; empty for plain numbers
 };
+/// Converts a calibrated value to these units.
 WrittenValue writtenValue(const CalibratedValue& value);
-/// The base model's number for a key, as people write it; nothing for what is not in a model.
+/// Returns the value of the base model for a key, in these units; empty for keys that are not in a
+/// model.
 std::optional<double> writtenBase(const Calibration& calibration, std::string_view key);
 
 /// Returns the report as a self-contained HTML page: values, residuals, and predicted against

@@ -27,7 +27,7 @@ struct Clock {
   double seconds = 0.0;
 };
 
-class ProcessTurns;
+class LockStepSlot;
 
 /// How an advisor thinks (docs/advisor.md).
 struct AdvisorOptions {
@@ -103,7 +103,7 @@ struct ProcessOptions {
   AdvisorOptions advisor;
   bool keepsMemory = true;  ///< advisor: it also writes AdvisorOptions::memory, not only reads it
   /// For a process that follows the time of a match; null: it follows real time.
-  std::shared_ptr<ProcessTurns> turns;
+  std::shared_ptr<LockStepSlot> lockStepSlot;
 
   /// Sets the ports of a match.
   void setMatch(MatchNumber match);

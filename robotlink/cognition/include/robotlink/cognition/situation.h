@@ -14,7 +14,7 @@
 namespace pitchboard::link {
 
 struct Situation {
-  Referee referee = Referee::Silent;
+  Referee referee = Referee::None;
   sim::SetPlay setPlay = sim::SetPlay::None;
   bool setPlayIsOurs = false;
   int goalsOwn = 0, goalsTheirs = 0;

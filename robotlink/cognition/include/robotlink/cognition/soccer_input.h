@@ -21,7 +21,7 @@ namespace pitchboard::link {
 using Points = InlineVector<Point, 22>;  ///< room for all robots of a match
 
 /// The values of COM_REFEREE.
-enum class Referee { Silent = 0, Stop = 1, Play = 2, Ready = 11, Set = 12 };
+enum class Referee { None = 0, Stop = 1, Play = 2, Ready = 11, Set = 12 };
 
 /// The values of DECISION_STATE and COM_ACTION_ROBOTn, described in resources/variables.json.
 enum class Intention : int {
@@ -54,7 +54,7 @@ struct SeenAt {
 };
 
 struct SoccerInput {
-  Referee referee = Referee::Silent;
+  Referee referee = Referee::None;
   bool fallen = false;
   sim::SetPlay setPlay = sim::SetPlay::None;  ///< the current set play
   bool setPlayIsOurs = false;

@@ -3,7 +3,7 @@
 
 // A channel on which the robots of a team exchange messages: one robot posts a text, each of the
 // others takes it. There are three kinds: UDP between processes, memory between robots inside one
-// program, and turns between separate processes in lock-step. With the latter two a message arrives
+// program, and lock-step slots between separate processes. With the latter two a message arrives
 // at the same tick in every run.
 
 #include <deque>
@@ -43,13 +43,14 @@ class InProcessTeamChannel final : public TeamChannel {
   std::vector<Box> m_boxes;
 };
 
-class ProcessTurns;
+class LockStepSlot;
 
-/// Makes the channel of a separate process that takes turns with a match. In lock-step, messages
-/// are passed with the turns, so that they arrive at the same tick in every run; otherwise they
-/// come by `udp`. Posted messages are always sent by UDP, too, so that others can receive them.
-std::unique_ptr<TeamChannel> makeTurnsChannel(std::shared_ptr<ProcessTurns> turns,
-                                              std::unique_ptr<TeamChannel> udp);
+/// Makes the channel of a separate process that runs in step with a match. In lock-step, messages
+/// are passed through the shared slot, so that they arrive at the same tick in every run; otherwise
+/// they come by `udp`. Posted messages are always sent by UDP, too, so that others can receive
+/// them.
+std::unique_ptr<TeamChannel> makeLockStepChannel(std::shared_ptr<LockStepSlot> slot,
+                                                 std::unique_ptr<TeamChannel> udp);
 
 /// Makes a channel of UDP broadcasts on port `portBase` + team; base 10000 is the convention of the
 /// Humanoid Soccer League 2026. A datagram has at most 512 bytes. With `address` 127.0.0.1 messages

@@ -47,6 +47,6 @@ struct RunResult {
 };
 
 /// Returns the text for RunResult::match.endedBy: "goal", "ball out", "stuck".
-std::string endWords(const std::string& endedBy);
+std::string endText(const std::string& endedBy);
 
 }  // namespace pitchboard::link

@@ -20,12 +20,12 @@
 namespace pitchboard::link {
 
 struct ExploreOptions {
-  double seconds = 30.0;               ///< that each rollout lasts, 1 to 600
-  std::optional<RobotKey> robot;       ///< whose actions are compared; nothing: none
+  double seconds = 30.0;               ///< length of a rollout, 1 to 600
+  std::optional<RobotKey> robot;       ///< its actions are compared; empty: no actions
   std::size_t mostRollouts = 1000;     ///< of each action
   std::size_t rolloutsPerRound = 100;  ///< of each action; a result follows each round
-  /// Stops before `mostRollouts` once both goal probabilities are known to this much (half of the
-  /// 95 % interval) and the best action is clear.
+  /// The exploration ends before `mostRollouts` once half of the 95 % interval of both goal
+  /// probabilities is below this and the best action is clear.
   double precision = 0.02;
   int threads = 1;  ///< 1 to rollout::Rollouts::mostThreads
   std::uint64_t seed = 1;
@@ -36,25 +36,26 @@ struct Estimate {
   double value = 0.0, low = 0.0, high = 0.0;
 };
 
-/// Something that the chosen robot may do.
+/// An action that the chosen robot may take.
 struct ExploredAction {
   std::string text;         ///< "Supports"
-  Point from;               ///< where its arrow begins: the ball for a kick, else the robot
-  std::optional<Point> to;  ///< where its arrow ends; nothing for actions without a target
+  Point from;               ///< start of its arrow: the ball for a kick, otherwise the robot
+  std::optional<Point> to;  ///< end of its arrow; empty for actions without a target
   Estimate value;           ///< expected goals for minus goals against
-  /// By how much it is worse than the best action, from pairs of equal seeds. The intervals of all
-  /// actions hold together with 95 % (Bonferroni). Zero for the best action.
+  /// The difference to the best action, from pairs of rollouts with equal seeds. With 95 %
+  /// probability, the intervals of all actions hold at the same time (Bonferroni). 0 for the best
+  /// action.
   Estimate behind;
-  /// The interval of `behind` is above zero.
+  /// Returns whether the action is significantly worse than the best one.
   bool isWorse() const { return behind.low > 0.0; }
 };
 
-/// What is expected a time after the beginning.
+/// What is expected at a time after the beginning.
 struct ExploredTime {
-  /// Where the ball is: the share of rollouts in each cell, rows from below, cells from left to
+  /// The share of rollouts with the ball in each cell, rows from the bottom, cells from left to
   /// right. A ball outside the lines counts in the nearest cell.
   std::vector<float> heat;
-  /// A goal until then, of the team whose own goal is the left or the right one.
+  /// The probability of a goal until then by the team that defends the left or the right goal.
   rollout::Share goalLeft, goalRight;
 };
 
@@ -67,20 +68,20 @@ struct ExploreResult {
   std::size_t best = 0;                 ///< index of the action with the highest value
 
   const ExploredTime& last() const { return times.back(); }
-  /// The best action is better than every other one.
+  /// Returns whether the best action is significantly better than every other one.
   bool isClear() const;
-  /// "Supports is best." or "No difference can be told between ..."; empty without actions.
+  /// Returns "Supports is best." or "No significant difference between ..."; empty without actions.
   std::string verdict() const;
 };
 
-/// Gets the result so far after each round, and the share of the rollouts that are done (0 to 1).
-/// Returning false cancels.
+/// Called after each round with the share of rollouts that are done (0 to 1) and the result so far.
+/// Return false to cancel.
 using ExploreProgress = std::function<bool(double done, const ExploreResult& soFar)>;
 
-/// Plays rollouts until they are enough. `cancelled` is looked at between rollouts. A cancelled
-/// exploration returns what the finished rounds say, and Conflict if there is none. Fails with
-/// InvalidArgument for options out of their ranges, and with NotFound if the chosen robot does not
-/// play.
+/// Plays rounds of rollouts until the result is precise enough. `cancelled` is read between
+/// rollouts. If cancelled, returns the result of the finished rounds, or Conflict if there is none.
+/// Fails with InvalidArgument for options out of range, and with NotFound if the chosen robot does
+/// not play.
 Result<ExploreResult> explore(const ExploreStart& start, const ExploreOptions& options,
                               const ExploreProgress& progress = {},
                               const std::atomic<bool>* cancelled = nullptr);

@@ -41,8 +41,8 @@ struct ExploreStart {
   std::vector<std::string> notes;
 };
 
-/// Fails with NotFound if no robot's pose or no ball is known, and with Unsupported after the end
-/// of a game.
+/// Returns the start of rollouts from this frame. Fails with NotFound if no robot's pose or no ball
+/// is known, and with Unsupported after the end of a game.
 Result<ExploreStart> exploreStart(const MatchFrame& frame, const ExploreStartOptions& options = {});
 
 }  // namespace pitchboard::link

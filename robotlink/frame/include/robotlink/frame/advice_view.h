@@ -26,10 +26,10 @@ struct BallHeat {
   bool operator==(const BallHeat&) const = default;
 };
 
-/// Something that the advisor has considered.
+/// An action that the advisor has considered.
 struct AdviceCandidate {
   AdviceKind kind = AdviceKind::None;  ///< None: what the behaviour would do
-  Point place;                         ///< where the ball or the robot is to go
+  Point place;                         ///< target of the ball or of the robot
   double value = 0.0;                  ///< expected goal difference
   bool isChosen = false;
   bool operator==(const AdviceCandidate&) const = default;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Decides when a robot has lost the ball and when it sees it again, for simulated and live robots
-// alike. A ball that is out of sight for a moment (the head turns, another robot stands between) is
-// not lost, so that a robot tells of the ball at most once every lostAfter seconds. A plain value;
-// times in seconds of the source.
+// Decides when a robot has lost the ball and when it sees it again, for simulated and live robots.
+// A ball that is out of sight for less than lostAfter seconds (the head turns, another robot stands
+// in between) does not count as lost. Times are seconds of the source. A plain value; not
+// thread-safe.
 
 #include <optional>
 
@@ -16,8 +16,8 @@ class BallSight {
  public:
   static constexpr double lostAfter = 2.0;  ///< s without seeing it
 
-  /// To be called again and again, with times that do not go back. Returns BallLost or BallSeen
-  /// when that has changed; nothing at the first call, which only tells what there was to see.
+  /// Call it for every frame, with times that do not decrease. Returns BallLost or BallSeen when
+  /// that has changed. The first call only initializes and returns nothing.
   std::optional<MatchEventKind> look(bool isSeen, double time) {
     const bool isFirst = !m_known;
     const bool was = m_known.value_or(isSeen);

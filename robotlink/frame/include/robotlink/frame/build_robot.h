@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one way from what a blackboard, a message or a recorded row says of a robot to what is shown
-// of it. A source only tells values. One thread for each object.
+// Computes what is shown of a robot from the values of a blackboard, a message or a recorded row.
+// Every source uses it and provides only a function that reads single values. Use each object on
+// one thread.
 
 #include <array>
 #include <functional>
@@ -16,29 +17,31 @@
 
 namespace pitchboard::link {
 
-/// A value in the unit of telemetry::info(); nothing: the source does not know it. Control to Imu
-/// are flags, BallSeen is 0 or less for a ball that is lost.
+/// Returns a value in the unit of telemetry::info(); empty if the source does not have it. Control
+/// to Imu are flags; BallSeen is 0 or less for a lost ball.
 using RobotReader = std::function<std::optional<double>(telemetry::FieldMeaning)>;
 
-/// What a blackboard's variable says: VISION_LOST is the opposite of BallSeen.
+/// Converts the value of a blackboard variable to that of its meaning: VISION_LOST is the opposite
+/// of BallSeen.
 constexpr double meantBy(telemetry::FieldMeaning meaning, double variable) {
   return meaning == telemetry::FieldMeaning::BallSeen ? 1.0 - variable : variable;
 }
 
-/// Seconds for which a process counts as working after its flag was last seen set: the flag is
-/// cleared and set again all the time.
+/// For this time (s) after its flag was last set, a process counts as working, because the flag is
+/// cleared and set again continuously.
 inline constexpr double flagMemory = 1.0;
 
-/// Since when each process of one robot works or is silent. One that was never seen working is
-/// unknown, not silent.
+/// Remembers since when each process of a robot works or does not respond. The state of a process
+/// that has never worked is unknown.
 class LampMemory {
  public:
   using Lamps = std::array<telemetry::ProcessHeartbeat, telemetry::processCount>;
-  /// `time`: s, never less than before; it stands still while the processes may rest.
+  /// Reads the flags and returns the states. `time` (s) must not decrease; it stands still while
+  /// the match is paused.
   const Lamps& note(const RobotReader& reader, double time);
-  /// The flag of this process was set at that time, within flagMemory of the next note().
+  /// Tells that the flag of this process was set at `time`, between two calls of note().
   void saw(std::size_t lamp, double time);
-  /// The next time is another one: what was set before does not count any more.
+  /// Forgets all flags, because the next time does not follow the last one.
   void jump() { m_seen = never; }
 
  private:
@@ -51,12 +54,20 @@ class LampMemory {
   Lamps m_lamps{};
 };
 
-/// Belief, ball, decided action, battery and advice. `robot` has its lamps, link and, where the
-/// truth is known, its pose; else the pose becomes what it believes. `advice` may be empty.
+/// Fills belief, ball, decided action, battery and advice of `robot`. Its lamps, its link and, if
+/// `truthKnown`, its pose must already be set; otherwise the pose becomes the believed one.
+/// `battery` has the limits of the robot's model. `advice` may be empty.
 void buildRobot(const RobotReader& reader, const AdviceReader& advice, const sim::FieldSpec& field,
-                bool truthKnown, RobotFrame& robot);
+                const telemetry::BatteryLimits& battery, bool truthKnown, RobotFrame& robot);
 
-/// Where the robots of each team agree that the ball is; teams of which no two do are left out.
+/// Returns the battery limits of a robot model. They are of the whole battery, as if it had one
+/// cell.
+constexpr telemetry::BatteryLimits batteryLimitsOf(const sim::RobotModel& model) {
+  return {1, model.batteryFull, model.batteryLow, model.batteryEmpty};
+}
+
+/// Returns where the robots of each team agree that the ball is. Teams in which no two robots agree
+/// are left out.
 std::vector<TeamBall> agreedBalls(std::span<const RobotFrame> robots);
 
 }  // namespace pitchboard::link

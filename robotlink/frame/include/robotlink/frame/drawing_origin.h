@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// From where a layer that a robot's program drew counts its metres: one answer for the studio's
-// field and for pictures made without a screen. A pure function.
+// Converts drawings of robots' programs (docs/drawings.md) to the frame in which they are shown.
+// The studio's field and pictures made without a screen both use it. Pure functions; any thread.
 
 #include <optional>
 
@@ -10,12 +10,12 @@
 
 namespace pitchboard::link {
 
-/// In the studio's frame. `robot` may be null: it is not on the field. Nothing for what nobody
-/// knows.
+/// Returns the origin of a layer in the studio's frame. Empty if it is unknown; `robot` is null for
+/// a robot that is not on the field.
 std::optional<Pose> drawingOrigin(telemetry::DrawingFrame frame, const RobotFrame* robot);
 
-/// Programs of a simulated match name themselves by their slots: the frame's drawings get the keys
-/// of those robots.
+/// Drawings in a simulated match name the robot by the number of its blackboard. Replaces these
+/// numbers by the keys of the robots.
 void keyDrawings(MatchFrame& frame);
 
 }  // namespace pitchboard::link

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Puts robots whose blackboards are received (attached on this computer, or sent by
-// pitchboard-agent) into a frame. A robot that sends messages as well is one robot, in Live as in a
-// recording: both call this. Pure; any thread.
+// Adds robots whose blackboards are received (attached on this computer, or sent by
+// pitchboard-agent) to a frame. A robot that also sends messages becomes one robot. Used for Live
+// and for recordings. Pure function; any thread.
 
 #include <vector>
 
@@ -14,12 +14,14 @@ namespace pitchboard::link {
 /// RobotKey::team of a received blackboard of which only the colour is known.
 inline constexpr int placeByColour = -1;
 
-/// Each of `boards` has a number, a colour and a link. One with the address of a sender is the
-/// robot that sends messages with its number from there. One without is a blackboard of this
-/// computer: it is the robot of its number and colour, or of a team whose colour is not known.
-/// Where there is none it becomes a robot of its own, of the team at its place or of its colour.
-/// While a blackboard is received, it says where the robot is, what it sees and does; messages say
-/// it otherwise. Returns the keys under which they are in the frame, in the order of `boards`.
+/// Joins each of `boards`, which have a number, a colour and a link, with a robot of the frame:
+/// - A blackboard that was sent from an address belongs to the robot with its number that sends
+///   messages from the same address.
+/// - A blackboard of this computer belongs to the robot with its number and colour, or to one with
+///   its number in a team whose colour is unknown.
+/// - If there is no such robot, the blackboard becomes a robot of its own.
+/// While a blackboard is received, pose, percepts and action come from it, otherwise from messages.
+/// Returns the keys of the robots in the frame, in the order of `boards`.
 std::vector<RobotKey> joinBoards(MatchFrame& frame, std::vector<RobotFrame> boards);
 
 }  // namespace pitchboard::link

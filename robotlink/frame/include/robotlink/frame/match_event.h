@@ -22,49 +22,49 @@ namespace pitchboard::link {
 
 /// The comments say which members of MatchEvent a kind uses.
 enum class MatchEventKind : std::uint8_t {
-  Goal,                ///< side, team, score
-  ScoreCorrected,      ///< side, team, score
-  BallOut,             ///< none
-  Kick,                ///< robot; value: the action
-  Fall,                ///< robot
-  GotUp,               ///< robot
-  UnknownAction,       ///< robot; value: the code
-  BallSeen,            ///< robot: it sees the ball again
-  BallLost,            ///< robot: it has not seen the ball for BallSight::lostAfter
-  GameState,           ///< detail: "PLAYING"; value: seconds left, if there is a clock
-  MatchOver,           ///< detail: the stop condition of the scenario that was met
-  Half,                ///< value: 1 or 2
-  SetPlay,             ///< detail: "corner"; empty: normal play again
-  GamePhase,           ///< detail: "penalty shoot-out"; empty: normal time
-  PlayStopped,         ///< none; the referee stopped play
-  PlayGoesOn,          ///< none; the referee resumed play
-  RefereeReceived,     ///< a first or different referee; detail: which; value: packet version
-  RefereeOffline,      ///< none
-  RefereeBack,         ///< none
-  SecondReferee,       ///< detail: the referee that is shown
-  RobotReceived,       ///< robot: first message; detail: its sender
-  RobotOffline,        ///< robot
-  RobotBack,           ///< robot
-  SecondSender,        ///< robot; detail: the sender that is shown
-  BatteryLow,          ///< robot; value: tenths of a volt
-  AddressChanged,      ///< robot; detail: "10.0.0.3 to 10.0.0.7"
-  ClockSet,            ///< the computer's clock was changed; value: by this many seconds
-  Penalised,           ///< robot; detail: the reason; value: seconds left
-  PenaltyOver,         ///< robot
-  ProcessStarted,      ///< robot, process; value: its process id
-  ProcessRestarted,    ///< the same for a process of this name that ran before
-  ProcessEnded,        ///< robot, process; on request, or with exit code 0
-  ProcessDied,         ///< robot, process; detail: how, and its last line of output
-  ProcessSilent,       ///< robot, process; detail: how long ago the last sign of life was
-  ProcessGivenUp,      ///< robot, process; it kept ending and is no longer restarted
-  ProcessRealTime,     ///< robot, process; it does not follow the match's speed; detail: why
-  ProcessNotAttached,  ///< robot, process; the match no longer waits for it; detail: waiting time
-  CycleLate,           ///< robot; its program did not finish a cycle in time; detail: waiting time
-  PortLost,            ///< value: the port; detail: why nothing can be received on it
-  PortBack,            ///< value: the port
-  Undone,              ///< everything that followed from `cause` was undone
-  Bookmark,            ///< detail: the user's note
-  Other                ///< a kind that this version does not know; detail: its name in the file
+  Goal,                  ///< side, team, score
+  ScoreCorrected,        ///< side, team, score
+  BallOut,               ///< none
+  Kick,                  ///< robot; value: the action
+  Fall,                  ///< robot
+  GotUp,                 ///< robot
+  UnknownAction,         ///< robot; value: the code
+  BallSeen,              ///< robot: it sees the ball again
+  BallLost,              ///< robot: it has not seen the ball for BallSight::lostAfter
+  GameState,             ///< detail: "PLAYING"; value: seconds left, if there is a clock
+  MatchOver,             ///< detail: the stop condition of the scenario that was met
+  Half,                  ///< value: 1 or 2
+  SetPlay,               ///< detail: "corner"; empty: normal play again
+  GamePhase,             ///< detail: "penalty shoot-out"; empty: normal time
+  PlayStopped,           ///< none; the referee stopped play
+  PlayGoesOn,            ///< none; the referee resumed play
+  RefereeReceived,       ///< a first or different referee; detail: which; value: packet version
+  RefereeOffline,        ///< none
+  RefereeBack,           ///< none
+  SecondReferee,         ///< detail: the referee that is shown
+  RobotReceived,         ///< robot: first message; detail: its sender
+  RobotOffline,          ///< robot
+  RobotBack,             ///< robot
+  SecondSender,          ///< robot; detail: the sender that is shown
+  BatteryLow,            ///< robot; value: tenths of a volt
+  AddressChanged,        ///< robot; detail: "10.0.0.3 to 10.0.0.7"
+  ClockSet,              ///< the computer's clock was changed; value: by this many seconds
+  Penalised,             ///< robot; detail: the reason; value: seconds left
+  PenaltyOver,           ///< robot
+  ProcessStarted,        ///< robot, process; value: its process id
+  ProcessRestarted,      ///< the same for a process of this name that ran before
+  ProcessEnded,          ///< robot, process; on request, or with exit code 0
+  ProcessDied,           ///< robot, process; detail: how, and its last line of output
+  ProcessNotResponding,  ///< robot, process; detail: how long ago the last sign of life was
+  ProcessGivenUp,        ///< robot, process; it kept ending and is no longer restarted
+  ProcessRealTime,       ///< robot, process; it does not follow the match's speed; detail: why
+  ProcessNotAttached,    ///< robot, process; the match no longer waits for it; detail: waiting time
+  CycleLate,  ///< robot; its program did not finish a cycle in time; detail: waiting time
+  PortLost,   ///< value: the port; detail: why nothing can be received on it
+  PortBack,   ///< value: the port
+  Undone,     ///< everything that followed from `cause` was undone
+  Bookmark,   ///< detail: the user's note
+  Other       ///< a kind that this version does not know; detail: its name in the file
 };
 inline constexpr std::size_t matchEventKindCount = 43;
 
@@ -98,7 +98,7 @@ enum class EventShape : std::uint8_t {
   GameState,
   Died,
   Started,
-  Silent,
+  Offline,
   Back,
   Warning,
   Bookmark

@@ -39,7 +39,8 @@ struct FrameSettings {
   bool operator==(const FrameSettings&) const = default;
 };
 
-/// What a person who referees a simulated match decides by (sim::checkCall).
+/// The game and its rules, from which the studio finds out which calls are possible
+/// (sim::checkCall).
 struct RefereeDesk {
   sim::GameState game;
   sim::RefereeRules rules;
@@ -67,7 +68,7 @@ struct MatchFrame {
   bool finished = false;  ///< a stop condition is met; the match has stopped
   std::shared_ptr<const FrameSettings> settings =
       std::make_shared<const FrameSettings>();  ///< never null
-  /// True if other programs of this computer share the blackboards.
+  /// The number of a simulated match if other programs can attach to its blackboards.
   std::optional<int> matchNumber;
   /// Speed of the slowest team program, times real time; nothing if all keep up.
   std::optional<double> slowestTeamProgram;
@@ -75,7 +76,7 @@ struct MatchFrame {
   bool inLockStep = true;           ///< the match waits for separate processes in every tick
   std::string waitsFor;             ///< "B2 decision": delays lock-step; empty: none does
   std::string finishedBy;           ///< "goal", "ball_out", "duration"; empty unless finished
-  std::uint64_t droppedEvents = 0;  ///< events that nobody took in time
+  std::uint64_t droppedEvents = 0;  ///< events that were not taken in time
   std::uint64_t droppedLogLines = 0;
 
   /// Returns this robot, or null.

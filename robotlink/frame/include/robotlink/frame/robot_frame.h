@@ -35,7 +35,7 @@ struct ProcessSummary {
   double cpu = 0.0;                                 ///< share of a core in the last second
   std::uint64_t memoryBytes = 0;
   std::optional<double> heartbeatAge{};  ///< s since the last sign of life; nothing if unwatched
-  bool foreign = false;                  ///< it is a team program
+  bool isTeamProgram = false;            ///< it is a team program
   double speed = 0.0;                    ///< speed that it should keep, times real time; 0: ours
   double achieved = 0.0;                 ///< speed that it reaches; 0 if not known yet
   std::string whyRealTime;               ///< why its clocks keep real time; empty if they do not
@@ -82,24 +82,24 @@ struct RobotView {
   /// Shared by many frames, because processes seldom change. Read it with processes().
   std::shared_ptr<const std::vector<ProcessSummary>> processList;
 
-  /// Those that were started for it, in order.
+  /// Returns the processes that were started for it, in order.
   std::span<const ProcessSummary> processes() const {
     return processList ? std::span<const ProcessSummary>(*processList)
                        : std::span<const ProcessSummary>{};
   }
-  /// It is heard, but not lately.
+  /// Returns whether the robot was received but is offline now.
   bool timedOut() const { return link && link->timedOut; }
-  /// False for one that is heard and never said where it is.
+  /// Returns false for a received robot that has never reported its pose.
   bool poseKnown() const { return !link || belief; }
 };
 
-/// A robot's snapshot, and what else is known of it. A snapshot that nobody knows to be true is
-/// what the robot believes (MatchFrame::truthKnown).
+/// Everything that is known of a robot. If the truth is unknown (MatchFrame::truthKnown), the pose
+/// of the snapshot is what the robot believes.
 struct RobotFrame : sim::RobotSnapshot, RobotView {
   RobotKey key;      ///< who it is, whatever the source
   std::string name;  ///< robotName() of the key
 
-  /// Number of its blackboard in a simulated match, for orders to it; 0 for robots of others.
+  /// Returns the number of its blackboard in a simulated match; 0 for other robots.
   RobotId slot() const { return identity.id; }
 };
 

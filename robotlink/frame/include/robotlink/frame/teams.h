@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The teams of a match, and the names of its robots: the one place that makes a name. Pure
-// functions; any thread.
+// The teams of a match, and the names of robots. All names of robots are made here. Plain values
+// and pure functions; any thread.
 
 #include <optional>
 #include <span>
@@ -16,43 +16,45 @@
 namespace pitchboard::link {
 
 struct Team {
-  int number = 0;                   ///< the referee's; 0: not known
-  std::string name;                 ///< "RoboFEI"; empty: it has none
-  std::optional<TeamColor> colour;  ///< nothing: not known yet
+  int number = 0;                   ///< number in the GameController; 0: unknown
+  std::string name;                 ///< "RoboFEI"; empty if it has none
+  std::optional<TeamColor> colour;  ///< empty if unknown
   bool ours = false;
   bool operator==(const Team&) const = default;
 };
-/// RobotKey::team is the place in here; 0: robots whose team is not known. Where no team is set up,
-/// all that are heard are there, and taken for ours.
+/// All teams of a match; RobotKey::team is an index into this list. Index 0 stands for robots whose
+/// team is unknown. If no team is set up, all received robots are there, and they count as ours.
 using Teams = std::vector<Team>;
 
-/// Of the team at this place; nothing: nobody knows.
+/// Returns the colour of the team with this index; empty if it is unknown.
 std::optional<TeamColor> colourAt(int place, const Teams& teams);
-/// What the team with the referee's `number` is called; empty: it has no name.
+/// Returns the name of the team with this number in the GameController; empty if it has none.
 std::string_view teamName(int number, const Teams& teams);
-/// Where this robot is listed.
+/// Returns the position of this robot in lists.
 RobotOrder orderOf(const RobotKey& robot, const Teams& teams);
 
-/// Those of a simulated match: one for each colour, in the order of TeamColor.
+/// Returns the teams of a simulated match: one for each colour, in the order of TeamColor.
 const Teams& teamsByColour();
-/// The same with the names and numbers of a scenario.
+/// Fills `teams` with these, and the names and numbers of a scenario.
 void fillTeams(const std::vector<sim::TeamSettings>& settings, Teams& teams);
-/// Of a simulated robot, in teamsByColour().
+/// Returns the key of a simulated robot, for teamsByColour().
 inline RobotKey keyOf(const sim::RobotIdentity& robot) {
   return {static_cast<int>(robot.team) + 1, robot.number, 0};
 }
 
-/// Of a live robot as version 0.8 wrote it: one number for team, number, sender and "attached".
-/// `hasTeams`: team setups were in use.
+/// Converts the number with which version 0.8 identified a live robot: it combined team, number,
+/// sender and "attached". `hasTeams` tells whether team setups were in use.
 RobotKey keyOfOldId(int id, bool hasTeams);
 
-/// "B1" where the team's colour is known, else "Robot 1"; "RoboFEI 1" where an earlier team has the
-/// colour, or none, too. Other programs that use the number have their place behind it: "B1 (2)".
+/// Returns the name of a robot: "B1" if the team's colour is known, otherwise "Robot 1", or
+/// "RoboFEI 1" if an earlier team has the same colour or none either. A second program with the
+/// same number is "B1 (2)".
 std::string robotName(const RobotKey& robot, const Teams& teams);
-/// These names may be of one robot: they are equal, or only one of them says the team ("Robot 3" is
-/// B3 before the colours are known).
+/// Returns whether two names can belong to the same robot: they are equal, or only one of them
+/// names the team ("Robot 3" is B3 before the colours are known).
 bool isSameRobot(std::string_view name, std::string_view other);
-/// Which of the names is meant by `name`: itself, or else the only one that may be of this robot.
+/// Returns which of the known names is meant by `name`: the name itself, or else the only one that
+/// can belong to this robot.
 std::optional<std::string> robotNamed(std::string_view name, std::span<const std::string> known);
 
 }  // namespace pitchboard::link

@@ -75,7 +75,8 @@ enum class AttachedTo : std::uint8_t { Live, Match };
 
 class AttachedRobots {
  public:
-  /// `seconds`: the time of the rows, s; called on any thread. `catalog`: of boards that name none.
+  /// `seconds` returns the time for rows in s and is called on any thread. `catalog` is used for
+  /// boards that name none.
   explicit AttachedRobots(std::function<double()> seconds, AttachedTo place = AttachedTo::Live,
                           VariableCatalog catalog = VariableCatalog::published());
   ~AttachedRobots();
@@ -84,7 +85,9 @@ class AttachedRobots {
   /// `taken` are names that their groups must not have.
   void set(const std::vector<AttachedBoard>& boards, const std::vector<std::string>& taken = {});
   /// Returns each board that was ever attached as a robot, with the name of its group.
-  std::vector<RobotFrame> robots(const sim::FieldSpec& field) const;
+  std::vector<RobotFrame> robots(
+      const sim::FieldSpec& field,
+      const telemetry::BatteryLimits& battery = telemetry::usualBattery) const;
   /// Returns the rows since the last call.
   void takeRows(const BoardRowsTaker& take);
   std::vector<AttachedStatus> status() const;
@@ -104,19 +107,20 @@ class BoardRowKeeper {
   void take(const telemetry::GroupInfo& group, std::span<const BoardRow> rows) {
     take(group.name, group, {group.name, {}}, rows);
   }
-  /// What a group is called by now, and attributes besides its own.
+  /// The present name of a group, and attributes besides its own.
   struct Name {
     std::string name;
     std::map<std::string, std::string> attributes;
     bool operator==(const Name&) const = default;
   };
-  /// Of the board that is always called `board`.
+  /// Adds rows of a board. `board` identifies it and never changes, unlike the name of its group.
   void take(const std::string& board, const telemetry::GroupInfo& group, const Name& name,
             std::span<const BoardRow> rows);
-  /// Forgets boards that are not among these; a new one may go on with their groups. The groups of
-  /// those that are called otherwise from now on give their names back...
-  void giveWay(const std::map<std::string, Name>& names);
-  /// ...and get the new ones.
+  // Renames groups in two steps, because groups may exchange their names. `names` is by board.
+  /// First step: drops boards that are not in `names`, whose groups new boards may continue, and
+  /// frees the names of groups that will be renamed.
+  void releaseNames(const std::map<std::string, Name>& names);
+  /// Second step: gives the groups their new names.
   void rename(const std::map<std::string, Name>& names);
 
  private:

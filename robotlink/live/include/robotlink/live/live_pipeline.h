@@ -85,6 +85,7 @@ class LivePipeline {
   void noteTeams(const std::vector<Renaming>& renamings);
 
   LiveOptions m_options;
+  telemetry::MonitorOptions m_monitorOptions;
   const telemetry::WallTime m_zero;
   LiveState m_state;
   Teams m_teams = m_state.teams(m_options);

@@ -72,7 +72,8 @@ class SentBoards {
   void takeRows(const BoardRowsTaker& take);
   /// Returns the robots for joinBoards(): their team is the `place` of take(), their name that of
   /// their group, and they have no colour.
-  std::vector<RobotFrame> robots(telemetry::WallTime now, const sim::FieldSpec& field) const;
+  std::vector<RobotFrame> robots(telemetry::WallTime now, const sim::FieldSpec& field,
+                                 const telemetry::MonitorOptions& teams) const;
   /// Returns the states in the order of robots(), with empty keys and names.
   std::vector<SentStatus> status(telemetry::WallTime now) const;
 

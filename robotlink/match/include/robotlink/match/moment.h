@@ -35,7 +35,7 @@ struct Moment {
   std::vector<MomentRobot> robots;
   /// Null if nothing is known of the processes except their blackboards.
   std::shared_ptr<const MomentPast> past;
-  /// Null when nothing is known of this robot.
+  /// Returns what is known of this robot; null if nothing is.
   const MomentRobot* robot(RobotId id) const;
 };
 

@@ -32,9 +32,9 @@ class ProcessPace {
   RobotsPace robotsPace;
   bool waitForTeamPrograms;
 
-  /// Restarts processes that died, reports silent ones, and tells the clocks of team programs the
-  /// match's time and the speed that the match reached. MatchPlayer::lookAfterProcesses() says how
-  /// often to call it.
+  /// Restarts processes that died, reports those that do not respond, and tells the clocks of team
+  /// programs the match's time and the speed that the match reached.
+  /// MatchPlayer::lookAfterProcesses() says how often to call it.
   void lookAfterProcesses(Time now);
   /// Sets how the match is played from now on: at this speed, or not at all while `still`.
   void setPlaying(double speed, bool still, Time now);

@@ -22,7 +22,7 @@
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/cognition/referee_orders.h>
 #include <robotlink/match/match_options.h>
-#include <robotlink/processes/match_turns.h>
+#include <robotlink/processes/lock_step_slots.h>
 #include <robotlink/processes/process_manager.h>
 #include <robotlink/scenario/scenario.h>
 #include <simcore/simulation/simulation.h>
@@ -38,7 +38,7 @@ struct SlotProcess {
   std::unique_ptr<CognitiveProcess> inside;  ///< null: the process is separate
   int id = 0;                                ///< of a separate process, in the ProcessManager
   bool known = false;                        ///< `period` is known
-  double period = 0.0;                       ///< s between two turns
+  double period = 0.0;                       ///< s between two cycles
   std::uint64_t startTick = 0;               ///< tick after which the process was started
   std::uint64_t nextTick = 0;                ///< tick after which it runs next
 
@@ -46,12 +46,12 @@ struct SlotProcess {
   bool settled = false;  ///< the match no longer waits for it
   std::optional<std::chrono::steady_clock::time_point> awaitedSince{};
 
-  // Separate reference processes only: they take turns with the match.
-  int place = -1;      ///< index in MatchTurns; below 0: not started yet
-  bool given = false;  ///< the process has been given its turn in this tick
+  // Separate reference processes only: they run in step with the match.
+  int lockStepSlot = -1;  ///< index in LockStepSlots; below 0: not started yet
+  bool given = false;     ///< its cycle in this tick has been started
   std::chrono::steady_clock::time_point givenAt{};
 
-  bool takesTurns() const { return !inside && profile.isReference(); }
+  bool isSeparateReference() const { return !inside && profile.isReference(); }
 };
 
 /// The part of a slot that RobotSlots::change() restores after an error.
@@ -71,7 +71,7 @@ struct RobotSlot : RobotSetup {
   std::optional<BridgeClaim> claim;  ///< released after the segment has been removed
   Blackboard board = Blackboard::onHeap();
   RefereeOrders orders;
-  std::size_t turn = 0;  ///< index of the process whose turn it is in this tick
+  std::size_t current = 0;  ///< index of the process that runs next in this tick
   // Robots with `cycle` only; see CycleWait.
   bool cooperates = false;      ///< its program has reported that it is ready
   bool hasMissedCycle = false;  ///< since the program was started
@@ -93,7 +93,7 @@ class RobotSlots {
   const sim::RobotIdentity& identityOf(RobotId id) const;
   /// Returns null if there is no such robot.
   const sim::RobotModel* model(RobotId id) const;
-  /// Returns for how long the robot's programs may be silent, in seconds.
+  /// Returns the time in s after which the robot's programs count as not responding.
   static double silentAfter(const RobotSlot& slot);
   /// Returns whether programs outside this one can write to the blackboard of any robot.
   bool haveTeamPrograms() const;
@@ -140,8 +140,8 @@ class RobotSlots {
   }
   ProcessManager& processes() { return *m_processes; }
   const ProcessManager& processes() const { return *m_processes; }
-  /// Returns null while no process takes turns.
-  MatchTurns* turns() const { return m_turns.get(); }
+  /// Returns null while there are no separate reference processes.
+  LockStepSlots* lockStepSlots() const { return m_lockStepSlots.get(); }
   const std::optional<MatchClaim>& claim() const { return m_claim; }
 
  private:
@@ -162,8 +162,8 @@ class RobotSlots {
   Result<void> start(RobotSlot& slot, SlotProcess& process);
   Result<void> describeReference(const RobotSlot& slot, SlotProcess& process,
                                  ManagedProcess& managed);
-  Result<void> describeForeign(const RobotSlot& slot, const ProfileProcess& profile,
-                               ManagedProcess& managed) const;
+  Result<void> describeTeamProgram(const RobotSlot& slot, const ProfileProcess& profile,
+                                   ManagedProcess& managed) const;
   void forget(SlotProcess& process);
   ProcessOptions inlineOptions(const RobotSlot& slot);
   std::vector<std::string> commandOf(const RobotSlot& slot, const std::string& process) const;
@@ -173,7 +173,7 @@ class RobotSlots {
   std::vector<std::shared_ptr<RobotSlot>> m_slots;
   std::array<std::shared_ptr<InProcessTeamChannel>, teamColors.size()> m_teamChannels;
   std::optional<MatchClaim> m_claim;
-  std::shared_ptr<MatchTurns> m_turns;
+  std::shared_ptr<LockStepSlots> m_lockStepSlots;
   std::unique_ptr<ProcessManager> m_processes;
 };
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the reference processes inside a match remember after one tick (particles, plans, what team
-// mates said), with their blackboards; and how the match went on from there, so that the processes
-// of a later moment are made again by playing them through it. Values that nobody changes: any
-// thread.
+// The memory of the reference processes inside a match after one tick (particles, plans, messages
+// of team-mates) with their blackboards, and how the match continued from there. The processes of a
+// later moment are restored by playing them through that stretch. Immutable values; any thread.
 
 #include <array>
 #include <cstddef>
@@ -24,11 +23,11 @@
 
 namespace pitchboard::link {
 
-/// When robots hear the referee next.
+/// When robots receive the next packet of the referee.
 struct RefereeRhythm {
   std::uint64_t lastTick = 0;
   bool stopped = false;
-  int quick = 0;  ///< packets that come quickly, still
+  int quick = 0;  ///< remaining packets that are sent in quick succession
 };
 
 struct RobotsMemory {
@@ -50,14 +49,15 @@ struct RobotsMemory {
   std::size_t bytes = 0;  ///< roughly
 };
 
-/// A stretch of a match as it was played: from a state on, what the robots were told tick by tick.
+/// A stretch of a match as it was played: the state at its beginning, and the robots' commands of
+/// each tick.
 struct PlayedStretch {
   sim::WorldState from;
   std::vector<std::vector<sim::RobotCommand>> commands;
 };
 
-/// What came before a moment. The first stretch begins where the memory was taken, each other where
-/// the one before ends, and the last one ends at the moment.
+/// The past of a moment. The first stretch begins where the memory was saved, each later one at the
+/// end of the one before, and the last one ends at the moment.
 struct MomentPast {
   std::shared_ptr<const RobotsMemory> memory;
   std::vector<PlayedStretch> played;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A scenario being played: the simulation, its robots with their blackboards and processes (inline
-// in lock-step, separate OS processes, or none), and the bridge between them. Not thread-safe: the
-// runner owns it on its thread. No pacing here: tick() advances one tick whenever it is called.
+// Plays a scenario: owns the simulation, the robots with their blackboards and processes (inside
+// this program in lock-step, separate OS processes, or none), and the bridge between them. It does
+// not keep a pace; tick() advances one tick whenever it is called. Not thread-safe: MatchRunner
+// owns it on its thread.
 
 #include <memory>
 #include <span>
@@ -30,8 +31,8 @@ struct RobotsMemory;
 
 class SimulatedMatch {
  public:
-  /// Fails with the reason, and leaves no segment and no process behind. `catalog` must outlive the
-  /// match.
+  /// Starts a match. If it fails, no segment and no process is left behind. `catalog` must outlive
+  /// the match.
   static Result<SimulatedMatch> create(
       const Scenario& scenario, const MatchOptions& options,
       const VariableCatalog& catalog = VariableCatalog::published());
@@ -39,69 +40,72 @@ class SimulatedMatch {
   SimulatedMatch& operator=(SimulatedMatch&&) noexcept;
   ~SimulatedMatch();  ///< ends the processes, removes the segments that it created
 
-  /// Scripted writes that are due (time <= now), commands, one simulation step, percepts, then in
-  /// the order of the robots each reference process whose period has passed; in lock-step it waits
-  /// for separate ones, but not for ever. Allocates nothing once every robot is there, unless a
-  /// behaviour that plans paths and talks to its team does.
+  /// Plays one tick: carries out scripted writes that are due, reads commands, steps the
+  /// simulation, writes percepts, and runs the reference processes that are due, robot by robot. In
+  /// lock-step it waits for separate processes, but not forever. Allocates nothing once all robots
+  /// are there, except in behaviours that plan paths or talk to their team.
   void tick();
-  /// A stop condition of the scenario is met. Nothing keeps the caller from going on.
+  /// Returns whether a stop condition of the scenario is met. The caller may continue to play.
   bool finished() const { return !finishedBy().empty(); }
-  /// "goal", "ball_out", "duration" or "full_time"; empty while none is met.
+  /// Returns "goal", "ball_out", "duration" or "full_time"; empty while none is met.
   std::string_view finishedBy() const;
-  /// The match has no game, is five seconds old, and no robot has walked or been told to play
-  /// (COM_REFEREE): somebody forgot to.
+  /// Returns true if a match without a referee is at least five seconds old and no robot has walked
+  /// or been told to play (COM_REFEREE), which is usually a mistake in the scenario.
   bool nobodyPlays() const;
 
-  /// Appends what has happened since the last call, at most the newest 1000: in the simulation,
-  /// to the clock, to processes (as the supervisor knows them), and the end of the match.
+  /// Appends the events since the last call, at most the newest 1000: those of the simulation, the
+  /// clock and the processes, and the end of the match.
   void takeEvents(std::vector<MatchEvent>& out);
 
-  /// Appends what programs have drawn since the last call. A match that shares blackboards with
-  /// other programs hears it on its drawing port (MatchNumber).
+  /// Appends the drawings since the last call. Only a match that shares blackboards with other
+  /// programs receives drawings, on its drawing port (MatchNumber).
   void takeDrawings(std::vector<ReceivedDrawing>& out);
-  /// Null while nothing can be heard.
+  /// Returns the receiver of drawings; null if this match has none.
   const MatchDrawings* drawings() const;
 
   const Scenario& scenario() const;
   sim::Simulation& simulation();
   const sim::Simulation& simulation() const;
-  /// Robots come, go and are changed there.
+  /// Gives access to the robots, to add, remove and change them.
   RobotSlots& robots();
   const RobotSlots& robots() const;
-  /// Nothing when there is no such robot.
+  /// Returns the robot's blackboard; null if there is no such robot.
   Blackboard* blackboard(RobotId id) const;
-  /// Particles and paths of the robots, by number; none unless MatchOptions::cognitionDebug. Asks
-  /// inline processes, or takes what separate ones have sent.
+  /// Returns particles and paths of the robots, by number; empty without
+  /// MatchOptions::cognitionDebug. Asks processes inside this program, and takes what separate ones
+  /// have sent.
   std::vector<CognitionDebug> cognitionDebug();
   const RobotVariables& variables() const;
   const VariableCatalog& catalog() const;
-  /// What the bridge read before the last tick, in the order of the simulation's robots (a robot
-  /// that came since has the default). With it and the state before, that tick can be repeated.
+  /// Returns the commands that the bridge read before the last tick, in the order of the
+  /// simulation's robots; the default for a robot that was added since. With them and the state
+  /// before, that tick can be repeated.
   std::span<const sim::RobotCommand> commands() const;
-  /// What the last tick let the robots sense, in the same order.
+  /// Returns what the robots sensed in the last tick, in the same order.
   std::span<const sim::Percepts> percepts() const;
-  /// How it and the separate processes keep time with each other.
+  /// Gives access to the pace that match and separate processes keep together.
   ProcessPace& pace() const;
 
-  /// Puts a recorded moment back exactly: robots come and go until they are those of the moment,
-  /// with its behaviours, and what is known of their blackboards is written. Reference processes
-  /// inside this program remember what they remembered then when the moment has a past, and the
-  /// match goes on as it did; else they start anew with the belief on their blackboards, as
-  /// separate ones do at their next turn. Errors leave the match as it was.
+  /// Restores a recorded moment exactly: adds and removes robots as needed, sets their behaviours,
+  /// and writes the known blackboard words. If the moment has a past, reference processes inside
+  /// this program get their memory back, and the match continues as it did then. Otherwise they
+  /// start anew with the belief on their blackboards, as separate ones do in their next cycle. An
+  /// error leaves the match unchanged.
   Result<void> restore(const Moment& moment);
 
-  /// The same match played again has the same result. False once a team's program has played that
-  /// the match does not wait for, or that did not finish a cycle in time, or while processes run
-  /// freely.
+  /// Returns whether playing the match again would give the same result. False once the match has
+  /// not waited for a team program, or a program has not finished a cycle in time, and while
+  /// processes run freely.
   bool isRepeatable() const;
-  /// How it stands now; at the end, how it ended.
+  /// Returns the result so far.
   MatchResult result() const;
 
-  /// What the reference processes remember after this tick; null when none run inside.
+  /// Returns what the reference processes remember after this tick; null if none run inside this
+  /// program.
   std::shared_ptr<const RobotsMemory> robotsMemory() const;
 
-  /// The present moment as a scenario that starts from it. Scripted writes of the past are kept at
-  /// time 0, each variable's last; what processes remember is not part of it.
+  /// Returns a scenario that starts from the present moment. Of past scripted writes, the last one
+  /// of each variable is kept, at time 0. The memory of processes is not part of a scenario.
   Scenario toScenario() const;
 
  private:

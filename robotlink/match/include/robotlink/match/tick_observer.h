@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sees every tick of a match that is played: the sampler of rows, the recorder of sessions, the
-// archive of states. Called on the thread that plays the match: must not wait, and what it
-// allocates makes the match slower. Owned by whoever plays (MatchPlayer, MatchRunner) and its
-// maker.
+// The interface of objects that see every tick of a match: the sampler of rows, the recorder of
+// sessions, the archive of states. Called on the thread that plays the match. It must not block,
+// and allocations slow the match down. Shared by the player (MatchPlayer, MatchRunner) and its
+// creator.
 
 #include <chrono>
 #include <span>
@@ -19,19 +19,19 @@ namespace pitchboard::link {
 class TickObserver {
  public:
   virtual ~TickObserver() = default;
-  /// At the first moment, after every tick, and after a command changed a match that stands still.
-  /// `tickTime`: what the tick took; zero where there was none.
+  /// Called at the first moment, after every tick, and after a command changed a paused match.
+  /// `tickTime` is the duration of the tick; 0 if there was no tick.
   virtual void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) = 0;
-  /// Before ticked() of the tick in which they happened; also between ticks.
+  /// Called before ticked() of the tick in which the events happened, and between ticks.
   virtual void happened(std::span<const MatchEvent> /*events*/) {}
-  /// Commands changed the world (not only blackboards) between two ticks: the next tick goes on
-  /// from here and not from what ticked() has shown. Before the ticked() of a match that stands
-  /// still.
+  /// Called after commands changed the world, not only blackboards, between two ticks: the next
+  /// tick continues from this state instead of the one that ticked() has shown. In a paused match,
+  /// ticked() follows.
   virtual void worldChanged(const SimulatedMatch& /*match*/) {}
-  /// As happened(): what programs have drawn on the field.
+  /// Like happened(), for drawings of programs on the field.
   virtual void drew(std::span<const ReceivedDrawing> /*drawings*/) {}
   virtual void logged(const LogLine& /*line*/) {}
-  /// It was taken out of the observers: nothing more is shown to it.
+  /// Called when the observer was removed; no other call follows.
   virtual void left() {}
 };
 

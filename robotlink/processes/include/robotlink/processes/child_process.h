@@ -31,7 +31,7 @@ struct ChildSpec {
   std::vector<std::pair<std::string, std::string>> environment{};  ///< additional variables
   int inherited = -1;                                              ///< becomes its descriptor 3
   int stopSignal = 15;                                             ///< SIGTERM; SIGKILL follows
-  bool foreign = false;  ///< a team program, which may start others that leave its group
+  bool isTeamProgram = false;  ///< a team program, which may start others that leave its group
   bool operator==(const ChildSpec&) const = default;
 };
 

@@ -13,12 +13,12 @@ namespace pitchboard::link {
 /// The hidden command of pitchboard-robot that runs the guard.
 inline constexpr std::string_view guardCommand = "guard";
 
-namespace guardWords {
+namespace guardMessages {
 inline constexpr const char* done = "done";
 inline std::string segment(int key, int shmid) {
   return "segment " + std::to_string(key) + ' ' + std::to_string(shmid);
 }
-}  // namespace guardWords
+}  // namespace guardMessages
 
 /// Reads `input` to its end, then cleans up. It is the only thread of its program.
 void runGuard(int input);

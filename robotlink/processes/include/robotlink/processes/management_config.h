@@ -36,7 +36,7 @@ Result<ManagementConfig> managementFromIni(const IniFile& file,
                                            const std::vector<std::string>& reference);
 
 /// Splits a text at blanks; "double quotes" keep a word with blanks together.
-std::vector<std::string> commandWords(std::string_view text);
+std::vector<std::string> splitCommand(std::string_view text);
 
 /// Returns NAME_WORKING of a process "name"; absent if the catalog has none.
 IntVar workingFlagOf(const std::string& process,

@@ -3,18 +3,18 @@
 
 // Supervises the processes of robots, for a match (studio, command line) and for
 // `pitchboard-robot management`. It starts them in order, reports what happens to them, restarts
-// those that die or become silent, and ends, stops and continues them on request.
+// those that die or stop responding, and ends, stops and continues them on request.
 //
-// ManagedProcess::Watch selects how a silent process is recognized:
+// ManagedProcess::Watch selects how a process that does not respond is recognized:
 //   Variable  The process keeps setting a variable of the blackboard, its heartbeat. Communication
 //             clears it once a second; if there is no communication, the manager does (`clears`).
 //             A process is judged only once it has set the variable for the first time, because it
 //             may block before its first cycle.
 //   Sleeps    The kernel's count of the process's sleeps has to grow.
-//   Caller    The caller knows better, because it gives the process its turns: setSilent().
-//   Nobody    The process is never considered silent.
-// A process that somebody else stopped (SIGSTOP) is silent, too. For team programs whose clocks
-// follow the match, the time limit is in match time.
+//   Caller    The caller runs the cycles of the process and tells: setResponding().
+//   Nobody    The process is not watched.
+// A process that somebody else stopped (SIGSTOP) does not respond either. For team programs whose
+// clocks follow the match, the time limit is in match time.
 //
 // Before a restart the manager waits for `firstWait`, then twice as long each time, at most
 // `longestWait`. After `steadyAfter` of steady work it starts with `firstWait` again.
@@ -79,7 +79,7 @@ struct ProcessStatus {
   double cpu = 0.0;                                   ///< share of a core during the last second
   std::uint64_t memoryBytes = 0;
   std::optional<double> heartbeatAge{};     ///< s since the last sign of life; empty: not watched
-  bool foreign = false;                     ///< it is a team program
+  bool isTeamProgram = false;               ///< it is a team program
   ProcessClock clock = ProcessClock::Real;  ///< team programs only
   double speed = 0.0;  ///< times real time: the speed a team program has to keep; 0: not one
   /// The speed that a team program reaches, times real time. It is below `speed` if the program
@@ -100,7 +100,7 @@ enum class ProcessNewsKind : std::uint8_t {
   Restarted,
   Ended,
   Died,
-  Silent,
+  NotResponding,
   GivenUp,
   RealTime  ///< its clocks show real time although the speed is not ×1; reported once
 };
@@ -151,8 +151,9 @@ class ProcessManager {
   void stopAll();
 
   /// Starts processes that are due, collects those that ended, and looks for signs of life. Call it
-  /// about 20 times a second. It blocks only while it ends a silent process, for at most 0.5 s. An
-  /// error means that a program could not be executed at its first start; it will be tried again.
+  /// about 20 times a second. It blocks only while it ends a process that does not respond, for at
+  /// most 0.5 s. An error means that a program could not be executed at its first start; it will be
+  /// tried again.
   Result<void> step(Time now);
   /// Returns a descriptor that is readable when a process has ended or written something, until the
   /// next step(); -1 if the system does not support it.
@@ -163,8 +164,8 @@ class ProcessManager {
   void stop(int id);
   void restart(int id, Time now);
   void kill(int id);
-  /// For Watch::Caller: tells whether the process owes a sign of life.
-  void setSilent(int id, bool silent, Time now);
+  /// For Watch::Caller: tells whether the process responds in time.
+  void setResponding(int id, bool responding, Time now);
 
   /// Stops or continues team programs together with the match. Clocks that show real time advance
   /// meanwhile, as after suspending a computer.
@@ -215,7 +216,7 @@ class ProcessManager {
     std::string programStamp, newStamp;   // of the program's file when it was started, and since
     std::unique_ptr<ProgramClock> clock;  // null: its clocks keep real time
     bool sawLibrary = false;              // in the program
-    bool toldRealTime = false;
+    bool warnedOfRealTime = false;
   };
   Entry* find(int id);
   Result<void> startDue(Time now);
@@ -233,10 +234,10 @@ class ProcessManager {
   void askForSpeed(Entry& entry, Time now);
   void steer(Entry& entry, Time now) const;
   void showSign(Entry& entry, Time now) const;
-  bool isSilent(const Entry& entry, Time now) const;
+  bool isOverdue(const Entry& entry, Time now) const;
   static double ownSeconds(const Entry& entry, Time now);
   void lookForLibrary(Entry& entry, Time now);
-  void silenced(Entry& entry, Time now, const std::string& detail);
+  void reportOverdue(Entry& entry, Time now, const std::string& detail);
   void addNews(const Entry& entry, ProcessNewsKind kind, const std::string& detail = {});
   void tellGuard(const std::string& line);
   void changed() { ++m_version; }

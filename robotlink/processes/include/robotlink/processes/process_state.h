@@ -9,13 +9,13 @@
 namespace pitchboard::link {
 
 enum class ProcessState : std::uint8_t {
-  Waiting,     ///< waits for its first start
-  Running,     ///<
-  Silent,      ///< runs without a sign of life
-  Restarting,  ///< has ended and will be started again
-  Ended,       ///< has ended and will not be started again
-  Stopped,     ///< stopped by hand
-  GivenUp      ///< has ended too often
+  Waiting,        ///< waits for its first start
+  Running,        ///<
+  NotResponding,  ///< runs without a sign of life
+  Restarting,     ///< has ended and will be started again
+  Ended,          ///< has ended and will not be started again
+  Stopped,        ///< stopped by hand
+  GivenUp         ///< has ended too often
 };
 
 }  // namespace pitchboard::link

@@ -19,7 +19,7 @@ namespace pitchboard::link {
 
 enum class RestartPolicy { Never, OnFailure, Always };
 
-/// When a process that ended or became silent is restarted.
+/// When a process that ended or stopped responding is restarted.
 struct RestartRule {
   using Seconds = std::chrono::duration<double>;
   RestartPolicy policy = RestartPolicy::Always;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a match was like, in numbers: computed from rows, whether they stand in a session file or in
-// memory; of a live match from the frames that were seen. Simulated matches are judged by the
-// truth, live ones by what the robots believed and sent.
+// Computes statistics of a match for its report, from the rows of a session file or in memory, or
+// from the frames of a live match. Simulated matches are measured by the truth, live ones by what
+// robots believed and sent. Plain values; any thread.
 
 #include <array>
 #include <optional>
@@ -18,14 +18,14 @@
 
 namespace pitchboard::link {
 
-/// A robot has the ball while it is the nearest robot to it and nearer than this, m.
+/// A robot has the ball while it is the nearest one and closer than this (m).
 inline constexpr double ballReach = 0.5;
 
 struct RobotSummary {
   std::string name;  ///< of its group: "B1"
   RobotOrder order;
   TeamColor team = TeamColor::Blue;
-  double seconds = 0.0;            ///< for which there are rows
+  double seconds = 0.0;            ///< s for which there are rows
   std::optional<double> distance;  ///< m walked (live: of its believed places)
   std::uint32_t kicks = 0;         ///< live: kick actions that were sent
   std::uint32_t falls = 0;
@@ -34,12 +34,12 @@ struct RobotSummary {
   /// Share of the time in which the process worked, 0 to 1; nothing where rows do not say.
   std::array<std::optional<double>, telemetry::processCount> uptime{};
   std::vector<double> errorCurve;  ///< mean belief error, cm, in equal parts of the time; NaN: none
-  /// How a live robot was heard.
+  /// The link of a live robot.
   struct Link {
     double received = 0.0;  ///< share of the time from its first message on, 0 to 1
     std::uint64_t messages = 0;
     std::optional<double> loss;  ///< 0 to 1, where its messages are numbered
-    int silences = 0, penalties = 0;
+    int outages = 0, penalties = 0;
     std::optional<double> leastVolts;
   };
   std::optional<Link> link;
@@ -69,8 +69,7 @@ struct SessionStatistics {
 /// Curves have this many parts.
 inline constexpr std::size_t statisticsParts = 120;
 
-/// Both walk through every row of the range once; of a session of live robots through moments, at
-/// most 36 000.
+/// Both visit every row of the range once; for live robots at most 36 000 moments.
 SessionStatistics statisticsOf(const telemetry::SeriesStore& rows, telemetry::TimeRange range);
 SessionStatistics statisticsOf(const telemetry::SessionReader& session, telemetry::TimeRange range);
 

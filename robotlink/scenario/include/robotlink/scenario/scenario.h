@@ -47,7 +47,7 @@ struct ScenarioRobot {
   RuntimeChoice runtime{};            ///< its runtime; if not chosen, that of its team
   sim::RobotModel model{};
   BehaviourParameters parameters{};        ///< numbers of its behaviour
-  std::optional<ScenarioBelief> belief{};  ///< nothing: the robot has to find out
+  std::optional<ScenarioBelief> belief{};  ///< empty: the robot has to localize itself
   bool operator==(const ScenarioRobot&) const = default;
 };
 
@@ -70,7 +70,7 @@ struct Scenario {
   bool clockRunning = true;
   double clock = 0.0;  ///< s played so far, at least 0
   sim::Score score;
-  /// With a referee: where in a game it starts. Nothing: before the match.
+  /// With a referee: where in a game the match starts; empty: at its beginning.
   std::optional<sim::GameStart> game{};
   std::vector<BlackboardWrite> writes;  ///< in order of time
   StopConditions stop;
@@ -79,12 +79,12 @@ struct Scenario {
   std::map<TeamColor, AdvisorOptions> advisors{};
   /// Returns the runtime of this robot or of its team; may be not chosen.
   RuntimeChoice runtimeOf(const ScenarioRobot& robot) const;
-  /// The same for a robot of `team` whose own choice is `own`.
+  /// Returns the same for a robot of `team` whose own choice is `own`.
   RuntimeChoice runtimeOf(TeamColor team, const RuntimeChoice& own) const;
   bool operator==(const Scenario&) const = default;
 };
 
-/// Changes to a scenario that a caller wants.
+/// Changes that changed() makes to a scenario.
 struct ScenarioOverrides {
   std::optional<std::uint64_t> seed;
   std::string noise;      ///< name of a preset; empty: as in the scenario

@@ -17,7 +17,7 @@ class DrawingMoments {
 
  private:
   telemetry::DrawingStore m_store;
-  double m_time = 0.0;  // of the book
+  double m_time = 0.0;  // of m_store
   bool m_begun = false;
 };
 

@@ -5,7 +5,8 @@
 // (its whole blackboard, truth, belief errors) and one for the match. The groups are named like the
 // robots ("B1") and "match"; a robot's attributes identify it: "robot" (number of
 // its blackboard), "team", "number" (on the shirt), "key" (System V, 0: heap), "imu180" (0 or 1),
-// "behaviour". The match's attributes: "physics", "seed", "tick_rate". Columns: docs/plots.md.
+// "behaviour", "radius" (m; 0: the field's), "field_of_view" (degrees), "vision_range" (m). The
+// match's attributes: "physics", "seed", "tick_rate". Columns: docs/plots.md.
 
 #include <algorithm>
 #include <memory>
@@ -48,6 +49,7 @@ class MatchSampler : public TickObserver {
     sim::RobotIdentity identity;
     int key = 0;
     std::string behaviour;
+    double radius = 0.0, fieldOfView = 0.0, visionRange = 0.0;  // m, rad, m
   };
   struct Outlet {
     std::shared_ptr<telemetry::RowSink> sink;

@@ -56,7 +56,7 @@ static_assert([] {
 }());
 
 /// Returns the text of a code; "action 42" if it is unknown.
-std::string actionWords(int code);
+std::string actionLabel(int code);
 
 /// Returns the texts of all codes, as labels of a column.
 std::map<std::int32_t, std::string> actionLabels();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How a ball slows down within a tick, whatever its length, which the rigid-body model and rollouts
-// have in common. m, s, m/s; pure functions, any thread.
+// Computes how a rolling ball slows down in a tick of any length. The rigid-body model and rollouts
+// share these functions. Metres, seconds; pure functions; any thread.
 
 #include <algorithm>
 
@@ -13,34 +13,36 @@
 
 namespace pitchboard::sim {
 
-/// What the share of Surface::keptPerFrame (Eq. (4) of the paper) does in a tick, whatever the
-/// rate.
+/// The effect of Surface::keptPerFrame (Eq. (4) of the paper) in a tick of any length.
 struct RollingShare {
   double kept = 1.0;  ///< share of its speed that the ball has left after the tick
   double mean = 1.0;  ///< mean speed over the tick, as a share of the speed before it
 };
 
+/// `share` is Surface::keptPerFrame, `dt` the length of the tick in s.
 inline RollingShare rollingShare(double share, double dt) {
   RollingShare rolling;
   if (share >= 1.0) return rolling;
-  // The published ball slows, then moves: v·f/60 + v·f²/60 + ... = v·f/(60·(1 − f)). Scaled to this
-  // whole way, exponential decay gives the same place at every tick rate, and at 60 Hz each tick's.
+  // The published ball slows down before it moves, so it rolls v·f/60 + v·f²/60 + ... =
+  // v·f/(60·(1 − f)) in all. Exponential decay that is scaled to this distance gives the same final
+  // position at every tick rate, and at 60 Hz the same position after each tick.
   rolling.kept = repeatable::pow(share, dt * published_frame::framesPerSecond);
-  const double way = share / ((1.0 - share) * published_frame::framesPerSecond);
-  rolling.mean = way * (1.0 - rolling.kept) / dt;
+  const double distance = share / ((1.0 - share) * published_frame::framesPerSecond);
+  rolling.mean = distance * (1.0 - rolling.kept) / dt;
   return rolling;
 }
 
-/// Of a ball that nothing touches: its mean speed over the tick and what it has left at its end, as
-/// shares of `ballSpeed`, that before it.
+/// The speed of a ball that touches nothing, as shares of its speed before the tick.
 struct Rolled {
-  double mean = 0.0, left = 0.0;
+  double mean = 0.0;  ///< mean over the tick
+  double left = 0.0;  ///< at the end of the tick
 };
 
+/// `ballSpeed` is the speed before the tick in m/s, `dt` the length of the tick in s.
 inline Rolled rolledOf(const Surface& surface, const RollingShare& rolling, double ballSpeed,
                        double dt) {
   const double speed = std::min(ballSpeed, fastestBall);
-  // Grass takes its share evenly over the tick, or over the part in which the ball still rolls.
+  // Grass slows the ball evenly over the tick, or over the part in which the ball still rolls.
   const double loss = surface.deceleration * dt;
   const double rolls = loss > speed ? speed / loss : 1.0;
   const double mean =

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How the ball moved in one tick, as the rules need it: with where it lies afterwards it says which
-// line it crossed, however long the tick and however fast the ball. Metres, the studio's frame; a
-// plain value of one tick.
+// The motion of the ball in one tick. Together with the position after the tick, the rules find out
+// from it which line the ball crossed, even in a long tick or at high speed. Metres, the studio's
+// frame. A plain value; any thread.
 
 #include <base/geometry.h>
 
 namespace pitchboard::sim {
 
 struct BallSweep {
-  Point from;  ///< where it was when the tick began
-  Point aim;   ///< where it would have gone with nothing in its way
+  Point from;  ///< position at the beginning of the tick
+  Point aim;   ///< position that it would have reached without obstacles
 };
 
 }  // namespace pitchboard::sim

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What is painted on the ground of a field, as shapes: everything that draws a field (the studio,
-// its pictures, the experiments' trajectories) draws these. Metres; constant data.
+// The lines and marks on the ground of a field, as shapes. The studio, its pictures and the reports
+// of experiments all draw these. Metres; pure function; any thread.
 
 #include <vector>
 
@@ -21,8 +21,8 @@ struct FieldLines {
   std::vector<Point> marks;   ///< the penalty marks; empty if the field has none
 };
 
-/// `lineWidth`: as it is drawn, which may be wider than the field's so that thin lines stay
-/// visible. Sizes hold to the outer edges of the lines.
+/// Returns the shapes of a field. `lineWidth` may be wider than that of the field, so that thin
+/// lines stay visible; lengths are measured between outer edges of lines.
 FieldLines fieldLines(const FieldSpec& field, double lineWidth);
 
 }  // namespace pitchboard::sim

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A field as people write it: the name of a built-in one, or an object of scenario files
-// (docs/scenarios.md). Any thread.
+// Reads and writes fields as people write them: the name of a built-in field, or an object as in
+// scenario files (docs/scenarios.md). Pure functions; any thread.
 
 #include <string>
 #include <string_view>
@@ -13,15 +13,16 @@
 
 namespace pitchboard::sim {
 
-/// Names of the built-in fields, in their order.
+/// Returns the names of the built-in fields.
 std::vector<std::string_view> fieldNames();
 
-/// The object that "field" has in a scenario file; complaints go to `report`.
+/// Reads an object as under "field" in a scenario file; errors go to `report`.
 FieldSpec readField(JsonReport& report, const JsonNode& node, const std::string& path);
 
-/// A built-in name or an object. Errors name `source`.
+/// Reads a built-in name or an object. Errors name `source`.
 Result<FieldSpec> fieldFromText(std::string_view nameOrJson, std::string_view source);
-/// The name of a built-in field, else an object on one line; reading it gives an equal field.
+/// Returns the name of a built-in field, or else an object on one line; it reads back to an equal
+/// field.
 std::string fieldToText(const FieldSpec& field);
 
 }  // namespace pitchboard::sim

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How the speed of a gait changes within a tick, and what counts as a bounce and as a push, which
-// the rigid-body model and rollouts have in common. m/s or rad/s; pure functions, any thread.
+// Computes how the speed of a gait changes in a tick, and has the constants for bounces and pushes.
+// The rigid-body model and rollouts share them. m/s or rad/s; pure functions; any thread.
 
 #include <algorithm>
 #include <cmath>
 
 namespace pitchboard::sim {
 
-/// The gait's speed after a tick in which it may change by `most`.
+/// Returns the speed after a tick in which it may change by at most `most`.
 inline double approach(double value, double target, double most) {
   return value < target ? std::min(value + most, target) : std::max(value - most, target);
 }
 
-/// A speed of the gait after contacts changed it. Being slowed down is taken as it is; being pushed
-/// faster or backwards is resisted by the feet, which lose `grip` of it in this tick.
+/// Returns the speed of the gait after contacts changed it by `change`. A change that slows the
+/// robot down takes full effect. A push that makes it faster or moves it backwards is resisted by
+/// its feet, which remove up to `grip` of it in this tick.
 inline double afterContact(double gait, double change, double grip) {
   const double speed = gait + change;
   const double own = std::clamp(speed, std::min(0.0, gait), std::max(0.0, gait));
@@ -24,11 +25,12 @@ inline double afterContact(double gait, double change, double grip) {
 }
 
 inline constexpr double feetGrip = 4.0;  ///< m/s², friction of about 0.4
-/// Things that meet more slowly do not bounce: Box2D's threshold for units of 0.1 m. m/s.
+/// Bodies that meet more slowly (m/s) do not bounce: Box2D's threshold with units of 0.1 m.
 inline constexpr double bouncesFrom = 0.1;
-/// Share of its mass with which a robot pushes, and is pushed, at the height at which robots touch
-/// each other: it tips about its feet instead of moving as a block. Of a uniform body touched at
-/// 0.7 of its height h: (m·h²/3) / (0.7·h)². A ball touches it at its feet, with all of its mass.
+/// The effective mass of a robot when robots touch each other, as a share of its mass: it tips
+/// about its feet instead of moving as a block. For a uniform body that is touched at 0.7 of its
+/// height h this is (m·h²/3) / (0.7·h)². Against a ball, which touches the feet, the whole mass
+/// counts.
 inline constexpr double tippingShare = 0.68;
 
 }  // namespace pitchboard::sim

@@ -62,10 +62,10 @@ constexpr PenaltyKind lastOf(PenaltyKind) {
 }
 
 // Text for people and files: "PLAYING", "corner kick", "pushing".
-std::string_view wordsOf(PlayState state);
-std::string_view wordsOf(GamePhase phase);
-std::string_view wordsOf(SetPlay play);
-std::string_view wordsOf(PenaltyKind penalty);
+std::string_view labelOf(PlayState state);
+std::string_view labelOf(GamePhase phase);
+std::string_view labelOf(SetPlay play);
+std::string_view labelOf(PenaltyKind penalty);
 
 struct GamePlayer {
   PenaltyKind penalty = PenaltyKind::None;
@@ -131,7 +131,7 @@ struct Restart {
   bool passed = true;            ///< a second player has touched the ball, or need not
   bool onlyTaker = false;        ///< nobody but the kicker has touched the ball since
   /// Returns whether packets show this set play.
-  bool isTold() const {
+  bool isAnnounced() const {
     return step == Step::Placing || step == Step::Preparing || step == Step::Taking;
   }
   bool operator==(const Restart&) const = default;
@@ -209,8 +209,8 @@ struct GameState {
     clockUse = clockUse == ClockUse::Full ? ClockUse::BeganNow : ClockUse::Began;
   }
   // The set play that packets show, and the team that takes it.
-  SetPlay setPlay() const { return restart.isTold() ? restart.kind : SetPlay::None; }
-  int setPlayTeam() const { return restart.isTold() ? restart.team : nobody; }
+  SetPlay setPlay() const { return restart.isAnnounced() ? restart.kind : SetPlay::None; }
+  int setPlayTeam() const { return restart.isAnnounced() ? restart.team : nobody; }
   bool ballFree() const { return restart.step == Restart::Step::Free; }
   /// Returns the index of the current half in GameTeam::byHalf; empty in a shoot-out.
   std::optional<std::size_t> period() const {

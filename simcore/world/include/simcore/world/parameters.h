@@ -60,6 +60,7 @@ inline constexpr Unit degreesPerSecondSquared{"degrees per second squared", "deg
 inline constexpr Unit seconds{"seconds", "s"};
 inline constexpr Unit kilograms{"kilograms", "kg"};
 inline constexpr Unit newtonSeconds{"newton seconds", "N·s"};
+inline constexpr Unit volts{"volts", "V"};
 inline constexpr Unit ticksPerSecond{"ticks per second", "ticks/s"};
 }  // namespace units
 
@@ -171,6 +172,12 @@ inline constexpr auto robotModelParameters = std::to_array<Parameter<RobotModel>
      "Camera forward", "In front of the robot's centre", {" cm", 100, -20, 20, 1}},
     {"camera_height", &RobotModel::cameraHeight, units::metres, 0, 5,
      "Camera height", "Used for distances from the lens", {" cm", 100, 0, 200, 0}},
+    {"battery_full", &RobotModel::batteryFull, units::volts, 1, 100,
+     "Battery full", "Voltage of a full battery", {" V", 1, 1, 60, 2}},
+    {"battery_low", &RobotModel::batteryLow, units::volts, 1, 100,
+     "Battery low", "Below this voltage the battery counts as low", {" V", 1, 1, 60, 2}},
+    {"battery_empty", &RobotModel::batteryEmpty, units::volts, 0, 100,
+     "Battery empty", "Voltage of an empty battery", {" V", 1, 0, 60, 2}},
 });
 
 inline constexpr auto fieldParameters = std::to_array<Parameter<FieldSpec>>({

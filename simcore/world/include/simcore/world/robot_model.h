@@ -55,6 +55,11 @@ struct RobotModel {
   double getUpFront = 3.0;   ///< s
   double getUpBack = 3.0;    ///< s
 
+  // The battery: below `batteryLow` a robot's battery counts as low. Does not affect the match.
+  double batteryFull = 19.15;   ///< V
+  double batteryLow = 16.0;     ///< V
+  double batteryEmpty = 14.65;  ///< V
+
   // Head and camera.
   double headSpeed = 1.0471975511965976;    ///< rad/s, 1° per 1/60 s as published
   double panLimit = 2.356194490192345;      ///< rad to either side, ±135°
@@ -90,9 +95,12 @@ struct BallAtFeet {
 /// reach it or `action` is no kick. `radius` is that of this robot, m.
 double kickSpeed(const RobotModel& model, double radius, int action, const BallAtFeet& ball);
 
-/// Fails with InvalidArgument for a number that is not finite or out of range; the context is the
-/// key
-/// ("robot_model.mass").
+/// Returns the voltage that a simulated robot measures, in tenths of a volt. It is constant, at the
+/// level of the published simulator: 18.9 V for its robot.
+int simulatedVoltage(const RobotModel& model);
+
+/// Fails with InvalidArgument for a number that is not finite or out of range; the context is
+/// the key ("robot_model.mass").
 Result<void> validate(const RobotModel& model);
 
 }  // namespace pitchboard::sim

@@ -15,6 +15,8 @@
 //                             there is one
 //   repeats(vector, index)    may be missing. Returns true if this element equals the one before it
 //                             and must not be visited
+//   label(v)                  may be missing: values that are shown but do not affect the match, so
+//                             that the hash leaves them out
 
 #include <type_traits>
 
@@ -65,6 +67,11 @@ void robotModel(Model& m, Visitor& v) {
       m.footWidth, m.kickTime, m.kickContact, m.radius, m.mass, m.fallImpulse, m.getUpFront,
       m.getUpBack, m.headSpeed, m.panLimit, m.fieldOfView, m.visionRange, m.cameraForward,
       m.cameraHeight, m.fromCamera);
+  if constexpr (requires { v.label(m.batteryFull); }) {
+    v.label(m.batteryFull);
+    v.label(m.batteryLow);
+    v.label(m.batteryEmpty);
+  }
   noise(m.noise, v);
 }
 

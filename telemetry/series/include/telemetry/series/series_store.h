@@ -97,46 +97,46 @@ class SeriesStore : public RowSink {
   SeriesStore(const SeriesStore&) = delete;
   SeriesStore& operator=(const SeriesStore&) = delete;
 
-  // Any thread, but the rows of one group come from one thread at a time. Of groups whose chunks do
-  // not fit, the chunk leaves first whose last row is the oldest.
-  /// A group of this name with the same columns is taken up again, its rows stay; so is one with
-  /// further Float64 columns behind them, which are holes in the rows so far. With other columns it
-  /// starts empty under a new id.
+  // Writing. Any thread, but the rows of one group must come from one thread at a time. If the
+  // memory budget is exceeded, the chunk whose last row is the oldest is dropped first.
+  /// Continues an existing group with the same name and columns. Further Float64 columns may be
+  /// added at the end; they are gaps in earlier rows. With other columns, the group starts empty
+  /// under a new id.
   GroupId addGroup(const GroupInfo& info) override;
   GroupId renameGroup(std::string_view from, const GroupInfo& to) override;
-  /// Rows of one group in order of time; equal times are kept in order. A time before the last one
-  /// means that the source was put back: the rows at and after the new time are dropped first.
-  /// A row of an unknown group, of another width, or whose time is not finite is refused and
-  /// counted.
+  /// Appends a row. Rows must come in order of time. A time before the last one means that the
+  /// source was put back, so rows at and after the new time are dropped first. A row of an unknown
+  /// group, of another width, or with a time that is not finite is refused and counted.
   void append(GroupId group, const RowView& row) override;
-  /// Forgets every row; the groups stay.
+  /// Drops all rows; the groups stay.
   void clear();
-  /// Forgets the rows of all groups that are later than this: their source goes on from there.
+  /// Drops all rows later than this, because their source continues from there.
   void rewind(double time);
 
-  // Any thread.
-  /// A store of its own with the rows so far, for reading: they are shared, so that it costs next
-  /// to nothing, and stay when this store forgets them. Rows that are appended to it are refused.
+  // Reading. Any thread.
+  /// Returns a read-only store with the rows so far. The rows are shared, so this is cheap, and
+  /// they stay if this store drops them.
   std::shared_ptr<const SeriesStore> branch() const;
-  /// Grows whenever groups came (lists are then to be read anew).
+  /// Increases when groups were added; lists of groups then have to be read again.
   std::uint64_t groupsRevision() const;
   std::size_t groups() const;
-  /// Null for an id that was never given. A group that was replaced by one with other columns
-  /// stays, empty; findGroup() gives the other one.
+  /// Returns a view of a group; null for an unknown id. A group that was replaced by one with other
+  /// columns stays empty; findGroup() returns the new one.
   std::shared_ptr<const GroupView> view(GroupId group) const;
   std::optional<GroupId> findGroup(std::string_view name) const;
-  /// A group that was renamed is found by its former names, too, while no other one has them.
+  /// Finds a column. A renamed group is also found by its former names, unless another group has
+  /// them now.
   std::optional<SeriesId> find(std::string_view group, std::string_view column) const;
-  /// From the oldest row of any group to the newest.
+  /// Returns the times of the oldest and the newest row of all groups.
   std::optional<TimeRange> range() const;
-  /// Of the rows; chunks that left but are still looked at by a view are not counted.
+  /// Returns the memory of all rows, without dropped chunks that a view still keeps alive.
   std::size_t memoryBytes() const;
   std::uint64_t refusedRows() const;
   void setMemoryBudget(std::size_t bytes);
-  /// The rows of all groups are there (<telemetry/series/series_pages.h>), not in this store: the
-  /// groups must have been added, and nothing is appended.
+  /// Makes all views read rows from `pages` (<telemetry/series/series_pages.h>) instead of this
+  /// store. The groups must have been added before, and no row may be appended.
   void setPages(std::shared_ptr<SeriesPages> pages);
-  /// Grows whenever paged rows have been read: views then know more than before. 0 without pages.
+  /// Increases when paged rows have been read, so that views know more. 0 without pages.
   std::uint64_t pagesRevision() const;
 
  private:

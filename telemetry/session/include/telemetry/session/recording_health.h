@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a person should know of a recording that goes on: how much room is left, and whether
-// something threatens it. Pure functions of its status; any thread.
+// Tells what the user should know of a running recording: how much space is left, and whether
+// anything is wrong. Pure functions of its status; any thread.
 
 #include <optional>
 #include <string>
@@ -13,19 +13,20 @@ namespace pitchboard::telemetry {
 
 enum class RecordingTrouble {
   None,
-  Dropped,     ///< something is missing in the file
-  LittleRoom,  ///< the disk is full in a few minutes
-  DiskBehind,  ///< the disk does not answer in time
+  Dropped,      ///< rows or messages are missing in the file
+  LittleSpace,  ///< the disk will be full in a few minutes
+  DiskBehind,   ///< the disk does not answer in time
 };
 
-/// The most urgent one.
+/// Returns the most urgent problem.
 RecordingTrouble troubleOf(const SessionStatus& status);
-/// One sentence about it with what to do; empty when there is none.
+/// Returns a sentence about the most urgent problem that says what to do; empty if there is none.
 std::string troubleText(const SessionStatus& status);
-/// Until the disk is full at the present rate; nothing while free space or rate are not known.
+/// Returns the seconds until the disk is full at the current rate; empty while free space or rate
+/// are unknown.
 std::optional<double> secondsLeft(const SessionStatus& status);
-/// "room for 3 h 20 min", or "52.3 GB free" while the rate is not known; empty when the system does
-/// not say how much is free.
-std::string roomText(const SessionStatus& status);
+/// Returns "room for 3 h 20 min", or "52.3 GB free" while the rate is unknown; empty if the system
+/// does not report the free space.
+std::string freeSpaceText(const SessionStatus& status);
 
 }  // namespace pitchboard::telemetry

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How full a battery is, and when it is low: the one rule for simulated, live and recorded robots.
-// Values are volts. Plain values; any thread.
+// Computes how full a battery is and whether it is low, for simulated, live and recorded robots.
+// The limits come from the robot's model or from the settings of Live. Values are volts. Plain
+// values; any thread.
 
 namespace pitchboard::telemetry {
 
@@ -12,9 +13,11 @@ struct BatteryLimits {
   double fullPerCell = 4.2;
   double lowPerCell = 3.5;
   double emptyPerCell = 3.3;
+  bool operator==(const BatteryLimits&) const = default;
 };
 
-/// The limits of a battery of five cells: low below 16.0 V, empty at 14.65 V, full at 19.15 V.
+/// The limits of the published robot's battery of five cells, also the default of Live: low below
+/// 16.0 V, empty at 14.65 V, full at 19.15 V.
 inline constexpr BatteryLimits usualBattery{5, 3.83, 3.20, 2.93};
 
 struct Battery {

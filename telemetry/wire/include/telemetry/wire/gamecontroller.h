@@ -26,7 +26,7 @@ enum class League : std::uint8_t {
   HumanoidSoccer     ///< HSL since 2026: v19, v20
 };
 
-/// A slot of a team, with codes as sent. penaltyName() and penaltyWords() translate them.
+/// A slot of a team, with codes as sent. penaltyName() and penaltyLabel() translate them.
 struct RefereePlayer {
   int number = 0;  ///< number of the slot, from 1
   int penalty = 0;
@@ -41,7 +41,7 @@ struct RefereePlayer {
 struct RefereeTeam {
   static constexpr std::size_t maxPlayers = 20;
   int number = 0;  ///< identifies the team; its place in the packet is its side
-  int colour = 0;  ///< see colourWords()
+  int colour = 0;  ///< see colourLabel()
   int score = 0;
   std::optional<int> goalColour;   ///< v7
   std::optional<int> penaltyShot;  ///< penalty shots taken
@@ -131,21 +131,21 @@ std::string_view secStateName(int secState);
 /// Returns "ROUNDROBIN", "PLAYOFF" or "DROPIN".
 std::string_view gameTypeName(int gameType);
 /// Returns "normal", "penalty shoot-out", "overtime" or "timeout".
-std::string_view gamePhaseWords(int gamePhase);
+std::string_view gamePhaseLabel(int gamePhase);
 /// Returns the name of a set play in JSON, such as "pushing free kick". The same code means
 /// different things in the SPL and the HSL.
 std::string_view setPlayName(League league, int setPlay);
 /// Returns the text of a set play for people, such as "corner kick"; for the HL of a secondary
 /// state.
-std::string_view setPlayWords(League league, int setPlay);
+std::string_view setPlayLabel(League league, int setPlay);
 /// Returns "blue", "red", ..., or "unknown".
-std::string_view colourWords(int colour);
+std::string_view colourLabel(int colour);
 /// Returns a name such as "HL_PICKUP_OR_INCAPABLE" or "NONE"; "UNKNOWN" if this version has no such
 /// code.
 std::string_view penaltyName(const RefereeState& state, int penalty);
 /// Returns the text of a player's penalty, such as "pickup or incapable"; "" for none, "unknown
 /// penalty" for other codes. A player with a red card is always "sent off".
-std::string_view penaltyWords(const RefereeState& state, const RefereePlayer& player);
+std::string_view penaltyLabel(const RefereeState& state, const RefereePlayer& player);
 /// Returns whether a slot has no player on the field; displays leave it out.
 bool isSubstitute(const RefereeState& state, const RefereePlayer& player);
 

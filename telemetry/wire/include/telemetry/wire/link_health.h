@@ -15,7 +15,7 @@
 
 namespace pitchboard::telemetry {
 
-enum class HeartbeatState : std::uint8_t { Unknown, Working, Silent };
+enum class HeartbeatState : std::uint8_t { Unknown, Working, NotResponding };
 
 /// Control, vision, localization, decision, IMU: the order of the message.
 inline constexpr std::size_t processCount = 5;

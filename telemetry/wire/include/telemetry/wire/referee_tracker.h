@@ -19,7 +19,7 @@ class RefereeTracker {
  public:
   struct Options {
     Duration hold =
-        std::chrono::seconds(3);  ///< a source that is silent for this time may be replaced
+        std::chrono::seconds(3);  ///< a source that sent nothing for this time may be replaced
     Duration timeout = std::chrono::seconds(10);  ///< after this time the referee counts as offline
     int version = 0;                              ///< show only this version; 0: the highest
   };

@@ -39,9 +39,15 @@ struct MonitorOptions {
   /// later they may come from a robot that stands still.
   Duration duplicateWindow = std::chrono::milliseconds(5);
   BatteryLimits battery;
+  std::map<int, BatteryLimits> teamBatteries;  ///< of teams whose robots have others, by index
   SenderFilter senders;
   std::vector<TeamSetup> teams;  ///< empty: one team, with the profile
   Surroundings field;
+  /// Returns the limits of the batteries of a team, by its index (RobotKey::team).
+  const BatteryLimits& batteryOf(int team) const {
+    const auto found = teamBatteries.find(team);
+    return found == teamBatteries.end() ? battery : found->second;
+  }
 };
 
 /// This robot need not share its place.
@@ -115,7 +121,7 @@ class TeamMonitor {
   /// Changes the profile for the next messages; link health and counters are kept.
   void setProfile(Profile profile);
   /// Robots of setups that remain keep their team. The others have no team until a message assigns
-  /// them to one, and are forgotten if they fall silent before.
+  /// them to one, and are forgotten if they go offline before.
   void setOptions(MonitorOptions options);
   /// Returns the robots whose keys the last take() or setOptions() has changed.
   const std::vector<Renaming>& renamings() const { return m_renamings; }

@@ -23,11 +23,12 @@ struct TeamSetup {
   static constexpr std::size_t mostTeams = 16;  ///< teams that can be received at one time
   std::string name;                             ///< may be empty; see title()
   int number = 0;                               ///< number in the GameController; 0 if unknown
-  std::string colour;                           ///< as colourWords(); empty: Live chooses one
+  std::string colour;                           ///< as colourLabel(); empty: Live chooses one
   int firstPort = 0, lastPort = 0;              ///< 0: Live's ports
   std::vector<std::string> senders;             ///< allowed addresses and networks; empty: all
   std::string profileName = "published";        ///< a built-in profile, or a file beside the setup
   Profile profile = publishedProfile();
+  std::string model;                  ///< robot model: sets when a battery is low; may be empty
   bool attacksLeft = false;           ///< the team attacks the left goal
   std::map<int, std::string> robots;  ///< names of its robots, by number
   bool operator==(const TeamSetup&) const = default;

@@ -34,7 +34,7 @@ inline constexpr std::size_t textErrorCount = 15;
 /// Returns a name such as "missing-end", for files and JSON.
 std::string_view errorName(TextError error);
 /// Returns a text such as "no OUT at the end", for people.
-std::string_view errorWords(TextError error);
+std::string_view errorText(TextError error);
 
 /// A set of errors.
 class TextErrors {

@@ -3,7 +3,7 @@
 
 // Sends small datagrams to one IPv4 address. It never blocks; datagrams that cannot be sent are
 // counted. In this library only the monitor request uses it (tst_udp_receiver checks that), so that
-// listening stays silent. One thread at a time.
+// a program that only receives sends nothing. One thread at a time.
 
 #include <cstdint>
 #include <string_view>

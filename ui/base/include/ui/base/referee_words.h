@@ -5,6 +5,7 @@
 // thread.
 
 #include <QString>
+#include <string>
 
 #include <robotlink/frame/live_values.h>
 
@@ -19,6 +20,8 @@ QString refereeSetPlayText(const link::RefereeView& view);
 QString refereeTruthText(const link::RefereeView& view);
 /// Returns, for example, "RoboFEI, team 12 (blue), ours: 2 goals, 3 players left".
 QString refereeTeamText(const link::RefereeTeamView& team, int ourTeam);
+/// Returns, for example, "pickup 23 s" for "pickup or incapable": short, so that the seconds fit.
+QString penaltyTag(const std::string& penalty, int secondsLeft);
 /// Returns, for example, "05:12" or "−00:07".
 QString refereeClockText(int seconds);
 

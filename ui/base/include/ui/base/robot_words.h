@@ -24,7 +24,7 @@ QString capitalised(std::string_view text);
 QString numberText(double value, int decimals);
 /// Returns "05:12", with hours if there are any.
 QString clockText(double seconds);
-/// Returns a duration such as "12 s" or "32 min 17 s", in the format of base/duration_words.h.
+/// Returns a duration such as "12 s" or "32 min 17 s", in the format of base/duration_text.h.
 QString durationText(double seconds, int decimals = 0);
 /// Returns "18 720", with thin spaces between thousands.
 QString countText(qulonglong value);

@@ -4,16 +4,37 @@
 // The style of all tables of the window, and the label that replaces an empty table. UI thread
 // only.
 
+#include <QApplication>
 #include <QHeaderView>
 #include <QLabel>
+#include <QStyledItemDelegate>
 #include <QTableView>
 
+#include <ui/base/elided_words.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
 
-/// Sets rows of equal height, no grid, and selection of whole rows.
+/// Shortens texts that do not fit from their words: Qt would cut off the number at their end.
+class CellDelegate : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+  void paint(QPainter* painter, const QStyleOptionViewItem& option,
+             const QModelIndex& index) const override {
+    QStyleOptionViewItem cell = option;
+    initStyleOption(&cell, index);
+    const QStyle* style = cell.widget ? cell.widget->style() : QApplication::style();
+    const int margin = style->pixelMetric(QStyle::PM_FocusFrameHMargin, &cell, cell.widget) + 1;
+    const QRect room = style->subElementRect(QStyle::SE_ItemViewItemText, &cell, cell.widget);
+    cell.text = elidedWords(QFontMetricsF(cell.font), cell.text, room.width() - 2 * margin);
+    style->drawControl(QStyle::CE_ItemViewItem, &cell, painter, cell.widget);
+  }
+};
+
+/// Sets rows of equal height, no grid, selection of whole rows, and numbers that are never cut.
 inline void styleTable(QTableView* table) {
+  table->setItemDelegate(new CellDelegate(table));
   table->setFrameShape(QFrame::NoFrame);
   table->setShowGrid(false);
   table->setAlternatingRowColors(true);

@@ -47,7 +47,7 @@ inline constexpr std::array fieldLayers{
     FieldLayerInfo{FieldLayer::Landmarks, "landmarks", "Landmarks", false},
     FieldLayerInfo{FieldLayer::Eopra, "eopra", "EOPRA sectors", false},
     FieldLayerInfo{FieldLayer::StarVars, "starVars", "StarVars sectors", false},
-    FieldLayerInfo{FieldLayer::Particles, "particles", "Particles of localization", false},
+    FieldLayerInfo{FieldLayer::Particles, "particles", "Localization particles", false},
     FieldLayerInfo{FieldLayer::PlannedPath, "plannedPath", "Planned path", false},
     FieldLayerInfo{FieldLayer::AdvisorHeat, "advisorHeat", "Ball in 5 s", false},
     FieldLayerInfo{FieldLayer::AdvisorCandidates, "advisorCandidates", "Advisor's candidates",

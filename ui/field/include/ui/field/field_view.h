@@ -69,6 +69,8 @@ class FieldView : public QWidget, public FieldPictures {
   bool takePublishedKey(const QKeyEvent& event);
   /// Opens the editor for the robot's pose.
   void editPose(RobotKey id);
+  /// Whether a robot is drawn in this part of the canvas (pixels), or at its edge.
+  bool hasRobotIn(const QRect& part) const;
   void setFlipped(bool flipped);
   bool isFlipped() const;
   QSize pictureSize(QSize within) const override;

@@ -11,15 +11,16 @@
 
 namespace pitchboard::link {
 
-/// The code is that of secState (Humanoid League; 0 if a version has no such code) or setPlay.
+/// Convert between set plays and codes: those of secState in the Humanoid League (0 if a version
+/// has no such code), of setPlay in the others.
 int setPlayCode(telemetry::League league, int version, int size, sim::SetPlay play);
 sim::SetPlay setPlayOf(telemetry::League league, int version, int size, int code);
 
 /// The set play in a packet, and the number of the team that takes it.
-struct ToldSetPlay {
+struct AnnouncedSetPlay {
   sim::SetPlay kind = sim::SetPlay::None;
   std::optional<int> team;
 };
-ToldSetPlay setPlayIn(const telemetry::RefereeState& packet);
+AnnouncedSetPlay setPlayIn(const telemetry::RefereeState& packet);
 
 }  // namespace pitchboard::link

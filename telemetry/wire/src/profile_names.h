@@ -9,9 +9,9 @@
 
 #include <telemetry/wire/meanings.h>
 
-namespace pitchboard::telemetry::profile_words {
+namespace pitchboard::telemetry::profile_names {
 
-inline constexpr auto meaningWords = [] {
+inline constexpr auto meaningNames = [] {
   std::array<std::string_view, fieldMeaningCount> words;
   for (std::size_t i = 0; i < words.size(); ++i) words[i] = meaningTable[i].word;
   return words;
@@ -44,4 +44,4 @@ constexpr int bytesOf(WireType type) {
   return bytes[static_cast<std::size_t>(type)];
 }
 
-}  // namespace pitchboard::telemetry::profile_words
+}  // namespace pitchboard::telemetry::profile_names

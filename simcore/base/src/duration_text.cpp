@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <base/duration_words.h>
+#include <base/duration_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ constexpr double longest = 1e9;  // s; 30 years
 
 }  // namespace
 
-std::string durationWords(double seconds, int decimals) {
+std::string durationText(double seconds, int decimals) {
   if (!std::isfinite(seconds)) return "–";
   char text[64];
   const double part = std::pow(10.0, decimals);

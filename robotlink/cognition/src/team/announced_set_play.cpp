@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/cognition/told_set_play.h>
+#include <robotlink/cognition/announced_set_play.h>
 
 #include <array>
 
@@ -44,9 +44,9 @@ sim::SetPlay setPlayOf(League league, int version, int size, int code) {
   return sim::SetPlay::None;
 }
 
-ToldSetPlay setPlayIn(const telemetry::RefereeState& packet) {
+AnnouncedSetPlay setPlayIn(const telemetry::RefereeState& packet) {
   const int code = packet.setPlay.value_or(packet.secState.value_or(0));
-  ToldSetPlay told;
+  AnnouncedSetPlay told;
   told.kind = setPlayOf(packet.league, packet.version, packet.size, code);
   if (told.kind == sim::SetPlay::None) return told;
   // Of 2021 on the Humanoid League says whose it is beside it; others by the kick-off.

@@ -27,7 +27,7 @@ const std::vector<std::string>& keysOf(std::string_view none = {}) {
   static const std::vector<std::string> all = [none] {
     std::vector<std::string> keys;
     for (int i = 0; i <= static_cast<int>(lastOf(Enum{})); ++i) {
-      const std::string_view words = sim::wordsOf(static_cast<Enum>(i));
+      const std::string_view words = sim::labelOf(static_cast<Enum>(i));
       keys.push_back(words.empty() ? std::string(none) : keyOf(words));
     }
     return keys;

@@ -10,6 +10,6 @@ namespace pitchboard {
 
 /// Returns a duration in seconds as "12 s", "32 min 17 s", "5 h 4 min" or "3 d 4 h", rounded down.
 /// `decimals` are used below ten seconds: "0.2 s". Returns "–" if the duration is not finite.
-std::string durationWords(double seconds, int decimals = 0);
+std::string durationText(double seconds, int decimals = 0);
 
 }  // namespace pitchboard
