@@ -232,8 +232,8 @@ void addOptions(CLI::App& command, Arguments& a) {
        "--referee-team", "--set-play", "--shirt", "--referee-port", "--debug-port"});
   shared::addGroup(command, "Tuning",
                    {"--distance-to-kick", "--particles", "--seed", "--published-localization",
-                    "--advisor-rollouts", "--advisor-horizon", "--advisor-share", "--advisor-memory",
-                    "--advisor-memory-read-only", "--advisor-learns-nothing"});
+                    "--advisor-rollouts", "--advisor-horizon", "--advisor-share",
+                    "--advisor-memory", "--advisor-memory-read-only", "--advisor-learns-nothing"});
 }
 
 std::vector<std::string> givenOptions(const CLI::App& command) {
