@@ -63,9 +63,9 @@ class TestLiveTeams : public QObject {
     options.team.teams[0].model = "darwin-op";
     QCOMPARE(setupOf(teamSetupText(options.team.teams[0]).c_str()).model, std::string("darwin-op"));
     const LiveState state(options);
-    LiveState again{LiveOptions()};
-    QVERIFY(again.restore(state.text(options, 0.0, start), start));
-    QCOMPARE(again.options.team.teams.at(0).model, std::string("darwin-op"));
+    const auto again = LiveState::read(state.text(options, 0.0, start), start);
+    QVERIFY(again);
+    QCOMPARE(again->options.team.teams.at(0).model, std::string("darwin-op"));
 
     options.team.teams[0].model = "darwin";
     const auto refused = validate(options);
