@@ -311,7 +311,7 @@ void ProcessManager::addNews(const Entry& entry, ProcessNewsKind kind, const std
   m_news.push_back({kind, entry.status.robot, entry.status.name, entry.status.pid, detail});
 }
 
-/// It does not run any more, or could not be started.
+/// Called when a process has ended or could not be started.
 void ProcessManager::ended(Entry& entry, Time now, bool died, const std::string& detail,
                            bool byHand) {
   ProcessStatus& status = entry.status;
