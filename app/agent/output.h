@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where the agent's datagrams go. A network that fails is told once, and again when it works. One
-// thread.
+// Sends the agent's datagrams. Reports once when the network fails, and once when it works again.
+// One thread.
 
 #include <chrono>
 #include <optional>

@@ -90,7 +90,7 @@ class Schedule {
   double m_spentLastSecond = 0.0;
   double m_spentNow = 0.0;  // in this call, when there is no limit, too
 
-  // Refresh: how many values should have been sent by now and were not, and whose turn it is.
+  // Refresh: the number of values whose refresh is overdue, and the next one.
   double m_due = 0.0;
   std::size_t m_cursor = 0;
   Time m_roundStart{}, m_lastRound{}, m_lastRefresh = longAgo;

@@ -229,7 +229,7 @@ Result<int> watch(WatchOptions& options) {
       printChange(variable, old, fresh, options.json);
       if (++printed == options.count) break;
     }
-    if (std::fflush(stdout) != 0) return 0;  // nobody reads any more
+    if (std::fflush(stdout) != 0) return 0;  // the reader has closed the pipe
     if (options.count > 0 && printed >= options.count) return 0;
     const auto time = SteadyClock::now();
     if (options.duration && time >= end) return 0;

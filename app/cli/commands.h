@@ -18,7 +18,7 @@ namespace pitchboard::cli {
 /// Who writes a file, for its head.
 inline constexpr const char* programName = "pitchboard " PITCHBOARD_VERSION;
 
-/// Left-aligned text of so many characters, whatever their bytes.
+/// Returns the text, left-aligned in so many characters (not bytes).
 inline std::string padded(const std::string& text, std::size_t width) {
   const auto shown = static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));

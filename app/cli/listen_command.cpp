@@ -60,7 +60,8 @@ class Printer : public link::LiveObserver {
         "\n");
   }
 
-  /// Prints what has come, or waits so long for it. False when nobody reads the output any more.
+  /// Prints what has arrived, or waits for it for this time. Returns false once the reader has
+  /// closed the pipe.
   bool print(telemetry::Duration wait) {
     std::unique_lock lock(m_mutex);
     m_come.wait_for(lock, wait, [this] { return !m_lines.empty(); });

@@ -35,7 +35,7 @@ Result<std::vector<telemetry::TeamSetup>> loadTeams(const std::vector<std::strin
 void addListenOptions(CLI::App& command, ListenOptions& options);
 
 Result<link::LiveOptions> liveOptions(const ListenOptions& options);
-/// How it stands once the watch has tried its ports. Fails where nothing at all can be received.
+/// Returns the state of the ports once the watch has tried them. Fails if nothing can be received.
 Result<link::LiveDetails> whenListening(const link::LiveWatch& watch);
 
 /// Tells on stderr what is received.

@@ -189,7 +189,7 @@ Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const Pla
     scenario->stop.duration = defaultDuration;
   }
   scenario = shared::withRuntimes(std::move(*scenario), options.robots);
-  // With none, programs that the scenario names are somebody else's to start.
+  // With none, somebody else starts the programs that the scenario names.
   if (scenario && cognition == link::Cognition::None && !options.robots.runtimes.empty() &&
       TRY(link::usesTeamPrograms(*scenario))) {
     return failure(ErrorCode::InvalidArgument,

@@ -63,7 +63,7 @@ struct Arguments {
   bool stdio = false;
 };
 
-/// A recorded match, and the moment from which it is to go on.
+/// A recorded match, and the moment from which it continues.
 struct Recorded {
   link::Scenario scenario;
   link::Moment moment;
@@ -112,7 +112,7 @@ Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition 
       recorded ? shared::changed(recorded->scenario, play.match) : shared::scenarioFrom(play.match),
       play, cognition);
   if (!scenario || !recorded) return scenario;
-  // Seconds from here on; a match that was over by then goes on all the same.
+  // Seconds from here on; a match that was already over continues, too.
   auto& duration = scenario->stop.duration;
   const double now = recorded->seconds();
   if (play.duration) {

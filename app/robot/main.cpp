@@ -18,7 +18,7 @@
 namespace pitchboard::robot {
 namespace {
 
-// As every robot process: whoever comes first creates the segment, and nobody removes it.
+// As for every robot process: the first one creates the segment, and none removes it.
 Result<link::Blackboard> joinBlackboard(int key) {
   if (const Result<void> made = link::SystemVSegments::create(key);
       !made && made.error().code != ErrorCode::Conflict) {

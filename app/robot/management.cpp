@@ -90,7 +90,7 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
         replaceAll(word, "{key}", key);
       }
     } else {
-      // Options that this process refuses are told now, not again at every restart.
+      // Reports options that the process refuses now, instead of at every restart.
       TRY(link::findProcess(name)->make(arguments.process));
       words = {program, name, "--robot", robot, "--key", key};
       if (!arguments.config.empty()) words.insert(words.end(), {"--config", arguments.config});

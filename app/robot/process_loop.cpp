@@ -24,7 +24,7 @@ class Display {
  public:
   Display(RobotId robot, link::CognitionDebugSender* sender) : m_robot(robot), m_sender(sender) {}
 
-  /// Tells what the process has in mind, unless it was told less than `period` ago.
+  /// Sends the debug data of the process, unless it was sent less than `period` ago.
   void tell(const link::CognitiveProcess& process, std::chrono::milliseconds period) {
     const Clock::time_point now = Clock::now();
     if (m_sender == nullptr || now < m_last + period) return;

@@ -22,7 +22,7 @@ namespace {
 constexpr int maxPixels = 16384;
 
 void addOptions(CLI::App& app, Arguments& a) {
-  a.match.scenario = "kick-off";  // somebody moves at once
+  a.match.scenario = "kick-off";  // robots move from the beginning
   shared::addScenarioOptions(app, a.match);
   app.add_option("--cognition", a.cognition,
                  "Where the robots' processes run: separate processes on System V blackboards "

@@ -114,7 +114,7 @@ int showWindow(QApplication& application, const Arguments& arguments,
   if (!arguments.session.empty()) window.openSession(QString::fromStdString(arguments.session));
   const bool recordsMatch = !arguments.record.empty() && !arguments.live;
   if ((!arguments.live && arguments.session.empty()) || arguments.scenarioGiven) {
-    // A match that is to be recorded waits until somebody writes along.
+    // A match that is to be recorded starts once its recorder observes it.
     controller.open(scenario, arguments.paused || recordsMatch);
     window.files()->showCurrent(QString::fromStdString(arguments.match.scenario));
   }

@@ -40,8 +40,7 @@ class TestCliExplore : public QObject {
     QVERIFY2(run.out.contains("60 rollouts of 5 s from 6.00 s"), run.out.constData());
     QVERIFY2(run.out.contains("Goal of the left team"), run.out.constData());
     QVERIFY2(run.out.contains("Plays on (striker)"), run.out.constData());
-    QVERIFY2(run.out.contains("significant") || run.out.contains("is best"),
-             run.out.constData());
+    QVERIFY2(run.out.contains("significant") || run.out.contains("is best"), run.out.constData());
     const ProgramRun json = explore(arguments + QStringList{"--json", "--truth"});
     QVERIFY2(json.exitCode == 0, json.err.constData());
     const QJsonObject out = QJsonDocument::fromJson(json.out).object();

@@ -228,7 +228,8 @@ class TestManagement : public QObject {
     };
     row("unknown process", "[Pitchboard Management]\nprocesses = decision, cook\n",
         "robot.ini, line 4: there is no reference process 'cook'");
-    row("twice", "[Pitchboard Management]\nprocesses = team team\n", "line 4: 'team' is listed twice");
+    row("twice", "[Pitchboard Management]\nprocesses = team team\n",
+        "line 4: 'team' is listed twice");
     row("nothing to start", "[Pitchboard Management]\nprocesses =\n",
         "line 4: processes must name");
     row("time", "[Pitchboard Management]\n\nsilent_after = soon\n",
@@ -237,12 +238,12 @@ class TestManagement : public QObject {
         "line 4: restart_wait must be");
     row("unknown key", "[Pitchboard Management]\nsilent_afer = 3\n",
         "did you mean \"silent_after\"");
-    row("no program", "[Pitchboard Management]\ncommand.own =\n",
-        "line 4: command.own must name");
+    row("no program", "[Pitchboard Management]\ncommand.own =\n", "line 4: command.own must name");
     row("no such program",
         "[Pitchboard Management]\nprocesses = own\ncommand.own = /no/such/thing\n",
         "cannot start '/no/such/thing'");
-    row("not a line", "[Pitchboard Management]\nquickly\n", "line 4: 'quickly' does not have the form");
+    row("not a line", "[Pitchboard Management]\nquickly\n",
+        "line 4: 'quickly' does not have the form");
     row("option", "[Pitchboard]\nbehavior = keeper\n", "line 4: there is no option 'behavior'");
     row("behaviour", "[Pitchboard]\nbehaviour = clever\n",
         "line 4: --behaviour: there is no behaviour \"clever\"");

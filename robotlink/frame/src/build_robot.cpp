@@ -33,7 +33,7 @@ std::optional<SeenBall> ballSeenFrom(const Pose& origin, const RobotReader& read
   if (!distance || !angle || !std::isfinite(*angle)) return std::nullopt;
   SeenBall ball;
   ball.distance = sim::published_frame::metresFromCm(*distance);
-  // Beyond twice the field it is no ball, whatever the vision says.
+  // A percept farther away than twice the field cannot be the ball.
   if (!(ball.distance > 0.0) || !(ball.distance < 2 * field.length)) return std::nullopt;
   ball.bearing = radiansFromDegrees(std::fmod(*angle, 360.0));
   const double direction = origin.yaw + ball.bearing;

@@ -182,7 +182,7 @@ std::string predicateOf(const MatchEvent& event) {
   }
 }
 
-/// "B1", "B1 decision"; empty where nobody is concerned.
+/// Returns "B1" or "B1 decision"; empty for events that concern no robot.
 std::string subjectOf(const MatchEvent& event) {
   std::string out = event.name;
   if (!event.process.empty()) out += (out.empty() ? "" : " ") + event.process;

@@ -210,7 +210,7 @@ void AttachedRobots::set(const std::vector<AttachedBoard>& boards,
         })) {
       continue;
     }
-    // One that goes on under another name begins anew.
+    // A board with another name starts over.
     std::erase_if(m_readers, [&](const auto& reader) { return reader->board() == boards[i]; });
     if (auto map = mapOf(boards[i], m_catalog)) {
       m_readers.push_back(

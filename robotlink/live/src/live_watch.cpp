@@ -17,7 +17,7 @@ using Steady = std::chrono::steady_clock;
 using telemetry::DatagramBatch;
 
 constexpr auto framePeriod = 16ms;  // at most so often while something arrives
-constexpr auto idlePeriod = 100ms;  // ages and timeouts go on without messages
+constexpr auto idlePeriod = 100ms;  // ages and timeouts have to advance without messages
 constexpr auto portsPeriod = 500ms;
 constexpr std::size_t flood = 16;  // datagrams in one go from which on it pays to gather
 

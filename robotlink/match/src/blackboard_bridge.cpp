@@ -26,7 +26,7 @@ void publishImu(const RobotVariables& names, const sim::ImuPercept& imu, Blackbo
     writeFloat(board, names.imuAccelZ, (*imu.accel)[2]);
   }
   if (imu.state) writeIfPresent(board, names.imuState, *imu.state);
-  // Only a request is cleared: another value, whatever a team means by it, stays.
+  // Only a request is cleared. Any other value may have a meaning for the team, so it stays.
   if (imu.resetDone) replaceIfPresent(board, names.imuReset, 1, 0);
 }
 

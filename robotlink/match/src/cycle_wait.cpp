@@ -41,7 +41,7 @@ bool CycleWait::hasAnswered(const RobotSlot& slot) {
   return true;
 }
 
-/// One of its programs runs, or it is somebody else's to start.
+/// Returns whether a program of the robot runs, or somebody else has to start it.
 bool CycleWait::mayAnswer(const RobotSlot& slot) const {
   const auto runs = [this](const auto& process) {
     const ProcessStatus* status = m_slots.processes().status(process->id);

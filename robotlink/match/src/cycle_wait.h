@@ -22,7 +22,7 @@ class CycleWait {
   /// After a tick. Returns when everybody who was asked has answered, or has had its `silent_after`
   /// of real time: that one is named, and is not asked again until it answers.
   void run();
-  /// Another moment was put back: nobody has done more than its ticks.
+  /// Called after another moment was restored: programs have finished only its ticks.
   void jump();
 
  private:

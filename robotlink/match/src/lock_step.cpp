@@ -16,7 +16,7 @@ using Seconds = RestartRule::Seconds;
 constexpr auto glance = 20ms;  // between two looks at the processes while one is waited for
 constexpr auto worthTelling = 250ms;
 constexpr Seconds leastTimeToStart{10.0};  // of a process on a busy computer
-constexpr auto worthWaiting = 1s;          // for a restart; longer, the match goes on without it
+constexpr auto worthWaiting = 1s;  // for a restart; otherwise the match continues without it
 
 bool comesSoon(const ProcessStatus& status, const ProfileProcess& profile,
                SteadyClock::time_point now) {

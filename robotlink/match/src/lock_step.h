@@ -21,7 +21,7 @@ class LockStep {
       : m_base(base), m_slots(slots), m_pace(pace), m_cycles(base, slots, pace) {}
 
   /// After a tick, in the order of the robots: each reference process whose period has passed.
-  /// Waits for separate ones in lock-step, and for team programs that cooperate, but not for ever.
+  /// Waits for separate ones in lock-step, and for team programs that cooperate, but not forever.
   void run();
   /// Another moment was put back: what is due follows the simulation's time.
   void jump();

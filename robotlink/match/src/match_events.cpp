@@ -72,7 +72,7 @@ MatchEvent MatchEvents::ofProcess(MatchEventKind kind, const sim::WorldState& st
 void MatchEvents::takeNews(const sim::WorldState& state, const std::vector<ProcessNews>& news) {
   for (const ProcessNews& one : news) {
     const bool starts = one.kind <= ProcessNewsKind::Restarted;
-    // The first of this name since the match began, whoever started it.
+    // The first process of this name since the match began.
     const bool isFirst = starts && m_everRan.emplace(one.robot, one.process).second;
     const auto kind =
         isFirst ? MatchEventKind::ProcessStarted : kindOfNews[static_cast<std::size_t>(one.kind)];

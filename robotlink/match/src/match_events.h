@@ -25,7 +25,8 @@ class MatchEvents {
   MatchEvents() { m_events.reserve(mostKept); }  // ticks allocate nothing
   /// Right after a step.
   void stepped(const sim::Simulation& simulation);
-  /// The same, with what robots sensed in it, in their order; `again`: it was told of already.
+  /// The same, with what robots sensed in it, in their order; `again`: its events were reported
+  /// before.
   void sensed(const sim::WorldState& state, std::span<const sim::Percepts> percepts, bool again);
   /// After a jump to another moment, whose robots may see the ball or not.
   void forgetSight() { m_sight.clear(); }

@@ -7,7 +7,7 @@
 namespace pitchboard::link {
 namespace {
 
-// Then whoever plays can look after commands, frames, child processes and a stop.
+// Then the caller can look after commands, frames, child processes and requests to stop.
 constexpr std::chrono::milliseconds longestBatch{8};
 constexpr std::chrono::milliseconds awaitInterval{20};
 
@@ -54,7 +54,7 @@ MatchPlayer::Played MatchPlayer::play(Clock::time_point now, std::uint64_t lastT
       await(m_wanted == unlimitedSpeed ? ProcessPace::Await::Everybody
                                        : ProcessPace::Await::Cooperating,
             now)) {
-    setSpeed(m_wanted, now);  // from when they are there
+    setSpeed(m_wanted, now);  // counts from when they are ready
     played.next = now + awaitInterval;
     return played;
   }
@@ -72,7 +72,7 @@ MatchPlayer::Played MatchPlayer::play(Clock::time_point now, std::uint64_t lastT
   if (paced) {
     const auto after = Clock::now();
     m_pacer.forgive(after, currentTick());
-    // Behind by less than is forgiven: go on at once.
+    // The delay is small enough to catch up, so the match continues at once.
     played.next =
         m_pacer.target(after) > currentTick() ? after : m_pacer.wake(after, currentTick());
   }

@@ -3,8 +3,8 @@
 
 // How a match's robots hear its referee: packets to the match's port, as the GameController sends
 // them, and COM_REFEREE on the blackboards of inline robots, in the same rhythm. Or the other way
-// round: receives a GameController's packets and makes the game obey them. Private to the module; on the match's
-// thread.
+// round: receives a GameController's packets and makes the game obey them. Private to the module;
+// on the match's thread.
 
 #include <memory>
 #include <optional>

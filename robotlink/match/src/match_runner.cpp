@@ -54,7 +54,7 @@ struct MatchRunner::Shared {
   std::uint64_t droppedEvents = 0;
   std::uint64_t droppedLogLines = 0;
   std::function<void()> tell;
-  bool told = false;  // and nobody has asked since
+  bool told = false;  // the notification was sent, and nothing was taken since
 
   MatchPlayer* player = nullptr;  // for commands, which run on its thread
 };
@@ -85,7 +85,7 @@ double limitedSpeed(double timesRealTime) {
   return limited ? timesRealTime : MatchRunner::unlimitedSpeed;
 }
 
-/// Frames that nobody looks at any more are filled again, so that playing allocates next to
+/// Frames that are no longer used are filled again, so that playing allocates next to
 /// nothing.
 class FramePool : public std::enable_shared_from_this<FramePool> {
  public:
@@ -167,7 +167,7 @@ class MatchLoop {
   std::string m_drawingProblem;
   std::vector<std::array<std::uint32_t, Blackboard::words>> m_boards;
   std::uint64_t m_serial = 0;
-  std::uint64_t m_skip = 0, m_skipUntil = 0;  // the one that goes on, and its last tick
+  std::uint64_t m_skip = 0, m_skipUntil = 0;  // the running skip, and its last tick
   bool m_still = false;
   bool m_publishWanted = false;
 };
@@ -205,8 +205,8 @@ void MatchLoop::run(const std::stop_token& stop) {
   }
 }
 
-/// Or until somebody wants something, or, of a match that stands still, a process has something to
-/// tell.
+/// Waits until `wake`, until a command arrives, or, in a paused match, until a process has ended or
+/// written something.
 void MatchLoop::waitUntil(Clock::time_point wake) {
   using namespace std::chrono;
   // No descriptor was left in this process: look now and then.
@@ -430,7 +430,7 @@ MatchRunner::~MatchRunner() {
   m_thread.request_stop();
   m_shared->wake();
   if (m_thread.joinable()) m_thread.join();
-  // What was not carried out any more: lets go of callers that wait in execute().
+  // Commands that were not carried out: releases callers that wait in execute().
   const std::lock_guard lock(m_shared->mutex);
   m_shared->commands.clear();
 }

@@ -7,7 +7,7 @@
 namespace pitchboard::link {
 
 void MomentRobot::writeTo(Blackboard& board) const {
-  // Every word is an int variable of its index, whatever a catalog calls it.
+  // Every word can be written as the int variable with its index, independent of the catalog.
   for (const BoardWord& word : words) {
     board.write(IntVar{word.index}, std::bit_cast<std::int32_t>(word.bits));
   }

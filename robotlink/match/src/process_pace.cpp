@@ -120,7 +120,7 @@ bool ProcessPace::awaitsPrograms(Await whom, Time now) {
     }
   }
   if (awaits) {
-    // Meanwhile their time goes on.
+    // Their time advances meanwhile.
     m_awaited += RestartRule::Seconds(now - m_awaitedAt.value_or(now)).count();
     m_awaitedAt = now;
     m_reached = 1.0;
@@ -155,7 +155,7 @@ bool ProcessPace::awaitsFirstCycle(RobotSlot& slot, Time now) {
   return false;
 }
 
-/// The match waits for its cycles, whatever its pace.
+/// Returns whether the match waits for cycles of this program at every pace.
 bool ProcessPace::cooperates(const ProcessStatus& program) const {
   const RobotSlot* slot = m_slots.find(program.robot);
   return slot && slot->cooperates;

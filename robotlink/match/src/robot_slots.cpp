@@ -76,7 +76,7 @@ RobotSlots::RobotSlots(MatchBase& base)
 
 RobotSlots::~RobotSlots() {
   m_processes.reset();
-  m_slots.clear();  // its robots before its number: whoever gets that takes them at once
+  m_slots.clear();  // robots first: the next owner of the match number claims them at once
 }
 
 RobotSlot* RobotSlots::find(RobotId id) const {
@@ -229,9 +229,9 @@ Result<void> RobotSlots::setBehaviour(RobotId id, const std::string& behaviour) 
 Result<void> RobotSlots::setBehaviour(RobotSlot& slot, const std::string& behaviour) const {
   TRY(checkBehaviour(behaviour));
   slot.behaviour = behaviour;
-  // Nobody said who runs, so the behaviour does: without one the robot is somebody else's.
+  // No runtime was chosen, so the behaviour decides: without one, somebody else's programs play.
   slot.runtime = TRY(runtimeFor(behaviour, slot.choice));
-  // What hangs on the behaviour starts anew, the rest goes on.
+  // Processes that depend on the behaviour restart, the others continue.
   std::erase_if(slot.processes,
                 [](const auto& process) { return process->profile.onlyFor == OnlyFor::Behaviour; });
   return {};
@@ -335,7 +335,7 @@ Result<std::shared_ptr<RobotSlot>> RobotSlots::make(RobotId id, const std::strin
     const int key = blackboardKey(id, base);
     slot->claim = TRY(BridgeClaim::take(key));
     // The guard is there before the segment, so that not even a kill between the two leaves it. A
-    // match without processes goes on without it; one with processes says why it cannot.
+    // match without processes continues without it; one with processes reports the reason.
     if (!options.robotProgram.empty()) (void)m_processes->keepGuard();
     slot->board = TRY(SystemVSegments::open(key, AttachMode::AttachOrCreate));
     m_processes->guardSegment(slot->board);
@@ -416,7 +416,7 @@ const AdvisorOptions* RobotSlots::advisorOf(const RobotSlot& slot) const {
   return found == advisors.end() ? nullptr : &found->second;
 }
 
-/// Index below 0 if the match waits for nobody.
+/// The index is below 0 if the match does not wait for cycles.
 Result<IntVar> RobotSlots::cycleOf(const RobotSlot& slot) const {
   auto name = expanded(slot.runtime.cycle, valuesFor(slot));
   if (name && name->empty()) return IntVar{-1};
@@ -507,7 +507,7 @@ Result<void> RobotSlots::describeReference(const RobotSlot& slot, SlotProcess& p
   }
   managed.spec.inherited = m_lockStepSlots->descriptor();
   managed.watch = ManagedProcess::Watch::Caller;
-  // Each start has a place of its own: nothing of the process before it stands there.
+  // Each start gets a new slot, without data of the previous process.
   managed.prepare = [slots = m_lockStepSlots, mine = &process](ChildSpec& spec) -> Result<void> {
     if (mine->lockStepSlot >= 0) slots->release(mine->lockStepSlot);
     mine->lockStepSlot = -1;

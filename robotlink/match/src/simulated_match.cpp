@@ -172,7 +172,8 @@ void SimulatedMatch::tick() {
   m_parts->advance(false);
 }
 
-/// One tick with the commands that were read. One that is played `again` was told of already.
+/// One tick with the commands that were read. If it is played `again`, its events were reported
+/// before.
 void SimulatedMatch::Parts::advance(bool again) {
   base.simulation.step(base.commands, base.percepts);
   if (!again) events.stepped(base.simulation);

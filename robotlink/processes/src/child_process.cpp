@@ -95,7 +95,7 @@ std::optional<ChildProcess::End> ChildProcess::poll(std::vector<std::string>& li
 }
 
 bool ChildProcess::tell(int epoll, std::uint64_t id) const {
-  // Once for each time: nobody has to read the end of a pipe that stays open.
+  // Edge-triggered, because the end of a pipe that stays open need not be read.
   epoll_event news{};
   news.events = EPOLLIN | EPOLLET;
   news.data.u64 = id;
@@ -108,7 +108,7 @@ void ChildProcess::readOutput(std::vector<std::string>& lines, std::size_t limit
   for (std::size_t total = 0; total < limit;) {
     const ssize_t got = ::read(m_child.output.get(), buffer, sizeof buffer);
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return;  // nothing now, or nobody writes any more
+    if (got <= 0) return;  // nothing to read now, or the writer has closed the pipe
     total += static_cast<std::size_t>(got);
     std::string_view rest(buffer, static_cast<std::size_t>(got));
     while (!rest.empty()) {

@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 constexpr auto patience = 10s;
 
-/// Removes what nobody uses any more; whether one of the segments is still used.
+/// Removes segments that are no longer used. Returns whether one is still in use.
 bool removeUnused(const std::map<int, int>& keysById) {
   bool used = false;
   for (const auto& [shmid, key] : keysById) {

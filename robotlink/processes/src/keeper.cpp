@@ -137,7 +137,7 @@ void keep(const std::vector<std::string>& words) {
     char number = SIGKILL;
     if (sources[0].revents != 0) {
       const ssize_t got = ::recv(control, &number, 1, MSG_DONTWAIT);
-      if (got == 0) sources[0].fd = -1;  // whoever started us is gone
+      if (got == 0) sources[0].fd = -1;  // our parent has ended
       if (got >= 0) passOn(number, program->pid);
     }
     signalfd_siginfo signal;

@@ -28,7 +28,7 @@ constexpr std::size_t mostSlots = 512;  // 64 robots of 8 processes; unused page
 constexpr std::size_t longestMessage = 512;
 constexpr std::uint32_t magic = 0x50425432;  // of this layout
 
-/// Messages, each with its length in front; whoever may write it now owns it.
+/// Messages, each preceded by its length. The side that may write now owns it.
 template <std::size_t Most>
 struct Box {
   std::uint32_t used = 0;
@@ -74,7 +74,7 @@ void wake(Word& word) {
   ::syscall(SYS_futex, &word, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
 }
 
-/// Returns when the word is not `seen` any more, when it was woken, or after `longest`.
+/// Returns when the word is no longer `seen`, when it was woken, or after `longest`.
 void sleepWhile(const Word& word, std::uint32_t seen, std::chrono::nanoseconds longest) {
   constexpr std::int64_t second = 1'000'000'000;
   const timespec time{static_cast<time_t>(longest.count() / second),

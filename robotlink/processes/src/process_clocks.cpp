@@ -76,7 +76,7 @@ void ProcessManager::setPaused(bool paused, Time now) {
   if (m_paused == paused) return;
   m_paused = paused;
   bool follows = false;
-  // Their time stands still before they stop, and goes on before they go on.
+  // Their time stops before they are stopped, and continues before they continue.
   for (Entry& entry : m_entries) {
     if (!entry.child || !entry.clock) continue;
     entry.clock->setRate(paused ? 0.0 : m_speed, now);

@@ -311,7 +311,7 @@ void ProcessManager::addNews(const Entry& entry, ProcessNewsKind kind, const std
   m_news.push_back({kind, entry.status.robot, entry.status.name, entry.status.pid, detail});
 }
 
-/// It does not run any more, or could not be started.
+/// Called when a process has ended or could not be started.
 void ProcessManager::ended(Entry& entry, Time now, bool died, const std::string& detail,
                            bool byHand) {
   ProcessStatus& status = entry.status;
@@ -358,7 +358,9 @@ void ProcessManager::start(int id, Time now) {
   if (!entry || entry->child) return;
   entry->wait = entry->process.restart.firstWait;
   entry->inARow = 0;
+  const int restarts = entry->status.restarts;
   (void)startNow(*entry, now);
+  entry->status.restarts = restarts;
 }
 
 void ProcessManager::stop(int id) {
@@ -377,6 +379,7 @@ void ProcessManager::stop(int id) {
 void ProcessManager::restart(int id, Time now) {
   stop(id);
   start(id, now);
+  if (Entry* entry = find(id)) ++entry->status.restarts;
 }
 
 void ProcessManager::kill(int id) {

@@ -116,7 +116,7 @@ void ProcessManager::sample(Entry& entry, Time now) {
   entry.cpuSeconds = std::max(use->cpuSeconds, 1e-9);
   entry.sampled = now;
   status.memoryBytes = use->memoryBytes;
-  // Of a match that stands still nobody expects any.
+  // No sign of life is expected while the match is paused.
   if (entry.process.watch != Watch::Nobody && !m_paused) {
     status.heartbeatAge = Seconds(now - entry.lastSign).count();
   }

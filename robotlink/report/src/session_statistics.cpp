@@ -214,7 +214,7 @@ SessionStatistics RowStatistics::finish() {
       if (r.known[f] && s.seconds > 0.0) s.uptime[f] = std::min(1.0, r.worked[f] / s.seconds);
     }
     m_sums.add(s);
-    // The side that a team defends is told by its robots' heading at the start.
+    // The yaw of a team's robots at the start shows which side it defends.
     if (m_lastScore) {
       TeamSummary& team = m_sums.team(s.team);
       team.score = r.facesLeft ? m_lastScore->right : m_lastScore->left;

@@ -103,8 +103,8 @@ bool LiveMoments::goTo(const LiveHistory& history, double time) {
   bool begun = false;
   if (!start) {
     if (time < history.begin()) return false;
-    // They were lost with a part of the file: who is received from its beginning on is shown, as the
-    // next ones say what the datagrams mean.
+    // They were lost with a part of the file: who is received from its beginning on is shown, as
+    // the next ones say what the datagrams mean.
     history.walk(snapshotsOnly, {until, farAway}, [&](const auto& record) {
       impl.take(record);
       return !impl.known;

@@ -327,14 +327,14 @@ class Maker {
     }
     const bool told = std::any_of(scenario.writes.begin(), scenario.writes.end(),
                                   [](const auto& w) { return w.variable == refereeVariable; });
-    // Without a word of the referee robots stand still for ever.
+    // Without orders of a referee the robots would never move.
     if (!told) {
       scenario.writes.insert(scenario.writes.begin(),
                              {{}, refereeVariable, static_cast<double>(refereePlay), 0.0});
     }
   }
 
-  /// The game of the moment to the tick, of the robots that are there.
+  /// Returns the exact game of the moment, for the robots that are left.
   bool takeExactGame() {
     Scenario& scenario = m_out.scenario;
     if (!m_options.base || !m_options.base->game || !scenario.settings.referee) return false;
@@ -365,7 +365,7 @@ class Maker {
     return true;
   }
 
-  /// The referee's numbers of the teams whose robots are there.
+  /// Sets the numbers in the GameController of the teams that have robots.
   void takeTeams() {
     auto& teams = m_out.scenario.settings.teams;
     if (!teams.empty()) return;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view segmentMagic = "PBsg";
 constexpr std::uint64_t segmentVersion = 1;
-// A segment is a second of a match; one that claims more would keep us stepping for ever.
+// A segment is a second of a match. A limit, so that a damaged one cannot make us step forever.
 constexpr std::uint64_t mostTicks = 1'000'000;
 
 constexpr std::array<int sim::RobotCommand::*, 6> values{

@@ -246,8 +246,8 @@ bool TeamMonitor::isGone(const Robot& robot, WallTime time) const {
   return (robot.key.sender > 0 || hasNoTeam) && since(time, robot.last) >= m_options.timeout;
 }
 
-/// A second program is the robot of its number once the first one stops sending; a little before that
-/// one times out, so that a robot that is received is always shown.
+/// A second program is the robot of its number once the first one stops sending; a little before
+/// that one times out, so that a robot that is received is always shown.
 void TeamMonitor::foldAway(WallTime time) {
   std::erase_if(m_robots, [&](const Robot& robot) { return isGone(robot, time); });
   for (std::size_t i = 0; i < m_robots.size(); ++i) {

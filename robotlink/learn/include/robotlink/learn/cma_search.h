@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Looks for the point of a unit cube at which an unknown, noisy function is largest: CMA-ES (Hansen
-// 2006) by pagmo, as ask and tell. A search is a pure function of its settings and the values that
-// it was told, so that replaying them leads to the same state. One thread at a time.
+// Searches for the point of a unit cube where an unknown, noisy function is largest, with CMA-ES
+// (Hansen 2006) from pagmo and an ask-and-tell interface. The state of a search depends only on its
+// settings and the values it was told, so replaying them restores it. One thread at a time.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@ struct SearchSettings {
   bool operator==(const SearchSettings&) const = default;
 };
 
-/// Points that were asked for, and the value of each. Larger values are better.
+/// The points of a generation and the value of each. Larger values are better.
 struct Generation {
   std::vector<std::vector<double>> points;  ///< each coordinate in [0, 1]
   std::vector<double> values;
@@ -38,16 +38,16 @@ class CmaSearch {
   CmaSearch& operator=(CmaSearch&&) noexcept;
   ~CmaSearch();
 
-  /// The points of the next generation; the same ones until tell().
+  /// Returns the points of the next generation; the same ones until tell().
   Result<std::vector<std::vector<double>>> ask() const;
-  /// A finite value for each of them. InvalidArgument otherwise.
+  /// Takes a finite value for each of these points. Fails with InvalidArgument otherwise.
   Result<void> tell(std::span<const double> values);
-  /// Tells what was told before. Conflict if its points are not those that ask() gives.
+  /// Replays a generation. Fails with Conflict if its points are not those that ask() returns.
   Result<void> replay(const Generation& generation);
 
-  /// The centre of the distribution from which the next points are drawn.
+  /// Returns the centre of the distribution from which the next points are drawn.
   std::vector<double> mean() const;
-  std::size_t told() const { return m_told; }  ///< generations
+  std::size_t told() const { return m_told; }  ///< number of generations so far
 
  private:
   struct State;
@@ -56,7 +56,7 @@ class CmaSearch {
   std::size_t m_told = 0;
 };
 
-/// pagmo's version, for the head of files.
+/// Returns pagmo's version, for the header of files.
 const char* searchLibrary();
 
 }  // namespace pitchboard::link
