@@ -99,7 +99,7 @@ class TestGeometry : public QObject {
     std::vector<RobotId> all;
     for (const auto& robot : s.controller.frame()->robots) all.push_back(robot.slot());
     callReferee(s.controller.edits(),
-                {.kind = sim::CallKind::Penalise, .penalty = sim::PenaltyKind::Pickup}, all,
+                {.kind = sim::CallKind::Penalise, .penalty = sim::PenaltyKind::Incapable}, all,
                 QStringLiteral("penalise"));
     // They are taken to the touch line.
     s.controller.runTo(240);
