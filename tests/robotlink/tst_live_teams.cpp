@@ -62,10 +62,9 @@ class TestLiveTeams : public QObject {
     // The model is kept in files and recordings.
     options.team.teams[0].model = "darwin-op";
     QCOMPARE(setupOf(teamSetupText(options.team.teams[0]).c_str()).model, std::string("darwin-op"));
-    const LiveState state(options);
-    LiveState again{LiveOptions()};
-    QVERIFY(again.restore(state.text(options, 0.0, start), start));
-    QCOMPARE(again.options.team.teams.at(0).model, std::string("darwin-op"));
+    const auto again = LiveState::read(LiveState(options).text(options, 0.0, start), start);
+    QVERIFY(again);
+    QCOMPARE(again->options.team.teams.at(0).model, std::string("darwin-op"));
 
     options.team.teams[0].model = "darwin";
     const auto refused = validate(options);
