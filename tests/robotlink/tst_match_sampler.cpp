@@ -86,6 +86,13 @@ class TestMatchSampler : public QObject {
     const telemetry::ColumnInfo& ball = rig.column("B2", "LOCALIZATION_BALL_X");
     QCOMPARE(ball.lostBy, std::string("LOCALIZATION_BALL_X"));
     QCOMPARE(ball.lostWhen, -1.0);
+    // Nor is what behaviours write over an old percept before they look, or a silent team-mate.
+    for (const char* name : {"VISION_RBT04_DIST", "VISION_RBT04_ANGLE", "LOCALIZATION_RBT05_Y"}) {
+      const telemetry::ColumnInfo& seen = rig.column("B2", name);
+      const bool vision = std::string_view(name).starts_with("VISION");
+      QCOMPARE(seen.lostBy, std::string(vision ? "VISION_RBT04_DIST" : name));
+      QCOMPARE(seen.lostWhen, vision ? 0.0 : -1.0);
+    }
     // Sessions of earlier versions do not say it.
     telemetry::GroupInfo old = view->info();
     for (telemetry::ColumnInfo& column : old.columns) column.lostBy.clear(), column.lostWhen = 0.0;

@@ -153,7 +153,7 @@ class TestProcessManager : public QObject {
     QCOMPARE(status(id).restarts, 4);
     m_manager->start(id, SteadyClock::now());  // by hand it may try again
     QTRY_COMPARE(count(Kind::GivenUp), 2);
-    QCOMPARE(status(id).restarts, 9);
+    QCOMPARE(status(id).restarts, 8);  // a start by hand is none
   }
 
   void waitsGrowUpToALimit() {

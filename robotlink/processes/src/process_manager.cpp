@@ -358,7 +358,9 @@ void ProcessManager::start(int id, Time now) {
   if (!entry || entry->child) return;
   entry->wait = entry->process.restart.firstWait;
   entry->inARow = 0;
+  const int restarts = entry->status.restarts;
   (void)startNow(*entry, now);
+  entry->status.restarts = restarts;
 }
 
 void ProcessManager::stop(int id) {
@@ -377,6 +379,7 @@ void ProcessManager::stop(int id) {
 void ProcessManager::restart(int id, Time now) {
   stop(id);
   start(id, now);
+  if (Entry* entry = find(id)) ++entry->status.restarts;
 }
 
 void ProcessManager::kill(int id) {

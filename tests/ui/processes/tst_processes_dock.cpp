@@ -161,6 +161,7 @@ class TestProcessesDock : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
     const pid_t second = process("decision").pid;
     QVERIFY(second != first);
+    QCOMPARE(process("decision").restarts, 0);
 
     choose("decision", QStringLiteral("Restart decision of B1"));
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && process("decision").pid != second, 30'000);

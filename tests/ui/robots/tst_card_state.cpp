@@ -73,6 +73,15 @@ class TestCardState : public QObject {
     QCOMPARE(cards[0].lamps[3].state, LampState::NotResponding);
     QCOMPARE(cards[0].tag, QStringLiteral("D silent 8 s"));
     QCOMPARE(cards[0].tagKind, TagKind::Error);
+    // Nobody wonders for how long what somebody has stopped is silent.
+    link::ProcessSummary decision;
+    decision.name = "decision";
+    decision.state = link::ProcessState::Stopped;
+    frame.robots[0].processList =
+        std::make_shared<const std::vector<link::ProcessSummary>>(1, decision);
+    const CardState stopped = tracker.update(frame, 100)[0];
+    QCOMPARE(stopped.tag, QStringLiteral("D stopped"));
+    QCOMPARE(stopped.tagKind, TagKind::Warning);
   }
 
   void aPenaltyIsSaidInTheSameWordsEverywhere() {

@@ -316,6 +316,72 @@ class TestMatchController : public QObject {
     QVERIFY(!c.edits()->undoStack()->canUndo());
   }
 
+  // Also when it was carried out first, when other steps follow it, and when it is done again.
+  void whatTheMatchRefusesIsNoStep() {
+    MatchController c(inside());
+    QSignalSpy errors(&c, &MatchController::errorOccurred);
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame());
+    const QUndoStack* stack = c.edits()->undoStack();
+    link::RuntimeChoice own;
+    own.decision = "/bin/true";  // robots inside the studio have no other programs
+    const link::RuntimeChoice before = c.edits()->robot(RobotId{1})->runtime;
+    c.edits()->setRuntime(RobotId{1}, own);
+    QTRY_COMPARE(errors.count(), 1);
+    QCOMPARE(stack->count(), 0);
+    QVERIFY(c.edits()->robot(RobotId{1})->runtime == before);
+
+    const Pose from = c.frame()->robots[0].pose;
+    c.edits()->removeRobots({RobotId{2}});
+    c.edits()->setRuntime(RobotId{1}, own);
+    c.edits()->moveRobots({{RobotId{1}, from, {{1.5, 1.5}, 0.0}}});
+    QTRY_COMPARE(errors.count(), 2);
+    QTRY_COMPARE(xOf(c, 1), 1.5);
+    QTRY_COMPARE(count(c), std::size_t(5));
+    c.edits()->undoStack()->undo();
+    QTRY_COMPARE(xOf(c, 1), from.position.x);
+    // The refused one between them is not a step.
+    QCOMPARE(stack->undoText(), QStringLiteral("Remove B2"));
+    c.edits()->undoStack()->undo();
+    QTRY_COMPARE(count(c), std::size_t(6));
+    QVERIFY(!stack->canUndo());
+
+    // Done again when the robot is gone.
+    c.edits()->setNumber(RobotId{1}, 7);
+    QTRY_COMPARE(c.frame()->robot(RobotId{1})->identity.number, 7);
+    c.edits()->undoStack()->undo();
+    QTRY_COMPARE(c.frame()->robot(RobotId{1})->identity.number, 1);
+    c.post([](link::SimulatedMatch& match) {
+      return match.robots().remove(RobotId{1}) ? link::Changed::Yes : link::Changed::No;
+    });
+    QTRY_COMPARE(count(c), std::size_t(5));
+    c.edits()->undoStack()->redo();
+    QTRY_COMPARE(errors.count(), 3);
+    QVERIFY(!stack->canUndo() && !stack->canRedo());
+  }
+
+  // Two changes within a second are one step, which can be undone as often as it is done again.
+  void aMergedStepIsUndoneAgain() {
+    MatchController c(inside());
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame());
+    const auto forward = [&c] { return c.frame()->settings->noise.forward; };
+    const double before = forward();
+    sim::NoiseParameters noise = c.frame()->settings->noise;
+    for (const double value : {0.31, 0.32}) {
+      noise.forward = value;
+      c.edits()->setNoise(noise);
+    }
+    QTRY_COMPARE(forward(), 0.32);
+    QTRY_COMPARE(c.edits()->undoStack()->count(), 1);
+    for (int i = 0; i < 3; ++i) {
+      c.edits()->undoStack()->undo();
+      QTRY_COMPARE(forward(), before);
+      c.edits()->undoStack()->redo();
+      QTRY_COMPARE(forward(), 0.32);
+    }
+  }
+
   void badNoiseIsRefusedInWords() {
     MatchController c(inside());
     QSignalSpy errors(&c, &MatchController::errorOccurred);

@@ -126,6 +126,54 @@ class TestKeyMap : public QObject {
     }
   }
 
+  // Every control of the window and of panels that float that can have the focus, text fields
+  // apart.
+  void theTimelineHasItsKeysInEveryControl() {
+    Keys k;
+    k.timeline()->seek(2.0);
+    for (auto* dock : k.window.findChildren<QDockWidget*>(Qt::FindDirectChildrenOnly)) dock->show();
+    k.find<QDockWidget>("noise")->setFloating(true);
+    k.window.notices()->show({QStringLiteral("a")}, QStringLiteral("Something."),
+                             {{QStringLiteral("Repair"), {}}});
+    const char* const ids[] = {"play",          "stepBack",    "stepForward", "nextEvent",
+                               "previousEvent", "addBookmark", "escape",      "nudgeLeft",
+                               "faster",        "flipSides",   "fitField",    "removeSelected"};
+    for (const char* id : ids) k.action(id)->disconnect();
+    QSet<QWidget*> tried;
+    for (auto* dock : k.window.findChildren<QDockWidget*>(Qt::FindDirectChildrenOnly)) {
+      dock->raise();
+      QTRY_VERIFY2(dock->isVisible(), qPrintable(dock->windowTitle()));
+      for (auto* widget : k.window.findChildren<QWidget*>()) {
+        if (tried.contains(widget) || !widget->isVisible() || !widget->isEnabled() ||
+            widget->focusPolicy() == Qt::NoFocus || widget->focusProxy() != nullptr ||
+            widget->inherits("QLineEdit") || widget->inherits("QAbstractSpinBox") ||
+            (widget->window() != &k.window && !widget->window()->inherits("QDockWidget"))) {
+          continue;
+        }
+        const auto* combo = qobject_cast<QComboBox*>(widget);
+        if (combo != nullptr && combo->isEditable()) continue;
+        tried.insert(widget);
+        for (const char* id : ids) {
+          QAction* action = k.action(id);
+          for (const QKeySequence& keys : action->shortcuts()) {
+            const QSignalSpy done(action, &QAction::triggered);
+            action->setEnabled(true);
+            widget->window()->activateWindow();
+            widget->setFocus();
+            k.click(widget, keys);
+            const QString where =
+                QStringLiteral("%1 in %2 \"%3\" of %4")
+                    .arg(keys.toString(), QLatin1String(widget->metaObject()->className()),
+                         widget->objectName(), dock->windowTitle());
+            if (done.count() != 1) qWarning() << where;
+            QVERIFY2(done.count() == 1, qPrintable(where));
+          }
+        }
+      }
+    }
+    QVERIFY2(tried.size() >= 50, qPrintable(QString::number(tried.size())));
+  }
+
   void textFieldsKeepTheirKeys() {
     Keys k;
     auto* filter = k.find<QDockWidget>("variables")->findChild<QLineEdit*>();

@@ -380,6 +380,27 @@ class TestSessionCompare : public QObject {
     QTRY_COMPARE(legend->entries().value(0).value, valueText(distanceIn(456 * 50)));
   }
 
+  // B1 keeps the goal, and its rows are the first in the file.
+  void theFirstPlotIsTheSameWhateverIsReadFirst() {
+    Studio made(0);
+    made.controller.open(link::loadScenario("kick-off").value(), true);
+    made.controller.runTo(60);
+    QTRY_VERIFY_WITH_TIMEOUT(made.played(60), 20'000);
+    const QString path = made.recorded(1200);
+    QVERIFY(!path.isEmpty());
+    for (const int megabytes : {1024, 8}) {
+      Studio s(0);
+      s.window.setMemoryBudget(megabytes);
+      s.window.openSession(path);
+      QTRY_VERIFY(s.window.replay()->isOpen() && s.window.replay()->loaded() == 1.0);
+      const auto inputs = [&s] {
+        const auto& curves = s.window.findChild<PlotsDock*>()->currentPage()->panes()[0]->curves();
+        return curves.empty() ? QStringList() : curves[0].spec().inputs;
+      };
+      QTRY_COMPARE(inputs(), QStringList(QStringLiteral("B2/VISION_BALL_DIST")));
+    }
+  }
+
   // Field, cards, variables and plots of a moment, whichever way somebody came to it.
   void everyWayToAMomentLooksTheSame_data() {
     QTest::addColumn<QString>("way");

@@ -2,6 +2,7 @@
 // Robots by their cards and by the menu bar, in a whole window with real keys and clicks: whoever
 // has no mouse can do the same, and the keys of the field act wherever robots were chosen.
 #include <QComboBox>
+#include <QContextMenuEvent>
 #include <QDoubleSpinBox>
 #include <QGraphicsView>
 #include <QHelpEvent>
@@ -100,6 +101,28 @@ class TestRobotsMenu : public QObject {
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
     QVERIFY(s.trigger({"Cards", "Collapse all"}));
     QVERIFY(s.cards()[0]->isCollapsed());
+  }
+
+  // A right click selects the card, as everywhere; of several selected ones it keeps all.
+  void aRightClickSelectsTheCard() {
+    Studio s;
+    QTRY_COMPARE(s.cards().size(), qsizetype(6));
+    const auto rightClick = [&s](int index) {
+      QTimer::singleShot(0, qApp, [] {
+        QVERIFY(QApplication::activePopupWidget());
+        QApplication::activePopupWidget()->close();
+      });
+      RobotCard* card = s.cards()[index];
+      const QPoint at(60, 20);
+      QContextMenuEvent asked(QContextMenuEvent::Mouse, at, card->mapToGlobal(at));
+      QApplication::sendEvent(card, &asked);
+    };
+    s.window.field()->select({blue(1)});
+    rightClick(1);
+    QCOMPARE(s.window.field()->selection(), std::vector{blue(2)});
+    s.window.field()->select({blue(1), blue(2)});
+    rightClick(0);
+    QCOMPARE(s.window.field()->selection(), (std::vector{blue(1), blue(2)}));
   }
 
   // Opened and used by keys alone.

@@ -213,7 +213,7 @@ class TestStudioWork : public QObject {
     QVERIFY(click(QStringLiteral("Start decision of B1")));
     QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Running);
     QVERIFY(click(QStringLiteral("Kill decision of B1")));
-    QTRY_COMPARE(s.child(1, "decision").restarts, 3);
+    QTRY_COMPARE(s.child(1, "decision").restarts, 2);
   }
 
   void noiseSetInTheDockReachesTheSimulation() {

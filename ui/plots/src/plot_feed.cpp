@@ -129,12 +129,13 @@ void PlotFeed::orderRobots() {
   QStringList now;
   for (const link::RobotFrame* robot : robots) now << QString::fromStdString(robot->name);
   if (now == m_robots) return;
+  if (m_robots.isEmpty()) m_first.clear();  // chosen before anybody knew who keeps the goal
   m_robots = std::move(now);
   ++m_looks;
   ++m_generation;  // drawn anew in a match that is paused, too
 }
 
-bool PlotFeed::isMoving(const QString& group, const QStringList& columns) const {
+std::optional<bool> PlotFeed::isMoving(const QString& group, const QStringList& columns) const {
   constexpr double lately = 5.0;  // s
   const auto all = m_store->range();
   if (!all) return false;
@@ -142,16 +143,16 @@ bool PlotFeed::isMoving(const QString& group, const QStringList& columns) const 
   const auto moment = m_time->moment();
   const telemetry::TimeRange looked{moment.value_or(all->end - lately),
                                     moment ? *moment + lately : all->end};
-  return std::ranges::any_of(columns, [&](const QString& column) {
+  for (const QString& column : columns) {
     const auto id = idOf(*m_store, group + QLatin1Char('/') + column);
     const auto view = id ? m_store->view(id->group) : nullptr;
-    if (!view || view->info().columns[id->column].kind != telemetry::ColumnKind::Number) {
-      return false;
-    }
+    if (!view || view->info().columns[id->column].kind != telemetry::ColumnKind::Number) continue;
+    if (!view->hasEveryRow(looked) && view->isReading(looked)) return std::nullopt;
     telemetry::SeriesBucket values;
     view->buckets(id->column, looked, std::span(&values, 1));
-    return values.samples > 0 && values.min < values.max;
-  });
+    if (values.samples > 0 && values.min < values.max) return true;
+  }
+  return false;
 }
 
 QString PlotFeed::firstGroup(const QStringList& columns) {
@@ -162,9 +163,10 @@ QString PlotFeed::firstGroup(const QStringList& columns) {
     return place < 0 ? m_robots.size() : place;
   };
   std::ranges::stable_sort(groups, {}, rank);
-  const auto moving =
-      std::ranges::find_if(groups, [&](const QString& group) { return isMoving(group, columns); });
-  if (moving == groups.end()) {
+  // Whoever has not been read yet may be the one: its place does not depend on who comes first.
+  const auto moving = std::ranges::find_if(
+      groups, [&](const QString& group) { return isMoving(group, columns).value_or(true); });
+  if (moving == groups.end() || !isMoving(*moving, columns)) {
     if (std::ranges::find(m_firstAsked, columns) == m_firstAsked.end()) {
       m_firstAsked.push_back(columns);
     }

@@ -107,7 +107,8 @@ class PlotFeed : public QObject {
   void orderRobots();
   void findFirst();
   /// A number of these columns changes about the moment that is shown.
-  bool isMoving(const QString& group, const QStringList& columns) const;
+  /// Nothing while its rows are being read.
+  std::optional<bool> isMoving(const QString& group, const QStringList& columns) const;
 
   FrameSource* m_source;
   LinkedTime* m_time;

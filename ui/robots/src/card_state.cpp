@@ -33,6 +33,12 @@ bool keepsRealTime(const link::ProcessSummary& program) {
   return program.isTeamProgram && !program.whyRealTime.empty() && (!meant || program.speed != 1.0);
 }
 
+bool isStopped(const link::RobotFrame& robot, const QString& process) {
+  return std::ranges::any_of(robot.processes(), [&](const link::ProcessSummary& one) {
+    return one.state == link::ProcessState::Stopped && QString::fromStdString(one.name) == process;
+  });
+}
+
 /// What is wrong with the separate processes of the robot; the least of it is one that is slow.
 void tagProcesses(CardState& card, const link::RobotFrame& robot) {
   for (const link::ProcessSummary& one : robot.processes()) {
@@ -107,11 +113,13 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
   } else if (robot.penalty) {
     put(TagKind::Warning, penaltyTag(robot.penalty->words, robot.penalty->secondsLeft));
   } else if (silent != card.lamps.end()) {
-    put(TagKind::Error,
-        QStringLiteral("%1 silent %2")
-            .arg(QLatin1Char(
-                CardState::letters[static_cast<std::size_t>(silent - card.lamps.begin())]))
-            .arg(durationText(silent->seconds)));
+    const QLatin1Char letter(
+        CardState::letters[static_cast<std::size_t>(silent - card.lamps.begin())]);
+    if (silent->stopped)
+      put(TagKind::Warning, QStringLiteral("%1 stopped").arg(letter));
+    else
+      put(TagKind::Error,
+          QStringLiteral("%1 silent %2").arg(letter).arg(durationText(silent->seconds)));
   } else if (card.batteryLow()) {
     put(TagKind::Error, QStringLiteral("battery low"));
     card.tagIsBattery = true;
@@ -217,8 +225,9 @@ CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
   for (std::size_t i = 0; i < card.lamps.size(); ++i) {
     const telemetry::ProcessHeartbeat& lamp = robot.lamps[i];
     const double seconds = std::min(telemetry::secondsOf(lamp.since), 1e6);
-    card.lamps[i] = {lamp.state,
-                     lamp.state == LampState::NotResponding ? static_cast<int>(seconds) : 0};
+    const bool isSilent = lamp.state == LampState::NotResponding;
+    card.lamps[i] = {lamp.state, isSilent ? static_cast<int>(seconds) : 0,
+                     isSilent && isStopped(robot, card.process(i))};
   }
   if (robot.decided || !robot.link) card.action = actionText(robot.decided.value_or(robot.action));
   if (card.timedOut && !card.action.isEmpty()) {

@@ -125,6 +125,7 @@ QString RobotCard::lampTip(int lamp) const {
   const QString process = m_state.process(index);
   const Lamp& state = m_state.lamps[index];
   if (state.state == LampState::Working) return QStringLiteral("%1: working").arg(process);
+  if (state.stopped) return QStringLiteral("%1: stopped").arg(process);
   if (state.state == LampState::NotResponding) {
     return QStringLiteral("%1: silent for %2").arg(process, durationText(state.seconds));
   }

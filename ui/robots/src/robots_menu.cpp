@@ -142,6 +142,8 @@ void RobotsDock::addPartActions(QMenu& menu, RobotCard* card) {
 
 void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
   const RobotKey id = card->state().id;
+  const auto& selected = m_context.selection->ids();
+  if (std::ranges::find(selected, id) == selected.end()) m_context.selection->set({id});
   QMenu menu(this);
   if (m_context.source->kind() == SourceKind::Simulate) {
     addMatchActions(menu, card);

@@ -59,6 +59,7 @@ MatchEdits::MatchEdits(MatchController* match)
     : QObject(match), m_match(match), m_undoStack(new QUndoStack(this)) {
   constexpr int undoLimit = 1000;
   m_undoStack->setUndoLimit(undoLimit);
+  connect(m_undoStack, &QUndoStack::indexChanged, this, &MatchEdits::dropRefused);
   connect(match, &MatchController::scenarioChanged, this, [this] {
     if (!m_replacing) m_undoStack->clear();
     const link::Scenario scenario = m_match->isOpening() ? m_match->scenario() : link::Scenario{};
@@ -93,7 +94,42 @@ bool MatchEdits::allowsChange() {
 }
 
 void MatchEdits::perform(Edit edit) {
-  if (m_match->isOpen() && allowsChange()) m_undoStack->push(new EditCommand(std::move(edit)));
+  if (m_match->isOpen() && allowsChange()) push(std::move(edit));
+}
+
+struct MatchEdits::Attempt {
+  int orders = 0;  // that were not refused so far
+  std::shared_ptr<bool> refused;
+};
+
+void MatchEdits::push(Edit edit) {
+  const auto refused = std::make_shared<bool>(false);
+  edit.refused = refused;
+  edit.redo = [this, refused, redo = std::move(edit.redo)] {
+    m_attempt = std::make_shared<Attempt>(Attempt{0, refused});
+    redo();
+    m_attempt.reset();
+  };
+  m_undoStack->push(new EditCommand(std::move(edit)));
+}
+
+void MatchEdits::post(MatchOrder order) {
+  if (m_attempt) {
+    ++m_attempt->orders;
+    order.onFailure = [this, attempt = m_attempt, then = std::move(order.onFailure)] {
+      if (then) then();
+      if (--attempt->orders > 0) return;
+      *attempt->refused = true;
+      dropRefused();
+    };
+  }
+  m_match->post(std::move(order));
+}
+
+void MatchEdits::dropRefused() {
+  const auto* last =
+      static_cast<const EditCommand*>(m_undoStack->command(m_undoStack->index() - 1));
+  if (last != nullptr && last->isRefused()) m_undoStack->undo();
 }
 
 void MatchEdits::performOrder(const QString& text, const QString& whatFailed,
@@ -117,7 +153,7 @@ void MatchEdits::performOrder(const QString& text, const QString& whatFailed,
                   }};
   const MatchOrder undo{QStringLiteral("Could not undo “%1”").arg(text),
                         [all](link::SimulatedMatch& match) -> Result<void> {
-                          if (!std::exchange(all->carriedOut, false)) return {};
+                          if (!all->carriedOut) return {};
                           for (auto step = all->steps.rbegin(); step != all->steps.rend(); ++step) {
                             if (auto undone = step->undo(match); !undone) return undone;
                           }
@@ -125,14 +161,13 @@ void MatchEdits::performOrder(const QString& text, const QString& whatFailed,
                         }};
   const MatchOrder again = redo;
   redo.onSuccess = [this, text, again, undo, mergeKey] {
-    m_undoStack->push(new EditCommand(
-        {text, [this, again] { order(again); }, [this, undo] { order(undo); }, mergeKey, true}));
+    push({text, [this, again] { order(again); }, [this, undo] { order(undo); }, mergeKey, true});
   };
   m_match->post(std::move(redo));
 }
 
 void MatchEdits::order(MatchOrder change) {
-  if (allowsChange()) m_match->post(std::move(change));
+  if (allowsChange()) post(std::move(change));
 }
 
 void MatchEdits::order(link::MatchRunner::Command change) {
@@ -169,16 +204,17 @@ void MatchEdits::set(const Field<Value>& field, const Values<Value>& values) {
     if (known == m_robots.end()) continue;
     const QString name = robotName(known->second.identity);
     const Value before = std::exchange(known->second.*field.member, value);
-    m_match->post({QString::fromUtf8(field.whatFailed).arg(name),
-                   [carryOut = field.carryOut, id = id, value = value](
-                       link::SimulatedMatch& match) { return carryOut(match, id, value); },
-                   [this, member = field.member, id = id, before] {
-                     const auto still = m_robots.find(id);
-                     if (still != m_robots.end()) still->second.*member = before;
-                     emit robotsChanged();
-                   },
-                   {},
-                   field.changes});
+    post({QString::fromUtf8(field.whatFailed).arg(name),
+          [carryOut = field.carryOut, id = id, value = value](link::SimulatedMatch& match) {
+            return carryOut(match, id, value);
+          },
+          [this, member = field.member, id = id, before] {
+            const auto still = m_robots.find(id);
+            if (still != m_robots.end()) still->second.*member = before;
+            emit robotsChanged();
+          },
+          {},
+          field.changes});
   }
   emit robotsChanged();
 }
@@ -236,10 +272,10 @@ void MatchEdits::previewRobots(const std::vector<RobotPlacement>& placements) {
 }
 
 void MatchEdits::placeBall(Point position, Velocity velocity) {
-  m_match->post({QStringLiteral("Could not place the ball"),
-                 [position, velocity](link::SimulatedMatch& match) {
-                   return match.simulation().placeBall(position, velocity);
-                 }});
+  post({QStringLiteral("Could not place the ball"),
+        [position, velocity](link::SimulatedMatch& match) {
+          return match.simulation().placeBall(position, velocity);
+        }});
 }
 
 void MatchEdits::moveBall(Point from, Point to, Velocity velocity) {
@@ -254,17 +290,17 @@ void MatchEdits::previewBall(Point position) {
 
 void MatchEdits::insert(const link::ScenarioRobot& entry) {
   m_robots.insert_or_assign(entry.identity.id, entry);
-  m_match->post({QStringLiteral("Could not add %1").arg(robotName(entry.identity)),
-                 [entry](link::SimulatedMatch& match) { return match.robots().add(entry); },
-                 [this, id = entry.identity.id] { m_robots.erase(id); }});
+  post({QStringLiteral("Could not add %1").arg(robotName(entry.identity)),
+        [entry](link::SimulatedMatch& match) { return match.robots().add(entry); },
+        [this, id = entry.identity.id] { m_robots.erase(id); }});
 }
 
 void MatchEdits::erase(RobotId id) {
   const link::ScenarioRobot* known = robot(id);
   const QString name = known ? robotName(known->identity) : QStringLiteral("The robot");
   m_robots.erase(id);
-  m_match->post({QStringLiteral("Could not remove %1").arg(name),
-                 [id](link::SimulatedMatch& match) { return match.robots().remove(id); }});
+  post({QStringLiteral("Could not remove %1").arg(name),
+        [id](link::SimulatedMatch& match) { return match.robots().remove(id); }});
 }
 
 int MatchEdits::freeNumber(TeamColor team, const std::vector<int>& taken) const {
@@ -380,16 +416,16 @@ void MatchEdits::adviseTeam(TeamColor team, const std::optional<link::AdvisorOpt
   } else {
     m_advisors.erase(team);
   }
-  m_match->post({QStringLiteral("Could not change the advisor of the team"),
-                 [team, advisor](link::SimulatedMatch& match) {
-                   return match.robots().setAdvisor(team, advisor);
-                 },
-                 [this, before] {
-                   m_advisors = before;
-                   emit robotsChanged();
-                 },
-                 {},
-                 link::Changed::No});
+  post({QStringLiteral("Could not change the advisor of the team"),
+        [team, advisor](link::SimulatedMatch& match) {
+          return match.robots().setAdvisor(team, advisor);
+        },
+        [this, before] {
+          m_advisors = before;
+          emit robotsChanged();
+        },
+        {},
+        link::Changed::No});
   emit robotsChanged();
 }
 
@@ -416,10 +452,9 @@ void MatchEdits::takePhysics(const std::string& name) {
 void MatchEdits::switchPhysics(const std::string& name) {
   const std::string before = m_physics;
   takePhysics(name);
-  m_match->post(
-      {QStringLiteral("Could not change the physics model"),
-       [name](link::SimulatedMatch& match) { return match.simulation().setPhysics(name); },
-       [this, before] { takePhysics(before); }});
+  post({QStringLiteral("Could not change the physics model"),
+        [name](link::SimulatedMatch& match) { return match.simulation().setPhysics(name); },
+        [this, before] { takePhysics(before); }});
 }
 
 void MatchEdits::setPhysics(const QString& model) {

@@ -433,6 +433,9 @@ void MainWindow::connectNotices() {
     connect(m_recording, said, m_notices, tell(recording));
   }
   connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
+  connect(m_recording, &SessionRecording::changed, m_notices, [this] {
+    if (m_recording->isRecording()) m_notices->settle(recording);
+  });
   connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
     m_notices->show({recording, NoticeTone::Success}, QStringLiteral("Saved: %1").arg(path),
                     {{QStringLiteral("Open in Replay"), [this, path] { m_sessions->open(path); }},

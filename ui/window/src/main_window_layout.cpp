@@ -247,6 +247,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   m_fieldOnly->set(false);
   saveLayout();
   m_settings->setValue(layoutKey, saveState(layoutVersion));
+  m_settings->setValue(untouchedKey, m_followsSize);
   QMainWindow::closeEvent(event);
 }
 

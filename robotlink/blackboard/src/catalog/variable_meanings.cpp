@@ -37,6 +37,17 @@ bool fits(std::string_view pattern, std::string_view name) {
   return p == pattern.size();
 }
 
+/// The variable that `lostBy` means for `name`, which fits `pattern`.
+std::string lostByOf(std::string_view lostBy, std::string_view pattern, std::string_view name) {
+  if (lostBy == "*") return std::string(name);
+  std::string out(lostBy);
+  const std::size_t star = out.find('*'), inName = pattern.find('*');
+  if (star != std::string::npos && inName != std::string_view::npos) {
+    out.replace(star, 1, name.substr(inName, name.size() + 1 - pattern.size()));
+  }
+  return out;
+}
+
 std::map<std::int32_t, std::string> readLabels(const JsonObject& rule) {
   const JsonNode* labels = rule.find("labels");
   if (!labels) return {};
@@ -137,8 +148,7 @@ void VariableMeanings::describe(telemetry::ColumnInfo& column) const {
       kind = true;
     }
     if (rule.lostBy && !lost) {
-      // "*": the variable itself.
-      column.lostBy = *rule.lostBy == "*" ? column.name : *rule.lostBy;
+      column.lostBy = lostByOf(*rule.lostBy, rule.name, column.name);
       column.lostWhen = rule.lostWhen;
       lost = true;
     }

@@ -8,6 +8,7 @@
 #include <QString>
 #include <QUndoCommand>
 #include <functional>
+#include <memory>
 #include <utility>
 
 namespace pitchboard::ui {
@@ -18,6 +19,8 @@ struct Edit {
   /// Edits with the same key within a second become one undo step. Empty: never merged.
   QString mergeKey = {};
   bool done = false;  ///< already carried out: pushing it does not call `redo`
+  /// Becomes true if nothing of `redo` was carried out; null: cannot happen.
+  std::shared_ptr<const bool> refused = {};
 };
 
 class EditCommand : public QUndoCommand {
@@ -28,7 +31,14 @@ class EditCommand : public QUndoCommand {
   void redo() override {
     if (!std::exchange(m_edit.done, false)) m_edit.redo();
   }
-  void undo() override { m_edit.undo(); }
+  /// The stack deletes a refused command instead of keeping it to be done again.
+  void undo() override {
+    if (isRefused())
+      setObsolete(true);
+    else
+      m_edit.undo();
+  }
+  bool isRefused() const { return m_edit.refused && *m_edit.refused; }
   int id() const override { return m_edit.mergeKey.isEmpty() ? -1 : 1; }
   bool mergeWith(const QUndoCommand* other) override {
     constexpr qint64 mergeMilliseconds = 1000;

@@ -11,6 +11,7 @@
 #include <QString>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -56,7 +57,8 @@ class MatchEdits : public QObject {
   // The following functions do nothing while no match is open, and while locked.
   /// Returns whether the match may be changed; emits `failed` if it is locked.
   bool allowsChange();
-  /// Carries out the edit and puts it on the undo stack.
+  /// Carries out the edit and puts it on the undo stack, which it leaves again if the match refuses
+  /// all of it.
   void perform(Edit edit);
   /// Carries out all steps between two ticks, or none of them. After a success they are one command
   /// on the undo stack. `whatFailed` as in MatchOrder, `mergeKey` as in Edit.
@@ -73,7 +75,7 @@ class MatchEdits : public QObject {
   /// stack.
   void adopt(const link::Moment& moment);
 
-  // Edits that take effect immediately and can be undone.
+  // Edits that can be undone. What the match refuses does not stay on the undo stack.
   void moveRobots(const std::vector<RobotPlacement>& placements);
   /// The same for arrow keys and wheel: moves within a second become one command.
   void nudgeRobots(const std::vector<RobotPlacement>& placements);
@@ -91,6 +93,8 @@ class MatchEdits : public QObject {
   void setAdvised(TeamColor team, bool on);
   /// Changes the robot model. Changes of the same robots within a second become one command.
   void setModel(const std::vector<RobotId>& ids, const sim::RobotModel& model);
+  /// Changes the robot's runtime and restarts all of its processes.
+  void setRuntime(RobotId id, const link::RuntimeChoice& choice);
   /// Changes the physics model, with which the match continues (Simulation::setPhysics()).
   void setPhysics(const QString& model);
   /// Replaces the match by another one; undoing continues the old match with its game, rows and
@@ -103,13 +107,10 @@ class MatchEdits : public QObject {
   void previewRobots(const std::vector<RobotPlacement>& placements);
   void previewBall(Point position);
 
-  // Edits that can be undone; if the match refuses one, it is not put on the undo stack.
   void setNoise(const sim::NoiseParameters& noise);
   void setRigidBody(const sim::RigidBodySettings& settings);
   void setClockRunning(bool running);
   void resetScore();
-  /// Changes the robot's runtime and restarts all of its processes.
-  void setRuntime(RobotId id, const link::RuntimeChoice& choice);
 
   // Changes that cannot be undone.
   /// Writes DECISION_ACTION_A, and B if given, like the decision process.
@@ -147,6 +148,12 @@ class MatchEdits : public QObject {
   static const Field<sim::RobotModel> modelField;
   static const Field<link::RuntimeChoice> runtimeField;
 
+  struct Attempt;
+  void push(Edit edit);
+  /// Sends an order to the match; while a command is carried out, as a part of it.
+  void post(MatchOrder order);
+  /// Takes the last command off the stack if the match refused it.
+  void dropRefused();
   void orderProcesses(const std::function<void(link::ProcessManager&)>& what);
   /// Gives known robots these values, here and in the match.
   template <class Value>
@@ -172,6 +179,7 @@ class MatchEdits : public QObject {
 
   MatchController* m_match;
   QUndoStack* m_undoStack;
+  std::shared_ptr<Attempt> m_attempt;               // of the command that is being carried out
   std::map<RobotId, link::ScenarioRobot> m_robots;  // present or about to be
   std::map<TeamColor, link::AdvisorOptions> m_advisors;
   std::string m_physics;
