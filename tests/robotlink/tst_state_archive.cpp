@@ -132,9 +132,10 @@ quint64 hashWithoutGame(sim::WorldState state) {
   state.game.reset();
   // Earlier versions saved no battery limits of robots, which now have the usual ones.
   const QByteArray limits = savedNumber(19.15) + savedNumber(16.0) + savedNumber(14.65);
+  QByteArray bytes = QByteArray::fromStdString(encodeState(state).substr(5));
+  bytes.replace(limits, QByteArray());
   quint64 hash = 0xcbf29ce484222325ULL;
-  for (const char byte :
-       QByteArray::fromStdString(encodeState(state).substr(5)).replace(limits, QByteArray())) {
+  for (const char byte : bytes) {
     hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
   }
   return hash;
@@ -227,7 +228,7 @@ class TestStateArchive : public QObject {
     // When this fails, what is saved has changed, and states of before would be read wrongly: give
     // the form its next number (`version` in state_codec.cpp, with a word on what is new), and
     // write down here what it is now. A further physics, behind the others, changes none of these.
-    const QStringList known{"form 7", "state: 99117d18dc87a198", "physics 0: e2f2cfe159e75697",
+    const QStringList known{"form 7", "state: 2af3386309f455a", "physics 0: e2f2cfe159e75697",
                             "physics 1: ee63afaaa2368095"};
     QCOMPARE(saved.mid(0, known.size()).join("; "), known.join("; "));
   }
