@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <base/read_file.h>
-#include <base/try.h>
+#include <resources/resources.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/models/model_json.h>
 #include <simcore/world/parameter_reading.h>
@@ -119,10 +119,25 @@ Result<BehaviourChoice> behaviourFromText(std::string_view nameOrJson, std::stri
   return choice;
 }
 
-Result<BehaviourParameters> loadBehaviourParameters(const std::string& path) {
-  const auto text = TRY(readFile(path, mostParameterBytes, "the file with parameters"));
-  JsonReport report(path);
-  const auto root = parseJson(text, report);
+std::span<const std::string_view> builtInParameters() {
+  static const auto names = resourceNames("behaviours", {"learned", "hand-tuned"});
+  return names;
+}
+
+Result<BehaviourParameters> loadBehaviourParameters(const std::string& nameOrPath) {
+  const bool isBuiltIn =
+      std::ranges::find(builtInParameters(), nameOrPath) != builtInParameters().end();
+  Result<std::string> text =
+      isBuiltIn ? std::string(resourceText("behaviours/" + nameOrPath + ".json"))
+                : readFile(nameOrPath, mostParameterBytes, "the file with parameters");
+  if (!text && text.error().code == ErrorCode::NotFound &&
+      nameOrPath.find_first_of("/.") == std::string::npos) {
+    return failure(ErrorCode::NotFound,
+                   unknownName("built-in parameters and no file", nameOrPath, builtInParameters()));
+  }
+  if (!text) return tl::unexpected(text.error());
+  JsonReport report(nameOrPath);
+  const auto root = parseJson(*text, report);
   BehaviourParameters out;
   if (root) {
     // "learned" says how they were found (docs/learning.md).

@@ -136,16 +136,20 @@ struct BehaviourChoice {
 
 /// Reads the value of `key`: a name out of `known`, or an object {"name": ..., "kick_distance":
 /// ...} with parameters of that behaviour. A missing name means "striker", a missing parameter its
-/// default, or with "from": ..., a file or an object of parameters, the value there.
+/// default, or with "from": ..., a built-in name, a file or an object of parameters, the value
+/// there.
 BehaviourChoice readBehaviour(const JsonObject& parent, JsonReport& report, std::string_view key,
                               std::span<const std::string_view> known);
 /// Reads the same from text: a name out of behaviours(), or such an object. `usual` has the values
 /// of missing parameters.
 Result<BehaviourChoice> behaviourFromText(std::string_view nameOrJson, std::string_view source,
                                           const BehaviourParameters& usual = {});
-/// Reads the parameters of a team from a file, as `pitchboard-cli learn` writes it: {"version": 1,
-/// "parameters": {"kick_distance": 0.03}}. A missing parameter has its default.
-Result<BehaviourParameters> loadBehaviourParameters(const std::string& path);
+/// Returns the names of the built-in parameters of a team: "learned", "hand-tuned".
+std::span<const std::string_view> builtInParameters();
+/// Reads the parameters of a team: built-in ones by their name, or a file as `pitchboard-cli learn`
+/// writes it: {"version": 1, "parameters": {"kick_distance": 0.03}}. A missing parameter has its
+/// default. Errors: NotFound, with similar names; ParseError, with the line.
+Result<BehaviourParameters> loadBehaviourParameters(const std::string& nameOrPath);
 /// Writes such a text: only the name if all parameters have their defaults. Reading it back gives
 /// the same values for all parameters that the behaviour uses.
 std::string behaviourToText(std::string_view name, const BehaviourParameters& parameters);
