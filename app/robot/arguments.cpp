@@ -217,13 +217,23 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->type_name("SHARE")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1.0));
+  command
+      .add_option("--advisor-memory", a.process.advisor.memory,
+                  "Advisor: file with what it learns of the opponents; read at the start, written "
+                  "when play stops and at the end")
+      ->type_name("FILE");
+  command.add_flag("!--advisor-memory-read-only", a.process.keepsMemory,
+                   "Advisor: do not write that file");
+  command.add_flag("!--advisor-learns-nothing", a.process.advisor.learns,
+                   "Advisor: do not learn from what the opponents do");
   shared::addGroup(
       command, "Network",
       {"--udp-address", "--telemetry-port-base", "--telemetry-rate", "--team-port-base", "--team",
        "--referee-team", "--set-play", "--shirt", "--referee-port", "--debug-port"});
   shared::addGroup(command, "Tuning",
                    {"--distance-to-kick", "--particles", "--seed", "--published-localization",
-                    "--advisor-rollouts", "--advisor-horizon", "--advisor-share"});
+                    "--advisor-rollouts", "--advisor-horizon", "--advisor-share",
+                    "--advisor-memory", "--advisor-memory-read-only", "--advisor-learns-nothing"});
 }
 
 std::vector<std::string> givenOptions(const CLI::App& command) {

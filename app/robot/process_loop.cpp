@@ -79,8 +79,9 @@ void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, Rob
     const Clock::time_point now = Clock::now();
     if (next < now) next += (now - next) / period * period + period;
 
-    if (askedToEnd(next - Clock::now())) return;
+    if (askedToEnd(next - Clock::now())) break;
   }
+  process.finish();
 }
 
 Result<void> runInLockStep(std::unique_ptr<link::CognitiveProcess> process,
@@ -108,7 +109,9 @@ Result<void> runInLockStep(std::unique_ptr<link::CognitiveProcess> process,
     sigset_t pending;
     sigpending(&pending);
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
-      if (sigismember(&pending, signal) == 1) return {};
+      if (sigismember(&pending, signal) == 0) continue;
+      process->finish();
+      return {};
     }
   }
 }

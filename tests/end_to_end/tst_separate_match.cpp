@@ -6,6 +6,7 @@
 #include <csignal>
 #include <map>
 
+#include <robotlink/cognition/advice.h>
 #include <robotlink/match/match_runner.h>
 #include <robotlink/match/simulated_match.h>
 
@@ -94,6 +95,10 @@ class TestSeparateMatch : public QObject {
       QCOMPARE(outside.simulation().hash(), inside.simulation().hash());
     }
     QVERIFY(inside.simulation().snapshot().robots[0].statistics.distanceWalked > 0.0);
+    for (const IntVar word : AdvisorVariables().learned) {  // of the opponents
+      QCOMPARE(outside.blackboard(RobotId{1})->read(word),
+               inside.blackboard(RobotId{1})->read(word));
+    }
   }
 
   void anyPaceGivesTheSame() {

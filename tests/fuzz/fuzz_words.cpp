@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as the short texts that people type and processes send: an expression, senders that are
-// heard, a blackboard to attach to, cognition debug data, a message between reference robots.
+// heard, a blackboard to attach to, cognition debug data, a message between reference robots, what
+// an advisor has learned of the opponents.
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -11,6 +12,8 @@
 #include <robotlink/live/attached_robots.h>
 #include <telemetry/expression/expression.h>
 #include <telemetry/wire/sender_filter.h>
+
+#include "opponent_file.h"
 
 using namespace pitchboard;
 
@@ -76,5 +79,9 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   }
   cognitionDebug(text);
   teamMessage(text);
+  if (const auto learned = link::opponentsFromJson(text, "fuzz")) {
+    const auto again = link::opponentsFromJson(link::opponentsToJson(*learned), "again");
+    if (!again || !(*again == *learned)) std::abort();
+  }
   return 0;
 }

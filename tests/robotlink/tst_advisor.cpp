@@ -205,7 +205,7 @@ class TestAdvisor : public QObject {
     auto rollouts = rollout::Rollouts::create(setupFor(options)).value();
     int chosen = 0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-      Thought thought(beliefOf(now, opponents, 0.0, options), candidates, 100000 * seed, 72, 6.0);
+      Thought thought(beliefOf(now, opponents, 0.0, options), candidates, 100000 * seed, {72, 6.0});
       while (!thought.isDone()) thought.playOne(rollouts, options.field);
       chosen += thought.result().best == right;
     }
@@ -219,7 +219,7 @@ class TestAdvisor : public QObject {
     auto rollouts = rollout::Rollouts::create(setupFor(options)).value();
     // It goes for the ball anyway.
     const Candidates candidates{Advice{}, kick(AdviceKind::GoToBall, {1.0, 0.0})};
-    Thought thought(beliefOf(now, {}, 0.0, options), candidates, 7, 72, 5.0);
+    Thought thought(beliefOf(now, {}, 0.0, options), candidates, 7, {});
     while (!thought.isDone()) thought.playOne(rollouts, options.field);
     QCOMPARE(thought.played(), 8);
     QCOMPARE(thought.result().best, std::size_t{0});
@@ -469,7 +469,7 @@ class TestAdvisor : public QObject {
   }
 
   void refusesOptions() {
-    for (const AdvisorOptions wrong :
+    for (const AdvisorOptions& wrong :
          {AdvisorOptions{.rollouts = 0}, {.horizon = std::nan("")}, {.share = 2.0}}) {
       ProcessOptions options = kidSize();
       options.advisor = wrong;

@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include <base/file_target.h>
 #include <base/try.h>
 #include <robotlink/processes/lock_step_slots.h>
 
 #include "candidates.h"
 #include "game_belief.h"
+#include "opponent_file.h"
+#include "opponent_watch.h"
 #include "thought.h"
 
 namespace pitchboard::link {
@@ -31,15 +35,19 @@ double cpuTime() {
 
 class Advisor final : public CognitiveProcess {
  public:
-  Advisor(const ProcessOptions& options, rollout::Rollouts rollouts)
+  /// `known`: what it learned in earlier games.
+  Advisor(const ProcessOptions& options, rollout::Rollouts rollouts, const OpponentModel& known)
       : m_options(options),
         m_rollouts(std::make_shared<rollout::Rollouts>(std::move(rollouts))),
-        m_mind(options) {}
+        m_mind(options) {
+    m_mind.learned = m_written = known;
+  }
 
   void step(Blackboard& board, const Clock& clock) override {
     const double now = clock.seconds;
     const Situation& situation = m_mind.reader.read(board, now);
     m_mind.opponents.update(situation.opponents, now);
+    if (m_options.advisor.learns) learn(board, situation, now);
     constexpr double longestWait = 5.0;                      // s, of a kick
     if (m_mind.next > now + longestWait) m_mind.next = now;  // the clock was put back
     const auto state = [&] {
@@ -69,6 +77,7 @@ class Advisor final : public CognitiveProcess {
   void resume(const Blackboard& board) override {
     m_mind.stamp = std::max(0, readOr(board, m_variables.stamp));
   }
+  void finish() override { keepMemory(); }
   std::size_t memoryBytes() const override {
     constexpr std::size_t usual = 12000, ofRollout = 32;
     return usual +
@@ -82,6 +91,9 @@ class Advisor final : public CognitiveProcess {
         : reader(options), next(stepPeriod * (options.robot.value % 10)) {}
     SituationReader reader;
     OpponentMemory opponents;
+    OpponentWatch watch;
+    OpponentModel learned;
+    bool hasBegun = false, hasPlayed = false;
     double next;  // s, when it thinks again
     std::optional<Thought> thought;
     int slice = 0, perSlice = 1;
@@ -90,11 +102,41 @@ class Advisor final : public CognitiveProcess {
   };
 
   Thinker thinker() const {
-    return {m_options.field, m_options.model, m_options.behaviour == "keeper"};
+    return {m_options.field, m_options.model, m_options.behaviour == "keeper",
+            m_options.parameters};
   }
   bool isFree() const {
     return m_options.advisor.share > 0.0 &&
            !(m_options.lockStepSlot && m_options.lockStepSlot->inLockStep());
+  }
+
+  /// What it has learned stands on the blackboard, from where an advisor goes on that is started
+  /// again, as when the teams change sides.
+  void learn(Blackboard& board, const Situation& situation, double now) {
+    if (!std::exchange(m_mind.hasBegun, true)) {
+      std::array<std::int32_t, OpponentModel::words> words{};
+      for (std::size_t i = 0; i < words.size(); ++i)
+        words[i] = readOr(board, m_variables.learned[i]);
+      const OpponentModel before = OpponentModel::fromWords(words);
+      if (before != OpponentModel{}) m_mind.learned = before;
+    }
+    m_mind.watch.update(situation, now, m_options.field, m_options.model, m_mind.learned);
+    const auto words = m_mind.learned.asWords();
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      writeIfPresent(board, m_variables.learned[i], words[i]);
+    }
+    writeIfPresent(board, m_variables.opponent, m_mind.learned.summary());
+    const bool plays = situation.referee == Referee::Play;
+    if (std::exchange(m_mind.hasPlayed, plays) && !plays) keepMemory();
+  }
+
+  /// A disk that fails is no reason to play worse.
+  void keepMemory() {
+    const std::string& path = m_options.advisor.memory;
+    if (path.empty() || !m_options.keepsMemory || m_mind.learned == m_written) return;
+    if (writeFile(path, opponentsToJson(m_mind.learned), IfExists::Replace)) {
+      m_written = m_mind.learned;
+    }
   }
 
   void begin(const Situation& situation, double now) {
@@ -105,15 +147,16 @@ class Advisor final : public CognitiveProcess {
     const Candidates candidates = candidatesFor(question, situation, thinker(), m_mind.last);
     if (candidates.size() < 2) return;
     m_mind.next = now + thoughtPeriod;
-    const int budget = isFree() ? affordable() : m_options.advisor.rollouts;
+    const ThoughtPlan plan = planFor(question, isFree() ? affordable() : m_options.advisor.rollouts,
+                                     m_options.advisor.horizon);
     // Other numbers for each robot and thought.
     const std::uint64_t seed =
         (m_options.seed * 1000003U + static_cast<std::uint64_t>(m_options.robot.value)) * 1000003U +
         static_cast<std::uint64_t>(m_mind.stamp) * 10007U;
-    m_mind.thought.emplace(beliefOf(situation, m_mind.opponents, now, m_options), candidates, seed,
-                           budget, m_options.advisor.horizon);
+    m_mind.thought.emplace(beliefOf(situation, m_mind.opponents, now, m_options, m_mind.learned),
+                           candidates, seed, plan);
     m_mind.slice = 0;
-    m_mind.perSlice = std::max(1, (budget + slices - 1) / slices);
+    m_mind.perSlice = std::max(1, (plan.rollouts + slices - 1) / slices);
   }
 
   /// What its share of a core allows in the time of a thought.
@@ -192,7 +235,8 @@ class Advisor final : public CognitiveProcess {
   std::shared_ptr<rollout::Rollouts> m_rollouts;  // scratch memory: a copy may use the same
   AdvisorVariables m_variables;
   Mind m_mind;
-  double m_cost = 0.001;  // s of a rollout
+  OpponentModel m_written;  // what the file has
+  double m_cost = 0.001;    // s of a rollout
 };
 
 }  // namespace
@@ -213,7 +257,10 @@ Result<std::unique_ptr<CognitiveProcess>> makeAdvisor(const ProcessOptions& opti
   if (!(numbers.share >= 0.0 && numbers.share <= 1.0)) {
     return failure(ErrorCode::InvalidArgument, "an advisor's share of a core is 0 to 1", "share");
   }
-  return std::make_unique<Advisor>(options, TRY(rollout::Rollouts::create(setupFor(options))));
+  OpponentModel known;
+  if (numbers.learns && !numbers.memory.empty()) known = TRY(loadOpponents(numbers.memory));
+  return std::make_unique<Advisor>(options, TRY(rollout::Rollouts::create(setupFor(options))),
+                                   known);
 }
 
 }  // namespace pitchboard::link

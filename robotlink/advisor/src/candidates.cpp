@@ -7,6 +7,7 @@
 #include <base/angles.h>
 #include <base/repeatable_math.h>
 #include <robotlink/cognition/act.h>
+#include <robotlink/cognition/keeper_place.h>
 #include <simcore/world/action_codes.h>
 
 namespace pitchboard::link {
@@ -35,7 +36,7 @@ Point inside(const sim::FieldSpec& field, const Point& at, double margin) {
 }
 
 bool isSame(const Advice& a, const Advice& b) {
-  constexpr double near = 0.4;  // m
+  const double near = a.kind == AdviceKind::Stand ? 0.15 : 0.4;  // m
   return a.kind == b.kind && distance(a.place.position, b.place.position) < near;
 }
 
@@ -94,17 +95,21 @@ void addAtBall(const Situation& now, const Thinker& who, Collector& out) {
   }
 }
 
+/// Beside where it stands anyway, and out, or to the ball if it would go so far.
 void addKeeper(const Situation& now, const Thinker& who, Collector& out) {
   const Point goal{-who.field.halfLength(), 0.0};
-  const double way = direction(goal, *now.ball);
-  for (const double out_m : {0.5, 0.9}) {
-    for (const double off : {0.0, 0.35, -0.35}) {
-      if (out_m > 0.6 && off != 0.0) continue;
-      const double angle = std::clamp(way + off, -1.2, 1.2);
-      out.add(AdviceKind::Stand, ahead(goal, angle, out_m), angle);
-    }
+  for (const double aside : {0.3, -0.3, 0.6, -0.6}) {
+    BehaviourParameters numbers = who.numbers;
+    numbers.keeperAside += aside;
+    const Pose place = keeperPlace(who.field, numbers, *now.ball);
+    out.add(AdviceKind::Stand, place.position, place.yaw);
   }
-  out.add(AdviceKind::GoToBall, *now.ball);
+  if (distance(*now.ball, goal) < who.numbers.keeperOut) {
+    out.add(AdviceKind::GoToBall, *now.ball);
+  } else {
+    const double angle = std::clamp(direction(goal, *now.ball), -1.2, 1.2);
+    out.add(AdviceKind::Stand, ahead(goal, angle, 1.2), angle);
+  }
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct Thinker {
   sim::FieldSpec field;
   sim::RobotModel model;
   bool isKeeper = false;
+  BehaviourParameters numbers{};  ///< of its behaviour
 };
 
 /// Nobody can change a kick that goes on.

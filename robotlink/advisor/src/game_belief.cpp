@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <robotlink/cognition/act.h>
+#include <robotlink/cognition/keeper_place.h>
 
 namespace pitchboard::link {
 namespace {
@@ -25,6 +26,49 @@ rollout::RobotBelief at(const Point& place, double yaw, double sigma, double yaw
   return robot;
 }
 
+std::vector<BehaviourParameters> keeperVariants() {
+  std::vector<BehaviourParameters> out;
+  for (std::size_t i = 0; i < keeperModels; ++i) out.push_back(keeperModel(i).numbers());
+  return out;
+}
+
+std::vector<BehaviourParameters> aimVariants() {
+  std::vector<BehaviourParameters> out(aimModels);
+  for (std::size_t i = 0; i < aimModels; ++i) out[i].aimSide = aimModel(i);
+  return out;
+}
+
+/// Where a keeper stands that nobody has seen.
+rollout::RobotBelief unseenKeeper(const sim::FieldSpec& field, const Point& ball,
+                                  const std::vector<double>& shares) {
+  constexpr double sigma = 0.25, yawSigma = 0.4;
+  double y = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < keeperModels; ++i) {
+    const Point place = keeperPlace(field, keeperModel(i).numbers(), {-ball.x, -ball.y}).position;
+    y -= shares[i] * place.y;
+    squares += shares[i] * place.y * place.y;
+  }
+  const Point line{field.halfLength() - 0.4, y};
+  return at(line, direction(line, ball), std::sqrt(sigma * sigma + std::max(0.0, squares - y * y)),
+            yawSigma);
+}
+
+/// What was learned, as the players of a rollout.
+void addLearned(const OpponentModel& learned, rollout::Belief& belief) {
+  const std::vector<double> paces = learned.paceShares();
+  double mean = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < paceModels; ++i) {
+    mean += paces[i] * paceModel(i);
+    squares += paces[i] * paceModel(i) * paceModel(i);
+  }
+  for (std::size_t i = theirKeeper; i < allPlayers; ++i) {
+    rollout::RobotBelief& robot = belief.robots[i];
+    robot.shares = i == theirKeeper ? learned.keeperShares() : learned.aimShares();
+    robot.pace = mean;
+    robot.paceSigma = std::sqrt(std::max(0.0, squares - mean * mean));
+  }
+}
+
 }  // namespace
 
 rollout::Setup setupFor(const ProcessOptions& options) {
@@ -41,6 +85,9 @@ rollout::Setup setupFor(const ProcessOptions& options) {
     if (i == ownPlayer) {
       player.behaviour.name = isKnown ? options.behaviour : "striker";
       player.behaviour.parameters = options.parameters;
+    }
+    if (player.side == rollout::Side::Right && options.advisor.learns) {
+      player.variants = i == theirKeeper ? keeperVariants() : aimVariants();
     }
     setup.players.push_back(std::move(player));
   }
@@ -71,7 +118,7 @@ void OpponentMemory::update(const Points& opponents, double now) {
 }
 
 rollout::Belief beliefOf(const Situation& now, const OpponentMemory& opponents, double time,
-                         const ProcessOptions& options) {
+                         const ProcessOptions& options, const OpponentModel& learned) {
   const sim::FieldSpec& field = options.field;
   rollout::Belief belief;
   belief.robots.resize(allPlayers);
@@ -128,9 +175,14 @@ rollout::Belief beliefOf(const Situation& now, const OpponentMemory& opponents, 
   }
   // A keeper stands where nobody has looked, unless all of them are known.
   if (!keeper && mates > 0 && opponents.known().size() <= mates) {
-    const Point line{field.halfLength() - 0.4, 0.0};
-    belief.robots[theirKeeper] = at(line, facing(line), 0.25, 0.4);
+    if (options.advisor.learns) {
+      belief.robots[theirKeeper] = unseenKeeper(field, ball, learned.keeperShares());
+    } else {
+      const Point line{field.halfLength() - 0.4, 0.0};
+      belief.robots[theirKeeper] = at(line, facing(line), 0.25, 0.4);
+    }
   }
+  if (options.advisor.learns) addLearned(learned, belief);
 
   belief.ball.place = ball;
   belief.ball.sigma = 0.03 + 0.04 * distance(now.pose.position, ball);

@@ -9,12 +9,15 @@
 #include <robotlink/cognition/situation.h>
 #include <robotlink/rollout/belief.h>
 
+#include "opponent_model.h"
+
 namespace pitchboard::link {
 
 /// The places of players in setupFor() and beliefOf().
 inline constexpr std::size_t ownPlayer = 0, mateKeeper = 1, firstMate = 2, theirKeeper = 5,
                              firstTheirs = 6, allPlayers = 11;
 
+/// Opponents may be any of the models of OpponentModel if the advisor learns.
 rollout::Setup setupFor(const ProcessOptions& options);
 
 /// Opponents that were seen within the last seconds, also those that decision has forgotten.
@@ -31,7 +34,8 @@ class OpponentMemory {
   std::vector<Known> m_known;
 };
 
+/// `learned`: of the opponents.
 rollout::Belief beliefOf(const Situation& now, const OpponentMemory& opponents, double time,
-                         const ProcessOptions& options);
+                         const ProcessOptions& options, const OpponentModel& learned = {});
 
 }  // namespace pitchboard::link

@@ -38,6 +38,14 @@ void putBack(const sim::FieldSpec& field, bool oursTouchedIt, Position& end) {
 
 }  // namespace
 
+ThoughtPlan planFor(Question question, int rollouts, double horizon) {
+  // A keeper walks for seconds to where it must be when the ball is kicked, and most of its
+  // rollouts end alike.
+  constexpr int far = 2, looksFar = 12;
+  if (question == Question::Keeper) return {far * rollouts, far * horizon, looksFar};
+  return {rollouts, horizon};
+}
+
 double valueOfRow(const Row& row, const sim::FieldSpec& field) {
   const double goals = in(row, Column::GoalsLeft) - in(row, Column::GoalsRight);
   if (goals != 0.0) return goals;
@@ -74,12 +82,8 @@ double meanOf(const std::vector<double>& values) {
 }  // namespace
 
 Thought::Thought(rollout::Belief belief, const Candidates& candidates, std::uint64_t seed,
-                 int rollouts, double horizon)
-    : m_belief(std::move(belief)),
-      m_candidates(candidates),
-      m_seed(seed),
-      m_budget(rollouts),
-      m_horizon(horizon) {
+                 const ThoughtPlan& plan)
+    : m_belief(std::move(belief)), m_candidates(candidates), m_seed(seed), m_plan(plan) {
   for (std::size_t i = 1; i < m_candidates.size(); ++i) m_alive.push_back(i);
   for (std::size_t left = m_alive.size(); left > 2; left = (left + 1) / 2) ++m_rounds;
   planRound();
@@ -87,10 +91,9 @@ Thought::Thought(rollout::Belief belief, const Candidates& candidates, std::uint
 
 /// Every candidate that is left plays as often; a few times first, because most thoughts end there.
 void Thought::planRound() {
-  constexpr int firstLook = 4;
   const int players = static_cast<int>(m_alive.size()) + 1;
-  const int share = m_round == 0 ? std::min(firstLook, m_budget / players)
-                                 : (m_budget - m_played) / (m_rounds - m_round) / players;
+  const int share = m_round == 0 ? std::min(m_plan.firstLook, m_plan.rollouts / players)
+                                 : (m_plan.rollouts - m_played) / (m_rounds - m_round) / players;
   const std::size_t first = m_of[0].values.size();
   const auto count = static_cast<std::size_t>(std::max(2, share));
   m_queue.clear();
@@ -117,7 +120,7 @@ void Thought::playOne(rollout::Rollouts& rollouts, const sim::FieldSpec& field) 
   const Next next = m_queue.back();
   m_queue.pop_back();
   rollout::PlayOptions options;
-  options.seconds = m_horizon;
+  options.seconds = m_plan.horizon;
   options.look = 5.0;
   options.advice = m_candidates[next.candidate];
   options.advised = ownPlayer;
@@ -157,7 +160,16 @@ Thought::Gain Thought::gainOf(std::size_t candidate) const {
   return {mean, std::max(std::sqrt(squares / (count * (count - 1.0))), least / std::sqrt(count))};
 }
 
-/// The best is suggested only where the paired interval says that it gains.
+/// What a gain is worth that was measured so: most candidates gain nothing or lose a little, so
+/// that the best of a few measured ones is worth less than it seems (shrinkage towards the mean of
+/// all candidates, fitted to the gains of advice_gains).
+double Thought::expectedGain(const Gain& gain) {
+  constexpr double usual = -0.02, spread = 0.06;  // goals
+  const double share = spread * spread / (spread * spread + gain.error * gain.error);
+  return share * gain.mean + (1.0 - share) * usual;
+}
+
+/// The best is suggested if it is expected to gain.
 ThoughtResult Thought::result() const {
   ThoughtResult out;
   std::size_t best = 0;
@@ -167,7 +179,7 @@ ThoughtResult Thought::result() const {
   if (best != 0) {
     const Gain gain = gainOf(best);
     const double low = gain.mean - quantile * gain.error;
-    if (low > 0.0 && gain.mean > worthIt) {
+    if (expectedGain(gain) > worthIt) {
       out.best = best;
       out.gain = gain.mean;
       out.gainLow = low;

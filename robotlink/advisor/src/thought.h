@@ -15,6 +15,15 @@
 
 namespace pitchboard::link {
 
+/// How a question is thought about.
+struct ThoughtPlan {
+  int rollouts = 72;     ///< in all
+  double horizon = 5.0;  ///< s that each of them plays
+  int firstLook = 4;     ///< rollouts of each candidate before any is dropped
+};
+/// `rollouts` and `horizon`: of an AdvisorOptions.
+ThoughtPlan planFor(Question question, int rollouts, double horizon);
+
 /// What came out.
 struct ThoughtResult {
   std::size_t best = 0;  ///< candidate that is suggested; 0: as the behaviour would
@@ -30,8 +39,8 @@ class Thought {
  public:
   using Heat = std::array<int, static_cast<std::size_t>(heatColumns* heatRows)>;
 
-  Thought(rollout::Belief belief, const Candidates& candidates, std::uint64_t seed, int rollouts,
-          double horizon);
+  Thought(rollout::Belief belief, const Candidates& candidates, std::uint64_t seed,
+          const ThoughtPlan& plan);
 
   bool isDone() const { return m_queue.empty(); }
   int played() const { return m_played; }
@@ -58,6 +67,7 @@ class Thought {
     double mean = 0.0, error = 1.0;  ///< goals; the standard error
   };
   Gain gainOf(std::size_t candidate) const;
+  static double expectedGain(const Gain& gain);
   void planRound();
   void halve();
 
@@ -65,8 +75,8 @@ class Thought {
   Candidates m_candidates;
   std::array<Of, mostCandidates> m_of;
   std::uint64_t m_seed = 1;
-  int m_budget = 0, m_played = 0, m_rounds = 2, m_round = 0;
-  double m_horizon = 5.0;
+  ThoughtPlan m_plan;
+  int m_played = 0, m_rounds = 2, m_round = 0;
   std::vector<std::size_t> m_alive;  ///< without the first, which always plays
   std::vector<Next> m_queue;         ///< of this round, the next at the back
 };

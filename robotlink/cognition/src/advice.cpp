@@ -35,10 +35,14 @@ AdvisorVariables::AdvisorVariables(const VariableCatalog& catalog) {
     candidate[i] = whole("CANDIDATE" + std::to_string(i + 1));
     candidateValue[i] = real("VALUE" + std::to_string(i + 1));
   }
-  for (std::size_t i = 0; i < heat.size(); ++i) {
-    const std::string number = std::to_string(i + 1);
-    heat[i] = whole("HEAT" + (number.size() < 2 ? "0" + number : number));
-  }
+  const auto numbered = [&whole](const std::string& name, auto& all) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::string number = std::to_string(i + 1);
+      all[i] = whole(name + (number.size() < 2 ? "0" + number : number));
+    }
+  };
+  numbered("HEAT", heat);
+  numbered("LEARNED", learned);
 }
 
 Advice AdvisorVariables::read(const Blackboard& board, const sim::FieldSpec& field) const {

@@ -239,7 +239,8 @@ class LearnReader {
     std::vector<std::string> chosen;
     if (!node || (node->kind == JsonNode::Kind::Text && node->text == "all")) {
       for (const BehaviourParameter& one : behaviourParameters) {
-        if (teamReads(one)) chosen.emplace_back(one.key);
+        // No range follows from a start of 0: those are peculiarities, such as aim_side.
+        if (teamReads(one) && start.*one.member != 0.0) chosen.emplace_back(one.key);
       }
     } else {
       const auto* items = m_root.array("parameters", std::size(behaviourParameters));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <set>
 
 #include <base/lined_json.h>
@@ -21,6 +22,16 @@
 
 namespace pitchboard::link {
 namespace {
+
+/// Of each robot of a team, so that none overwrites what another one has learned: "seen.json" is
+/// "seen-2.json" for the robot with shirt 2.
+std::string memoryOf(const std::string& path, const sim::RobotIdentity& robot) {
+  if (path.empty()) return path;
+  const std::filesystem::path whole(path);
+  const std::string name =
+      whole.stem().string() + '-' + std::to_string(robot.number) + whole.extension().string();
+  return (whole.parent_path() / name).string();
+}
 
 using SteadyClock = std::chrono::steady_clock;
 using OnlyFor = ProfileProcess::OnlyFor;
@@ -75,6 +86,11 @@ RobotSlots::RobotSlots(MatchBase& base)
     : m_base(base), m_processes(std::make_unique<ProcessManager>(base.options.robotProgram)) {}
 
 RobotSlots::~RobotSlots() {
+  for (const auto& slot : m_slots) {
+    for (const auto& process : slot->processes) {
+      if (process->inside) process->inside->finish();
+    }
+  }
   m_processes.reset();
   m_slots.clear();  // robots first: the next owner of the match number claims them at once
 }
@@ -608,7 +624,10 @@ ProcessOptions RobotSlots::inlineOptions(const RobotSlot& slot) {
   options.seed = m_base.scenario.settings.seed;
   if (m_base.options.tellSides) options.facesLeft = identityOf(slot.id).imuStartsAt180;
   options.teamChannel = teamChannel(slot.id);
-  if (const AdvisorOptions* advisor = advisorOf(slot)) options.advisor = *advisor;
+  if (const AdvisorOptions* advisor = advisorOf(slot)) {
+    options.advisor = *advisor;
+    options.advisor.memory = memoryOf(advisor->memory, identityOf(slot.id));
+  }
   return options;
 }
 
@@ -646,6 +665,11 @@ std::vector<std::string> RobotSlots::commandOf(const RobotSlot& slot,
   if (const AdvisorOptions* advisor = advisorOf(slot)) {
     command.insert(command.end(), {"--advisor-rollouts", std::to_string(advisor->rollouts),
                                    "--advisor-horizon", shortest(advisor->horizon)});
+    if (!advisor->learns) command.emplace_back("--advisor-learns-nothing");
+    if (!advisor->memory.empty()) {
+      command.insert(command.end(), {"--advisor-memory", memoryOf(advisor->memory, identity)});
+      if (!options.keepsMemory) command.emplace_back("--advisor-memory-read-only");
+    }
   }
   if (options.publishedLocalization) command.emplace_back("--published-localization");
   if (m_base.cognitionDebug) {

@@ -2,8 +2,10 @@
 #pragma once
 
 // One sampled world of a rollout: bodies, ball and minds, stepped a cycle of 0.1 s at a time. All
-// of its memory is made by create(). Metres, radians, seconds, the studio's frame; one thread.
+// of its memory is made by create(). Metres, radians, seconds, the studio's frame; one thread. Its
+// functions stand in files by subject: percepts, motion, rules, and all the rest.
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -19,6 +21,14 @@
 
 namespace pitchboard::rollout {
 
+inline constexpr double cycleTime = link::SoccerPlayer::period;
+inline constexpr double lyingTime = 0.5;  ///< s until control notices, as in the rigid-body model
+inline constexpr int getUpFromFront = 15, getUpFromBack = 16;
+
+inline double approached(double dx, double dy) {
+  return std::sqrt(dx * dx + dy * dy);
+}
+
 /// What all worlds of a setup have in common.
 struct RolloutConstants {
   struct Of {
@@ -33,8 +43,9 @@ struct RolloutConstants {
 
   Setup setup;
   std::vector<Of> players;
-  std::vector<link::SoccerPlayer> fresh;  ///< minds that know nothing yet
-  std::vector<int> drawers;               ///< whose noise is drawn: bodies, then senses
+  /// Minds that know nothing yet: of each player, that of its behaviour and then its variants.
+  std::vector<std::vector<link::SoccerPlayer>> fresh;
+  std::vector<int> drawers;  ///< whose noise is drawn: bodies, then senses
   int drawsPerCycle = 0;
   int ticksPerCycle = 2;
   double dt = 0.05;
@@ -71,6 +82,8 @@ class RolloutWorld {
     double getUpLeft = 0.0;
     double head = 0.0;  // relative to the body
     bool panRight = true, search = true, looksForOpponents = false;
+    std::size_t variant = 0;  // of its behaviour
+    double pace = 1.0;
     Point error;  // of its belief
     double yawError = 0.0, sigma = 0.1;
     bool isDown() const { return posture != sim::Posture::Upright; }

@@ -45,13 +45,15 @@ Result<void> refuse(const std::string& text, const std::string& where) {
   return failure(ErrorCode::InvalidArgument, text, where);
 }
 
+constexpr double mostPace = 10.0;
 constexpr double farthest = 1000.0;  // m, m/s, s: nothing on a field is more
 
 bool isNear(double number) {
   return std::isfinite(number) && std::abs(number) <= farthest;
 }
 
-Result<void> check(const Belief& belief, std::size_t players) {
+Result<void> check(const Belief& belief, const std::vector<Player>& setup) {
+  const std::size_t players = setup.size();
   if (belief.robots.size() != players) {
     return refuse("The belief has " + std::to_string(belief.robots.size()) + " robots, the setup " +
                       std::to_string(players) + ".",
@@ -68,6 +70,15 @@ Result<void> check(const Belief& belief, std::size_t players) {
     }
     if (!isSigma(robot.sigma) || !isSigma(robot.yawSigma)) {
       return refuse("Standard deviations must be finite and not negative.", where);
+    }
+    if (!isSigma(robot.pace) || robot.pace > mostPace || !isSigma(robot.paceSigma)) {
+      return refuse("A pace is 0 to 10, its standard deviation not negative.", where);
+    }
+    if (!robot.shares.empty() && robot.shares.size() != setup[i].variants.size()) {
+      return refuse("There must be a share for each variant of the player, or none.", where);
+    }
+    if (!std::ranges::all_of(robot.shares, isSigma)) {
+      return refuse("Shares must be finite and not negative.", where);
     }
   }
   const BallBelief& ball = belief.ball;
@@ -131,7 +142,7 @@ std::size_t Rollouts::players() const {
 Result<void> Rollouts::play(const Belief& belief, std::span<const std::uint64_t> seeds,
                             const PlayOptions& options, std::span<double> out,
                             const std::atomic<bool>* cancelled, std::span<TracePoint> trace) {
-  TRY(check(belief, players()));
+  TRY(check(belief, m_parts->constants->setup.players));
   if (!(options.seconds > 0.0 && options.seconds <= longest)) {
     return refuse("A rollout takes more than 0 and at most 600 s.", "seconds");
   }

@@ -258,9 +258,12 @@ class Reader {
     if (!node) return;
     AdvisorOptions options;
     if (node->kind == JsonNode::Kind::Object) {
-      const JsonObject object(m_report, *node, team.pathOf("advisor"), {"rollouts", "horizon"});
+      const JsonObject object(m_report, *node, team.pathOf("advisor"),
+                              {"rollouts", "horizon", "learns", "memory"});
       options.rollouts = object.integer("rollouts", options.rollouts, 4, 5000);
       options.horizon = object.number("horizon", options.horizon, {0.5, 30, "seconds"});
+      options.learns = object.boolean("learns", options.learns);
+      options.memory = object.text("memory", options.memory, 4096);
     } else if (!team.boolean("advisor", false)) {
       return;
     }

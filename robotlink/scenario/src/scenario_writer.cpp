@@ -109,6 +109,8 @@ void addAdvisor(const Scenario& scenario, TeamColor colour, Json& team) {
   team["advisor"] = true;
   if (options == AdvisorOptions{}) return;
   team["advisor"] = {{"rollouts", options.rollouts}, {"horizon", jsonNumber(options.horizon)}};
+  if (!options.learns) team["advisor"]["learns"] = false;
+  if (!options.memory.empty()) team["advisor"]["memory"] = options.memory;
 }
 
 }  // namespace

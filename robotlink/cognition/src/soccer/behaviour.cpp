@@ -7,6 +7,7 @@
 
 #include <base/angles.h>
 #include <base/repeatable_math.h>
+#include <robotlink/cognition/keeper_place.h>
 
 #include "soccer/arrival.h"
 #include "soccer/kick_choice.h"
@@ -42,6 +43,18 @@ bool isDangerous(const WorldModel& world, const Point& ball, double within) {
 }
 
 }  // namespace
+
+Pose keeperPlace(const sim::FieldSpec& field, const BehaviourParameters& numbers,
+                 const Point& ball) {
+  const Point goal{-field.halfLength(), 0.0};
+  const double arc = numbers.keeperArc * field.goalWidth;
+  const double angle = std::clamp(direction(goal, ball), -1.2, 1.2);
+  Pose place{{goal.x + numbers.keeperLine + 0.6 * arc * repeatable::cos(angle),
+              goal.y + arc * repeatable::sin(angle)},
+             0.5 * angle};
+  if (numbers.keeperAside != 0.0) place.position.y += numbers.keeperAside;
+  return place;
+}
 
 Choice Behaviour::choose(const WorldModel& world) {
   if (world.fallen()) return {acts::stop, Intention::None, {}, false};  // control gets it up
@@ -140,8 +153,8 @@ Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
     }
     const bool clears = isDangerous(world, here, m_numbers.clearDanger);
     const auto aim = clears ? std::nullopt : advisedAim(world, here);
-    return {m_attack.step(world, aim.value_or(aimFrom(world, here)), clears), Intention::Ball, here,
-            false};
+    return {m_attack.step(world, aim.value_or(aimFrom(world, here, m_numbers.aimSide)), clears),
+            Intention::Ball, here, false};
   }
   // Seen by a team-mate or remembered. If it is not there, it is looked for.
   if (!world.localized()) return lookForBall(world);
@@ -350,17 +363,13 @@ Choice Keeper::play(const WorldModel& world) {
     choice.intention = Intention::Ball;
     return choice;
   }
-  // On the line from the ball to the goal, on an arc before it that covers the posts.
-  const double arc = m_numbers.keeperArc * world.field().goalWidth;
-  const double angle = std::clamp(direction(world.ownGoal(), *ball), -1.2, 1.2);
-  Point place{world.ownGoal().x + m_numbers.keeperLine + 0.6 * arc * repeatable::cos(angle),
-              world.ownGoal().y + arc * repeatable::sin(angle)};
+  Pose stands = keeperPlace(world.field(), m_numbers, *ball);
   if (isAdvised(world, AdviceKind::Stand)) {
     const Point told = inField(world, world.advice()->place.position);
     constexpr double leaves = 1.5;  // m that a keeper may stand before its goal
-    if (distance(told, world.ownGoal()) < leaves) place = told;
+    if (distance(told, world.ownGoal()) < leaves) stands.position = told;
   }
-  Choice choice = goTo(world, {place, 0.5 * angle}, Intention::Keep, 0.12);
+  Choice choice = goTo(world, stands, Intention::Keep, 0.12);
   choice.search = !world.seesBall();
   return choice;
 }

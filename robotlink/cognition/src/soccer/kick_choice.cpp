@@ -82,7 +82,14 @@ double kickRange(const WorldModel& world, const Act& kick) {
   return kickRange(world, kick, {away, (left ? 1.0 : -1.0) * repeatable::atan2(side, away)});
 }
 
-double chanceOfGoal(const WorldModel& world, const Point& ball, double yaw, double range) {
+GoalPart goalPart(const WorldModel& world, double aimSide) {
+  const sim::FieldSpec& field = world.field();
+  const double half = field.goalWidth / 2 - field.goalPostRadius - field.ballRadius;
+  return {aimSide * half, half * (1.0 - std::abs(aimSide))};
+}
+
+double chanceOfGoal(const WorldModel& world, const Point& ball, double yaw, double range,
+                    const GoalPart& part) {
   const sim::FieldSpec& field = world.field();
   const auto [s, c] = repeatable::sinCos(yaw);
   const double toLine = field.halfLength() - ball.x;
@@ -90,9 +97,9 @@ double chanceOfGoal(const WorldModel& world, const Point& ball, double yaw, doub
   const double way = toLine / c;
   if (way > 0.85 * range) return 0.0;
   const double y = ball.y + way * s;
-  const double half = field.goalWidth / 2 - field.goalPostRadius - field.ballRadius;
   const double error = repeatable::hypot(kickError * way / c, posError);
-  const double chance = below((half - y) / error) - below((-half - y) / error);
+  const double chance =
+      below((part.middle + part.half - y) / error) - below((part.middle - part.half - y) / error);
   const double bodies = world.field().robotRadius + field.ballRadius;
   const bool covered = isCovered(world, ball, {field.halfLength(), y}, bodies + 0.05);
   return covered ? 0.25 * chance : chance;
@@ -151,7 +158,9 @@ std::optional<Act> adviseKick(const WorldModel& world, const Advice& advice, con
     const bool leaves = std::abs(stops.x) > field.halfLength() - inside ||
                         std::abs(stops.y) > field.halfWidth() - inside;
     constexpr double goodChance = 0.1;
-    if (leaves && chanceOfGoal(world, ball, way, range) < goodChance) continue;
+    if (leaves && chanceOfGoal(world, ball, way, range, goalPart(world, 0.0)) < goodChance) {
+      continue;
+    }
     best = one.act;
     least = off;
   }
@@ -164,6 +173,7 @@ std::optional<KickWorth> chooseKick(const WorldModel& world, const BehaviourPara
   const Point& ball = situation.ball;
   const sim::BallAtFeet feet{world.ballDistance(), world.ballBearing()};
   const double yaw = world.pose().yaw;
+  const GoalPart part = goalPart(world, numbers.aimSide);
   std::optional<KickWorth> best;
   for (const Candidate& one : candidates) {
     const double speed = sim::kickSpeed(world.body(), field.robotRadius, one.act.action, feet);
@@ -173,7 +183,7 @@ std::optional<KickWorth> chooseKick(const WorldModel& world, const BehaviourPara
     const double way = wrapToPi(yaw + one.turned);
     const Point stops = along(ball, way, range);
     if (isTowardsOwnGoal(world, ball, way, stops)) continue;
-    const double goal = chanceOfGoal(world, ball, way, range);
+    const double goal = chanceOfGoal(world, ball, way, range, part);
     constexpr double inside = 0.1;  // m
     const bool leaves = std::abs(stops.x) > field.halfLength() - inside ||
                         std::abs(stops.y) > field.halfWidth() - inside;

@@ -30,8 +30,16 @@ double kickRange(const WorldModel& world, const Act& kick, const sim::BallAtFeet
 /// Of the kick with the foot at the ball's side when it is hit squarely.
 double kickRange(const WorldModel& world, const Act& kick);
 
-/// The chance that a ball from `ball` in the direction `yaw`, rolling so far, goes in.
-double chanceOfGoal(const WorldModel& world, const Point& ball, double yaw, double range);
+/// Part of the opponents' goal.
+struct GoalPart {
+  double middle = 0.0, half = 0.0;  ///< y and half of the width between posts, m
+};
+/// At which a robot with this BehaviourParameters::aimSide aims.
+GoalPart goalPart(const WorldModel& world, double aimSide);
+
+/// The chance that a ball from `ball` in the direction `yaw`, rolling so far, goes in there.
+double chanceOfGoal(const WorldModel& world, const Point& ball, double yaw, double range,
+                    const GoalPart& part);
 
 /// The best kick from where the robot stands and looks; nothing when to dribble is better.
 std::optional<KickWorth> chooseKick(const WorldModel& world, const BehaviourParameters& numbers,

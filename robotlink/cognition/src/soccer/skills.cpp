@@ -228,8 +228,9 @@ std::optional<Point> advisedAim(const WorldModel& world, const Point& ball) {
   return aim;
 }
 
-Point aimFrom(const WorldModel& world, const Point& ball) {
+Point aimFrom(const WorldModel& world, const Point& ball, double aimSide) {
   const sim::FieldSpec& field = world.field();
+  const double middle = goalPart(world, aimSide).middle, part = 1.0 - std::abs(aimSide);
   const Points& opponents = world.opponents();
   const double heading = world.localized() ? world.pose().yaw : world.imuYaw();
   Point best = world.opponentGoal();
@@ -251,7 +252,7 @@ Point aimFrom(const WorldModel& world, const Point& ball) {
   // Far from it, past whoever stands in the way.
   constexpr double far = 4.5;  // m
   if (distance(ball, world.opponentGoal()) > far) {
-    const double straight = direction(ball, world.opponentGoal());
+    const double straight = direction(ball, {field.halfLength(), middle});
     for (int i = -2; i <= 2; ++i) {
       const double way = straight + 0.4 * i;
       const auto [s, c] = repeatable::sinCos(way);
@@ -266,7 +267,7 @@ Point aimFrom(const WorldModel& world, const Point& ball) {
     return best;
   }
   for (int i = -2; i <= 2; ++i) {
-    const Point aim{field.halfLength() + depth, i * 0.16 * field.goalWidth};
+    const Point aim{field.halfLength() + depth, i * 0.16 * field.goalWidth * part + middle};
     const double way = direction(ball, aim);
     const double cost = 0.3 * std::abs(i) + std::abs(wrapToPi(way - heading)) + inTheWay(way);
     if (cost < least) {

@@ -70,7 +70,8 @@ class Attack {
 
 /// Where the ball should go: the part of the goal that seen opponents cover least; from farther
 /// away past those who stand in the way; out to the side while it lies in front of the own goal.
-Point aimFrom(const WorldModel& world, const Point& ball);
+/// `aimSide`: BehaviourParameters.
+Point aimFrom(const WorldModel& world, const Point& ball, double aimSide);
 /// Where the advisor wants it; nothing where it wants nothing, or that is dangerous.
 std::optional<Point> advisedAim(const WorldModel& world, const Point& ball);
 

@@ -46,6 +46,7 @@ enum class AdvisorState : int { Off = 0, NothingToDecide = 1, Thinks = 2, KnowsT
 
 inline constexpr std::size_t mostCandidates = 6;
 inline constexpr int heatColumns = 16, heatRows = 10, heatWords = 20;
+inline constexpr std::size_t learnedWords = 12;
 
 /// The variables of an advisor. Their index is -1 if the map does not contain them.
 struct AdvisorVariables {
@@ -56,6 +57,7 @@ struct AdvisorVariables {
   std::array<IntVar, mostCandidates> candidate;
   std::array<FloatVar, mostCandidates> candidateValue;
   std::array<IntVar, heatWords> heat;
+  std::array<IntVar, learnedWords> learned;  ///< what the advisor knows of the opponents
 
   /// Reads the current advice; AdviceKind::None if the numbers are not valid.
   Advice read(const Blackboard& board, const sim::FieldSpec& field) const;

@@ -28,6 +28,7 @@ struct BehaviourParameters {
   double aimFar = 0.30;
   double aimPressed = 0.7;
   double pressedWithin = 0.6;
+  double aimSide = 0.0;
   // Without it.
   double headTime = 4.5;
   double turnTime = 6.0;
@@ -44,6 +45,7 @@ struct BehaviourParameters {
   // Before the own goal.
   double keeperLine = 0.2;
   double keeperArc = 0.40;
+  double keeperAside = 0.0;
   double clearWithin = 1.3;
   double clearUntil = 1.9;
   double clearDanger = 2.0;
@@ -88,6 +90,8 @@ inline constexpr auto behaviourParameters = std::to_array<BehaviourParameter>({
       "Aiming error, pressed", "Accepted aiming error while an opponent is at the ball"}, behaviour_sets::players},
     {{"pressed_within", &BehaviourParameters::pressedWithin, sim::units::metres, 0, 10,
       "Pressed within", "An opponent closer to the ball than this counts as being at the ball"}, behaviour_sets::players},
+    {{"aim_side", &BehaviourParameters::aimSide, sim::units::plain, -0.9, 0.9,
+      "Side of the goal", "Aims only at a part of the goal: 0 at all of it, 0.5 at its left half, -0.5 at its right half, 0.9 close to the left post"}, behaviour_sets::players},
     {{"head_time", &BehaviourParameters::headTime, sim::units::seconds, 0, 600,
       "Head search", "First searches a lost ball with the head alone; one sweep takes 4.5 s"}, behaviour_sets::players},
     {{"turn_time", &BehaviourParameters::turnTime, sim::units::seconds, 0, 600,
@@ -113,7 +117,9 @@ inline constexpr auto behaviourParameters = std::to_array<BehaviourParameter>({
     {{"keeper_line", &BehaviourParameters::keeperLine, sim::units::metres, 0, 10,
       "Keeper's line", "Distance to the goal line at the posts; larger in front of the middle"}, behaviour_sets::keeper},
     {{"keeper_arc", &BehaviourParameters::keeperArc, sim::units::plain, 0, 2,
-      "Keeper's arc", "Radius of the arc on which it stands, as a share of the goal's width"}, behaviour_sets::keeper},
+      "Keeper's arc", "Radius of the arc on which it stands, as a share of the goal's width; 0: it does not follow the ball"}, behaviour_sets::keeper},
+    {{"keeper_aside", &BehaviourParameters::keeperAside, sim::units::metres, -2, 2,
+      "Keeper aside", "Stands so far to the left of where it would stand otherwise"}, behaviour_sets::keeper},
     {{"clear_within", &BehaviourParameters::clearWithin, sim::units::metres, 0, 20,
       "Clears within", "Goes for a ball that is closer than this to the goal's centre"}, behaviour_sets::keeper},
     {{"clear_until", &BehaviourParameters::clearUntil, sim::units::metres, 0, 20,

@@ -35,6 +35,9 @@ struct AdvisorOptions {
   double horizon = 5.0;  ///< s that each of them plays
   /// Of one core, when no match waits for it: it plays as many rollouts as fit. 0: `rollouts`.
   double share = 0.0;
+  bool learns = true;  ///< of the opponents, while it plays
+  /// File with what it learned in earlier games; empty: none. A missing file is no error.
+  std::string memory{};
   bool operator==(const AdvisorOptions&) const = default;
 };
 
@@ -54,6 +57,8 @@ class CognitiveProcess {
   /// Initializes a new process of a robot that has already been playing from its blackboard. Called
   /// before the first step.
   virtual void resume(const Blackboard& board) { (void)board; }
+  /// Called once, when the program or the match ends, before the process is destroyed.
+  virtual void finish() {}
   /// Returns a copy of everything that the process remembers, for restore(); null if it remembers
   /// nothing. The copy is never stepped.
   virtual std::unique_ptr<const CognitiveProcess> remembered() const { return nullptr; }
@@ -96,6 +101,7 @@ struct ProcessOptions {
   /// team: the channel of robots inside this program; null: UDP.
   std::shared_ptr<TeamChannel> teamChannel;
   AdvisorOptions advisor;
+  bool keepsMemory = true;  ///< advisor: it also writes AdvisorOptions::memory, not only reads it
   /// For a process that follows the time of a match; null: it follows real time.
   std::shared_ptr<LockStepSlot> lockStepSlot;
 

@@ -26,6 +26,8 @@ struct Player {
   Side side = Side::Left;
   link::BehaviourChoice behaviour;
   sim::RobotModel model;
+  /// Other numbers of this behaviour that the player may have; RobotBelief::shares says how likely.
+  std::vector<link::BehaviourParameters> variants;
 };
 
 /// Everything that is the same in all rollouts.
@@ -44,6 +46,9 @@ struct RobotBelief {
   bool absent = false;                           ///< penalised or not in the game
   bool down = false;
   double getsUpIn = 0.0;  ///< s until it stands again; only if `down`
+  /// Probability of each of Player::variants, or empty; what is left to 1 is Player::behaviour.
+  std::vector<double> shares;
+  double pace = 1.0, paceSigma = 0.0;  ///< its speed as a share of what its model says
 };
 
 struct BallBelief {
