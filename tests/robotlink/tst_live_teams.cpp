@@ -62,8 +62,7 @@ class TestLiveTeams : public QObject {
     // The model is kept in files and recordings.
     options.team.teams[0].model = "darwin-op";
     QCOMPARE(setupOf(teamSetupText(options.team.teams[0]).c_str()).model, std::string("darwin-op"));
-    const LiveState state(options);
-    const auto again = LiveState::read(state.text(options, 0.0, start), start);
+    const auto again = LiveState::read(LiveState(options).text(options, 0.0, start), start);
     QVERIFY(again);
     QCOMPARE(again->options.team.teams.at(0).model, std::string("darwin-op"));
 
@@ -389,10 +388,10 @@ class TestLiveTeams : public QObject {
     }
     const std::pair<const char*, const char*> mistakes[] = {
         {"{\n\"colour\": \"pink\"}", "s.json:2: colour: there is no colour of a team \"pink\""},
-        {R"({"ports": [5, 4]})", "s.json:1: ports: is one port"},
+        {R"({"ports": [5, 4]})", "s.json:1: ports: must be one port"},
         {R"({"ports": 70000})", "ports"},
         {R"({"senders": ["home"]})", "s.json:1: senders"},
-        {R"({"robots": {"zero": "A"}})", "robots.zero: the number of a robot"},
+        {R"({"robots": {"zero": "A"}})", "robots.zero: a robot number"},
         {R"({"profile": "mitecon"})", "did you mean \"mitecom\""},
         {R"({"teams": 1})", "teams"}};
     for (const auto& [json, expected] : mistakes) {

@@ -353,7 +353,7 @@ class TestMoments : public QObject {
     MomentScenario made = scenarioFromMoment(frame);
     QVERIFY(distance(made.scenario.ball, ball) < 1e-4);
     QCOMPARE(made.notes.size(), std::size_t{1});
-    QVERIFY2(made.notes[0].find("3 of the 4") != std::string::npos, made.notes[0].c_str());
+    QVERIFY2(made.notes[0].find("3 of 4") != std::string::npos, made.notes[0].c_str());
     for (RobotFrame& robot : frame.robots) robot.ball.reset();
     made = scenarioFromMoment(frame);
     QVERIFY(made.scenario.ball == Point{});

@@ -224,7 +224,7 @@ class TestVariableCatalog : public QObject {
         "f:2: ", "lies on \"A\" (int 130, f:1)");
     row("h computed", "h", "#define A *(mem+N+1)\n", "f:1: ", "computed");
     row("h sum", "h", "#define A 3+1\n", "f:1: ", "computed");
-    row("h broken", "h", "#define A 13x\n", "f:1: ", "begins like a number");
+    row("h broken", "h", "#define A 13x\n", "f:1: ", "is not a number");
     row("h name", "h", "#define 1A 13\n", "f:1: ", "\"1A\"");
     row("h ambiguous", "h", "#define A 9\n#define B 10\n\n#define C 1\n", "f:4: ", "// float");
     row("h open comment", "h", "#define A 1\n/* ...\n", "f:2: ", "never closed");

@@ -118,7 +118,7 @@ class TestWorldLines : public QObject {
     row("a variable without a name", R"({"do":"read","variables":[3]})", "variables[0]");
     row("an array of another shape", R"({"do":"write","actions":[1]})", "actions[0]");
     row("half an action", R"({"do":"write","actions":[[1.5]]})", "actions[0][0]");
-    row("a number that is too large", R"({"do":"write","actions":[[3000000000]]})", "32 bits");
+    row("a number that is too large", R"({"do":"write","actions":[[3000000000]]})", "32-bit");
     row("two things to write", R"({"do":"write","actions":[[1]],"commands":[[[1]]]})", "one of");
     row("nobody", R"({"do":"behaviour","robot":5,"behaviour":"none"})", "no robot 5");
     row("no such behaviour", R"({"do":"behaviour","robot":1,"behaviour":"nonne"})", "did you mean");

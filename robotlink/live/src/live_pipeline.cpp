@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include <base/lined_json.h>
 #include <robotlink/frame/join_boards.h>
 #include <robotlink/live/live_teams.h>
 #include <telemetry/series/group_order.h>
@@ -292,6 +293,12 @@ void LivePipeline::addBoards(MatchFrame& frame, AttachedRobots* attached, WallTi
     name = {robot.name, std::move(listed.attributes)};
     name.attributes["team"] = info(robot.identity.team).name;
     if (!robot.ownName.empty()) name.attributes["name"] = robot.ownName;
+    if (m_monitorOptions.teamBatteries.contains(keys[i].team)) {
+      const telemetry::BatteryLimits& limits = m_monitorOptions.batteryOf(keys[i].team);
+      name.attributes["battery_full"] = shortest(limits.fullPerCell * limits.cells);
+      name.attributes["battery_low"] = shortest(limits.lowPerCell * limits.cells);
+      name.attributes["battery_empty"] = shortest(limits.emptyPerCell * limits.cells);
+    }
     if (senders[i].first == telemetry::Address{}) continue;
     name.attributes["place"] = std::to_string(keys[i].team);
     name.attributes["sent"] = senders[i].first.text();

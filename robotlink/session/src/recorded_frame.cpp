@@ -33,6 +33,7 @@ double numberOr(const telemetry::GroupInfo& info, const char* name, double value
 
 /// Returns the limits of the robot's model, or the usual ones if the recording has none.
 telemetry::BatteryLimits batteryOf(const telemetry::GroupInfo& info) {
+  if (attribute(info, "battery_low").empty()) return telemetry::usualBattery;
   sim::RobotModel model;
   model.batteryFull = numberOr(info, "battery_full", model.batteryFull);
   model.batteryLow = numberOr(info, "battery_low", model.batteryLow);

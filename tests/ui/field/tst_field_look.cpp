@@ -461,10 +461,10 @@ class TestFieldLook : public QObject {
       look.opacity = 0.45;
       auto* robot = new RobotItem(&style, blue(1));
       robot->setLook(look);
+      centre = {0, 40};
+      robot->setWordPlace(centre);
       scene.addItem(robot);
       plate = plateSize(look.word);
-      const QRectF all = robot->boundingRect();
-      centre = {0, -all.top() * scale - plate.height() / 2 - 2};
     }
     QImage image(300, 200, QImage::Format_RGB32);
     image.fill(theme().grass);

@@ -57,7 +57,7 @@ class TestProcessesModel : public QObject {
       const QVariant title = model.headerData(column, Qt::Horizontal, Qt::TextAlignmentRole);
       QCOMPARE(model.index(0, column).data(Qt::TextAlignmentRole), title);
       const bool number = column >= ProcessesModel::Pid && column <= ProcessesModel::Heartbeat;
-      QCOMPARE(title.toInt() == (Qt::AlignRight | Qt::AlignVCenter), number);
+      QCOMPARE(title.toInt() == int(Qt::AlignRight | Qt::AlignVCenter), number);
     }
     all[0].state = link::ProcessState::Restarting;
     all[0].pid = 0;

@@ -99,13 +99,15 @@ class TestGeometry : public QObject {
     std::vector<RobotId> all;
     for (const auto& robot : s.controller.frame()->robots) all.push_back(robot.slot());
     callReferee(s.controller.edits(),
-                {.kind = sim::CallKind::Penalise, .penalty = sim::PenaltyKind::Pickup}, all,
+                {.kind = sim::CallKind::Penalise, .penalty = sim::PenaltyKind::Incapable}, all,
                 QStringLiteral("penalise"));
     // They are taken to the touch line.
-    s.controller.runTo(240);
-    QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t{240});
-    s.timeline()->seek(3.0);
     const auto* strip = s.find<QLabel>("penaltyStrip");
+    s.controller.runTo(600);
+    QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t{600});
+    QTRY_VERIFY(strip->isVisible());
+    QVERIFY2(!s.window.field()->hasRobotIn(strip->geometry()), qPrintable(strip->text()));
+    s.timeline()->seek(3.0);
     const auto* past = s.find<QLabel>("lookingBack");
     QTRY_VERIFY(strip->isVisible() && past->isVisible());
     const QRect box = strip->geometry();

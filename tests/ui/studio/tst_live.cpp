@@ -206,6 +206,7 @@ class TestLive : public QObject {
     QTRY_COMPARE(s.robots(), std::size_t(1));
     stubborn.reset();
     QTRY_COMPARE_WITH_TIMEOUT(s.bound(), std::size_t(17), 30'000);
+    QTRY_VERIFY2(s.window.notices()->text().isEmpty(), qPrintable(s.window.notices()->text()));
   }
 
   void aFloodOfNonsenseIsCounted() {

@@ -396,6 +396,11 @@ class TestSessions : public QObject {
     QTest::mouseClick(s.record(), Qt::LeftButton, {}, {8, 8});
     QVERIFY(!s.window.recording()->isRecording());
     QVERIFY2(s.notice().contains(QStringLiteral("/proc/nowhere")), qPrintable(s.notice()));
+    // Once it records there is nothing to complain about.
+    s.window.recording()->setFolder(s.folder.filePath(QStringLiteral("good")));
+    QTest::mouseClick(s.record(), Qt::LeftButton, {}, {8, 8});
+    QVERIFY(s.window.recording()->isRecording());
+    QVERIFY2(s.notice().isEmpty(), qPrintable(s.notice()));
   }
 
   void theRoomOnTheDiskIsShownAndItsEndIsSaidInTime() {

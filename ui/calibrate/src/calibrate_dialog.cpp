@@ -385,11 +385,10 @@ void CalibrateDialog::showValues() {
     for (const link::CalibratedValue& value : *values) {
       const link::WrittenValue w = link::writtenValue(value);
       const auto base = link::writtenBase(*m_calibration, value.key);
-      addRow(m_values,
-             {QString::fromStdString(value.key), fourDigits(w.value),
-              QStringLiteral("%1 to %2").arg(fourDigits(w.low), fourDigits(w.high)),
-              shortUnit(w.unit), base ? fourDigits(*base) : QStringLiteral("–"),
-              QString::fromStdString(link::samplesText(value))});
+      addRow(m_values, {QString::fromStdString(value.key), fourDigits(w.value),
+                        QStringLiteral("%1 to %2").arg(fourDigits(w.low), fourDigits(w.high)),
+                        shortUnit(w.unit), base ? fourDigits(*base) : QStringLiteral("–"),
+                        QString::fromStdString(link::samplesText(value))});
     }
   }
   for (const auto& [key, reason] : m_calibration->kept) {

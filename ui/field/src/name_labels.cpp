@@ -94,15 +94,17 @@ struct Search {
   }
 };
 
-/// The robots at `first` and all near it, or near one of those, of which the same is said.
+/// The robot `first` and those beside it, or beside one of those, of which the same is said.
 std::vector<const NamedRobot*> sharing(std::span<const NamedRobot> robots,
                                        const NamedRobot& first) {
   std::vector<const NamedRobot*> group{&first};
   if (first.said.isEmpty()) return group;
   for (std::size_t i = 0; i < group.size(); ++i) {
     for (const NamedRobot& robot : robots) {
-      if (robot.said == first.said && distance(robot.at, group[i]->at) < first.word.width() &&
-          std::ranges::find(group, &robot) == group.end()) {
+      const QPointF apart = robot.at - group[i]->at;
+      const bool isBeside = std::abs(apart.x()) < first.word.width() &&
+                            std::abs(apart.y()) < first.word.height() + 2 * first.radius;
+      if (robot.said == first.said && isBeside && std::ranges::find(group, &robot) == group.end()) {
         group.push_back(&robot);
       }
     }

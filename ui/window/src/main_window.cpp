@@ -13,6 +13,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include <telemetry/series/group_order.h>
@@ -488,6 +490,17 @@ void MainWindow::connectNotices() {
   connect(m_controller->edits(), &MatchEdits::lockedChanged, m_notices,
           [this] { m_notices->settle(locked); });
   connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices, tell(continued));
+  // By then the processes know again what they had forgotten.
+  const auto since = std::make_shared<std::optional<double>>();
+  connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices,
+          [since] { since->reset(); });
+  connect(m_controller, &MatchController::frameReceived, m_notices,
+          [this, since](const FramePtr& frame) {
+            constexpr double known = 10.0;  // s of the match
+            const double now = frame->snapshot.time;
+            if (!*since || now < **since) *since = now;
+            if (now - **since > known) m_notices->settle(continued);
+          });
   connect(m_future, &AbandonedFuture::began, m_notices, [this] {
     m_notices->show({branch, NoticeTone::Success},
                     QStringLiteral("Continuing the match from %1. The timeline keeps the abandoned "
@@ -502,6 +515,15 @@ void MainWindow::connectNotices() {
   });
   connect(m_live, &LiveController::errorOccurred, m_notices, tell(live));
   connect(m_live, &LiveController::optionsChanged, m_notices, [this] { m_notices->settle(live); });
+  connect(m_live, &LiveController::eventsReceived, m_notices,
+          [this](const std::vector<link::MatchEvent>& events) {
+            const auto ports = m_live->details().network.ports;
+            if (std::ranges::count(events, link::MatchEventKind::PortBack,
+                                   &link::MatchEvent::kind) > 0 &&
+                std::ranges::all_of(ports, &telemetry::PortStatus::bound)) {
+              m_notices->settle(live);
+            }
+          });
   connect(m_compared, &ComparedSession::failed, m_notices, tell(compared));
   connect(m_compared, &ComparedSession::changed, m_notices,
           [this] { m_notices->settle(compared); });
