@@ -78,7 +78,7 @@ inline const QList<Module>& table() {
          {"Eigen/", "nlohmann/"}},
         // As a robot's processes, it knows nothing of matches and scenarios.
         {rollout, {base, world, cognition}, {}},
-        {advisor, {base, world, board, processes, cognition, rollout}, {}},
+        {advisor, {base, world, board, processes, cognition, rollout}, {"nlohmann/"}},
         {scenario,
          {base, world, simulation, wire, board, processes, models, cognition, "resources"},
          {"nlohmann/"}},

@@ -166,7 +166,7 @@ class TestRobotProgram : public QObject {
     row("no value", "[Communication]\nport = 1\n", "gives no robot number");
     row("not a number", "[Communication]\nno_player_robofei = one\n", "line 2: 'one' is not");
     row("range", "\n[Communication]\nno_player_robofei = 65\n", "line 3: there is no robot 65");
-    row("section", "[Communication\n", "line 1: a section's name");
+    row("section", "[Communication\n", "line 1: a section name");
     row("empty", "", "gives no robot number");
   }
   void badConfig() {

@@ -47,7 +47,7 @@ class TestSameBits : public QObject {
                        "--duration",    "300"}
         << QStringLiteral("0xb6d9beeed3565b53");
     QTest::newRow("with a referee") << QStringList{"--scenario", "match", "--duration", "300"}
-                                    << QStringLiteral("0xfe6ef09c3a0d0efa");
+                                    << QStringLiteral("0x0b7c98ccfdb13e43");
   }
   void withAndWithoutFusedMultiplyAdd() {
     QFETCH(QStringList, match);

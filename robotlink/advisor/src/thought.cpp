@@ -162,7 +162,7 @@ Thought::Gain Thought::gainOf(std::size_t candidate) const {
 
 /// What a gain is worth that was measured so: most candidates gain nothing or lose a little, so
 /// that the best of a few measured ones is worth less than it seems (shrinkage towards the mean of
-/// all candidates, fitted to the gains of advice_gains).
+/// all candidates, chosen by judgement).
 double Thought::expectedGain(const Gain& gain) {
   constexpr double usual = -0.02, spread = 0.06;  // goals
   const double share = spread * spread / (spread * spread + gain.error * gain.error);

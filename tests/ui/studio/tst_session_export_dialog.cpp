@@ -391,7 +391,7 @@ class TestSessionExportDialog : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(s.played(300), 20'000);
     ExportDialog* dialog = openExport(s);
     QVERIFY(dialog != nullptr);
-    choose(dialog, QStringLiteral("even times"));
+    choose(dialog, QStringLiteral("fixed rate"));
     const auto lists = dialog->findChildren<QListWidget*>();
     QCOMPARE(lists.size(), 2);
     const auto tick = [](QListWidget* list, const QStringList& names) {

@@ -60,7 +60,7 @@ class TestSessionExportFull : public QObject {
         }
         QVERIFY2(contents(path) == "old", what.constData());
         // The file is too large here: that is what this disk has for "full".
-        QVERIFY2(message(dialog).contains(QStringLiteral("reached the largest")),
+        QVERIFY2(message(dialog).contains(QStringLiteral("reached the size limit")),
                  (what + ": " + message(dialog).toUtf8()).constData());
         QVERIFY2(!dialog->isWriting(), what.constData());
       }
@@ -91,7 +91,7 @@ class TestSessionExportFull : public QObject {
         QVERIFY2(ending.written == 0 && ending.failed == 1, form);
       }
       QVERIFY2(contents(path) == "old", form);
-      QVERIFY2(message(dialog).contains(QStringLiteral("largest size")),
+      QVERIFY2(message(dialog).contains(QStringLiteral("size limit")),
                qPrintable(message(dialog)));
       QVERIFY2(exported(dialog, path).written == 1, qPrintable(message(dialog)));
       QVERIFY2(contents(path).size() > 1000, form);

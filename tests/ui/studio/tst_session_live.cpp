@@ -314,7 +314,7 @@ class TestSessionLive : public QObject {
     QVERIFY(dialog != nullptr);
     auto* format = dialog->findChild<QComboBox*>(QStringLiteral("exportFormat"));
     for (int i = 0; i < format->count(); ++i) {
-      if (format->itemText(i).contains(QStringLiteral("even times"))) format->setCurrentIndex(i);
+      if (format->itemText(i).contains(QStringLiteral("fixed rate"))) format->setCurrentIndex(i);
     }
     const auto lists = dialog->findChildren<QListWidget*>();
     QCOMPARE(lists.size(), 2);
