@@ -88,7 +88,7 @@ inline const QList<Module>& table() {
              QStringList{wire, board, processes, models, cognition, advisor, scenario, frame},
          {}},
         {live,
-         {base, world, simulation, "telemetry/pb2", wire, series, board, frame},
+         {base, world, simulation, "telemetry/pb2", wire, series, board, models, frame},
          {"nlohmann/"}},
         {session,
          below + QStringList{board, processes, cognition, scenario, frame, match, live},

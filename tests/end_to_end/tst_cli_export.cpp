@@ -302,7 +302,7 @@ class TestCliExport : public QObject {
       run = cli(words + QStringList{less});
     }
     QVERIFY2(run.exitCode == 2 && run.err.contains("error: "), run.err.constData());
-    QVERIFY2(run.err.contains("largest file size allowed"), run.err.constData());
+    QVERIFY2(run.err.contains("reached the size limit"), run.err.constData());
     QCOMPARE(QDir(m_folder.path()).entryList({"less*", "*.part"}, QDir::Files | QDir::Hidden),
              QStringList());
   }

@@ -92,7 +92,8 @@ class TestUdpReceiver : public QObject {
     QVERIFY(receiver);
     const ReceiverStatus status = (*receiver)->status();
     QVERIFY(!status.ports[0].bound);
-    QVERIFY(QByteArray::fromStdString(status.ports[0].problem).contains("another program is using it"));
+    QVERIFY(
+        QByteArray::fromStdString(status.ports[0].problem).contains("another program is using it"));
     QVERIFY(status.ports[1].bound);
     const TestSocket socket;
     QVERIFY(socket.send(status.ports[1].port, "works"));

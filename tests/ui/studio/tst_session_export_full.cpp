@@ -91,8 +91,7 @@ class TestSessionExportFull : public QObject {
         QVERIFY2(ending.written == 0 && ending.failed == 1, form);
       }
       QVERIFY2(contents(path) == "old", form);
-      QVERIFY2(message(dialog).contains(QStringLiteral("size limit")),
-               qPrintable(message(dialog)));
+      QVERIFY2(message(dialog).contains(QStringLiteral("size limit")), qPrintable(message(dialog)));
       QVERIFY2(exported(dialog, path).written == 1, qPrintable(message(dialog)));
       QVERIFY2(contents(path).size() > 1000, form);
     }

@@ -50,7 +50,7 @@ QString sentenceOf(const QByteArray& output, const QString& path) {
   }
   if (text.contains(QLatin1String("File too large"))) {
     return QStringLiteral(
-        "Could not finish the video: it reached the largest file size allowed here. Choose a "
+        "Could not finish the video: the file has reached the size limit. Choose a "
         "shorter range or a lower rate.");
   }
   if (text.contains(QLatin1String("Unknown encoder")) ||
