@@ -26,7 +26,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-NOT_RUN = {"agent": 4, "building": 2, "install": 1, "performance": 1, "readme": 1, "referee": 1, "sessions": 1}
+NOT_RUN = {"agent": 4, "building": 2, "install": 1, "learning": 1, "performance": 1, "readme": 1, "referee": 1, "sessions": 1}
 REPOSITORY = ("tests/data", "docs/examples", "docs/recipes", "resources")
 STUDIO = """#!/bin/bash
 # The studio as a page starts it, without a screen: it takes a picture of its window after a second and ends.
