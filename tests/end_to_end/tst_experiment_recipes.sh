@@ -47,7 +47,7 @@ grep -q '<failure message="success_rate = 0"/>' bad/junit.xml || fail "junit.xml
 mkdir cases && cp bad.json short.json cases
 expect 1 "2 tests, 2 assertions, 1 failed" test cases --junit all.xml
 expect 0 "8 tests, 25 assertions, 0 failed" test
-expect 0 "1 tests, " test ready-positions
+expect 0 "1 test, " test ready-positions
 expect 2 "no such folder, file or example" test no-such-test
 # What cannot be read is an error of its own; the rest, in subfolders too, is played, and the JUnit file is written.
 mkdir -p mixed/sub && cp short.json mixed/sub && cp bad.json mixed/z.json

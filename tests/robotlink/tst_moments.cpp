@@ -151,7 +151,8 @@ class TestMoments : public QObject {
       QVERIFY(!frame.robots[0].behaviour.empty());
     }
     // Back at the first moment, no process has worked yet, whatever was shown before.
-    for (const auto& lamp : frames.frameAt(m_match->store, 0.0).robots[0].lamps) {
+    const MatchFrame first = frames.frameAt(m_match->store, 0.0);
+    for (const auto& lamp : first.robots[0].lamps) {
       QVERIFY(lamp.state != telemetry::HeartbeatState::NotResponding);
     }
   }
