@@ -162,7 +162,7 @@ Thought::Gain Thought::gainOf(std::size_t candidate) const {
 
 /// What a gain is worth that was measured so: the best of a few measured ones looks better than it
 /// is. Shrunk towards the usual gain of a candidate; both numbers are those with which advice lost
-/// least in 4 600 questions (advice_gains in tests/benchmarks).
+/// least in 1 600 questions (advice_gains in tests/benchmarks).
 double Thought::expectedGain(const Gain& gain) {
   constexpr double usual = -0.02, spread = 0.03;  // goals
   const double share = spread * spread / (spread * spread + gain.error * gain.error);
