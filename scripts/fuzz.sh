@@ -49,8 +49,8 @@ printf '[Communication]\nno_player_robofei = 3\n[Pitchboard Management]\nprocess
 printf '{"pitchboardPlots": 1, "current": 0, "tabs": [{"name": "A", "plots": [{"kind": "chart", "title": "T", "values": [0, 1], "rightValues": [2, 3], "curves": [{"kind": "difference", "inputs": ["B1/A", "first/B"], "colour": "#ff8800"}]}]}]}' \
   > "$seeds/layout/one.json"
 number=0
-while IFS= read -r words; do
-  printf '%s' "$words" > "$seeds/words/$((number += 1)).txt"
+while IFS= read -r text; do
+  printf '%s' "$text" > "$seeds/short_texts/$((number += 1)).txt"
 done <<'WORDS'
 hypot(B1.TRUE_X - 2, {B1/ball x}) * 100 > 3 && !B2.A ? deg(pi) : wrap(t, 360)
 192.168.0.0/24

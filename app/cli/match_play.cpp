@@ -40,11 +40,11 @@ class ProcessNews : public link::TickObserver {
   void happened(std::span<const link::MatchEvent> events) override {
     for (const link::MatchEvent& event : events) {
       using Kind = link::MatchEventKind;
-      constexpr std::array told{Kind::ProcessDied,        Kind::ProcessEnded,
-                                Kind::ProcessRestarted,   Kind::ProcessNotResponding,
-                                Kind::ProcessGivenUp,     Kind::ProcessRealTime,
-                                Kind::ProcessNotAttached, Kind::CycleLate};
-      if (std::ranges::find(told, event.kind) == told.end()) continue;
+      constexpr std::array reported{Kind::ProcessDied,        Kind::ProcessEnded,
+                                    Kind::ProcessRestarted,   Kind::ProcessNotResponding,
+                                    Kind::ProcessGivenUp,     Kind::ProcessRealTime,
+                                    Kind::ProcessNotAttached, Kind::CycleLate};
+      if (std::ranges::find(reported, event.kind) == reported.end()) continue;
       std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
                    link::sentenceOf(event).c_str());
     }
@@ -106,7 +106,7 @@ class Playing {
 
 }  // namespace
 
-void addPlayOptions(CLI::App& command, PlayOptions& o) {
+void addPlayOptions(CLI::App& command, MatchPlayOptions& o) {
   shared::addScenarioOptions(command, o.match);
   command
       .add_option("--speed", o.speed,
@@ -149,7 +149,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& o) {
   shared::addGroup(command, "Referee", {"--obey-referee", "--answer-referee"});
 }
 
-Result<link::Cognition> cognitionOf(const PlayOptions& options) {
+Result<link::Cognition> cognitionOf(const MatchPlayOptions& options) {
   // The name up to version 0.14.
   if (options.cognition == "external") return link::Cognition::Separate;
   const auto found =
@@ -159,7 +159,7 @@ Result<link::Cognition> cognitionOf(const PlayOptions& options) {
                  "--cognition must be inline, separate or none, not \"" + options.cognition + "\"");
 }
 
-Result<double> speedOf(const PlayOptions& options, link::Cognition cognition,
+Result<double> speedOf(const MatchPlayOptions& options, link::Cognition cognition,
                        const link::Scenario& scenario) {
   const std::string& text = options.speed;
   if (text.empty()) {
@@ -176,8 +176,8 @@ Result<double> speedOf(const PlayOptions& options, link::Cognition cognition,
   return *speed;
 }
 
-Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const PlayOptions& options,
-                                      link::Cognition cognition) {
+Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario,
+                                      const MatchPlayOptions& options, link::Cognition cognition) {
   if (!scenario) return scenario;
   if (!options.rules.empty()) {
     scenario->settings.referee = TRY(link::refereeRuleSet(options.rules));
@@ -199,7 +199,8 @@ Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const Pla
   return scenario;
 }
 
-Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario, const PlayOptions& options,
+Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario,
+                                         const MatchPlayOptions& options,
                                          link::Cognition cognition) {
   const auto speed = TRY(speedOf(options, cognition, scenario));
   shared::warnOfIgnoredSettings(scenario);

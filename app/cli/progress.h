@@ -19,7 +19,7 @@ class Progress {
   /// 0 to 1. False when the user interrupted the command (interrupt.h).
   bool operator()(double part);
   /// Any words instead of a percentage.
-  void say(const std::string& words);
+  void show(const std::string& text);
   /// What to print before another line on stderr, so that it does not follow this one's words.
   std::string fresh() const { return m_open && m_terminal ? "\r\033[K" : ""; }
 

@@ -51,7 +51,7 @@ Result<void> serveWorldLines(link::Scenario usual) {
 }
 
 struct Arguments {
-  PlayOptions play;
+  MatchPlayOptions play;
   std::string session;
   std::string at;
   bool clock = false;
@@ -107,7 +107,7 @@ Result<Recorded> recordedMoment(const Arguments& arguments) {
 
 Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition cognition,
                                     const std::optional<Recorded>& recorded) {
-  const PlayOptions& play = arguments.play;
+  const MatchPlayOptions& play = arguments.play;
   auto scenario = scenarioToPlay(
       recorded ? shared::changed(recorded->scenario, play.match) : shared::scenarioFrom(play.match),
       play, cognition);

@@ -13,9 +13,9 @@
 
 namespace pitchboard::link {
 
-inline std::string keyOf(std::string_view words) {
+inline std::string keyOf(std::string_view label) {
   std::string key;
-  for (const char c : words) {
+  for (const char c : label) {
     key += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c == ' ' || c == '-' ? '_' : c;
   }
   return key;
@@ -27,8 +27,8 @@ const std::vector<std::string>& keysOf(std::string_view none = {}) {
   static const std::vector<std::string> all = [none] {
     std::vector<std::string> keys;
     for (int i = 0; i <= static_cast<int>(lastOf(Enum{})); ++i) {
-      const std::string_view words = sim::labelOf(static_cast<Enum>(i));
-      keys.push_back(words.empty() ? std::string(none) : keyOf(words));
+      const std::string_view label = sim::labelOf(static_cast<Enum>(i));
+      keys.push_back(label.empty() ? std::string(none) : keyOf(label));
     }
     return keys;
   }();

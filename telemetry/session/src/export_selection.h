@@ -18,7 +18,7 @@ struct SelectedColumn {
   const std::map<std::int32_t, std::string>* labels = nullptr;
 
   /// The word of a value of a text; nothing for a number and for a hole.
-  const std::string* wordOf(double value) const {
+  const std::string* labelOf(double value) const {
     if (labels == nullptr || !std::isfinite(value)) return nullptr;
     const auto found = labels->find(static_cast<std::int32_t>(value));
     return found == labels->end() ? nullptr : &found->second;

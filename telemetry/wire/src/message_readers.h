@@ -38,9 +38,9 @@ class FieldSink {
                       format == MessageFormat::Lua || format == MessageFormat::Mitecom) {}
   void number(std::string_view key, double value);
   /// A word that stands in the datagram.
-  void word(std::string_view key, std::string_view text);
+  void addText(std::string_view key, std::string_view text);
   /// A word that ends with the call.
-  void passingWord(std::string_view key, std::string_view text);
+  void addTemporaryText(std::string_view key, std::string_view text);
 
  private:
   bool extra(std::string_view key, std::size_t& index);

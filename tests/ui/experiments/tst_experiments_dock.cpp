@@ -70,7 +70,7 @@ class TestExperimentsDock : public QObject {
     QDir(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)).removeRecursively();
   }
   void playsAndShowsResults();
-  void errorIsSaidWhereTheFileIs();
+  void errorIsReportedWhereTheFileIs();
   void cancelKeepsWhatIsThere();
   void opensOnAForm();
   void theFormEditsTheFile();
@@ -196,7 +196,7 @@ void TestExperimentsDock::playsAndShowsResults() {
   QTRY_VERIFY_WITH_TIMEOUT(dock.words().contains(QStringLiteral("open in Replay")), 60000);
 }
 
-void TestExperimentsDock::errorIsSaidWhereTheFileIs() {
+void TestExperimentsDock::errorIsReportedWhereTheFileIs() {
   Dock dock;
   dock.find<QPlainTextEdit>("experimentText")
       ->setPlainText(QStringLiteral("{\n\"version\": 1,\n\"scenari\": 2}"));

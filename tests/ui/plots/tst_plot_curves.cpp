@@ -100,7 +100,7 @@ class TestPlotCurves : public QObject {
     const auto more = allOf(curve, feed, 241);
     QCOMPARE(more.size(), std::size_t(241));
     QCOMPARE(more[120].value, samples[120].value);
-    // A source that was put back: computed anew, no rows of the future stay.
+    // A source that was put back: computed again, no rows of the future stay.
     bench.source.append(group, 1.0, 0, 0.0, 0.0);
     const auto endIsOne = [&] {
       feed.refresh();

@@ -7,7 +7,7 @@
 #include <QTabBar>
 #include <algorithm>
 
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -177,7 +177,7 @@ void FlatStyle::drawControl(ControlElement element, const QStyleOption* option, 
   QStyleOptionComboBox shown = *combo;
   int room = subControlRect(CC_ComboBox, combo, SC_ComboBoxEditField, widget).width();
   if (!combo->currentIcon.isNull()) room -= combo->iconSize.width() + textGap();
-  shown.currentText = elidedWords(QFontMetricsF(painter->font()), combo->currentText, room);
+  shown.currentText = elideText(QFontMetricsF(painter->font()), combo->currentText, room);
   QProxyStyle::drawControl(element, &shown, painter, widget);
 }
 

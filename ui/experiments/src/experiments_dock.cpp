@@ -16,7 +16,7 @@
 #include <QVBoxLayout>
 
 #include <base/file_target.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/sources/compared_session.h>
@@ -156,13 +156,13 @@ class ExperimentsDock : public QWidget {
                        "Timeline > Stop comparing ends it."));
   }
 
-  void say(const QString& words, bool isError = false) {
+  void say(const QString& message, bool isError = false) {
     QPalette colours = palette();
     if (isError) colours.setColor(QPalette::WindowText, theme().errorText);
     m_words->setPalette(colours);
-    m_words->setText(words);
-    m_words->setVisible(!words.isEmpty());
-    m_words->setToolTip(words);
+    m_words->setText(message);
+    m_words->setVisible(!message.isEmpty());
+    m_words->setToolTip(message);
   }
 
   void load() {
@@ -290,18 +290,19 @@ class ExperimentsDock : public QWidget {
     const auto& checks = played->summary.assertions;
     const auto failed =
         std::count_if(checks.begin(), checks.end(), [](const auto& one) { return !one.holds; });
-    QString words = complete ? QStringLiteral("%1 runs").arg(runs)
-                             : QStringLiteral("Cancelled: %1 of %2 runs")
-                                   .arg(runs)
-                                   .arg(played->experiment.allRuns());
+    QString message = complete ? QStringLiteral("%1 runs").arg(runs)
+                               : QStringLiteral("Cancelled: %1 of %2 runs")
+                                     .arg(runs)
+                                     .arg(played->experiment.allRuns());
     if (!notPlayed.isEmpty()) {
-      words += QStringLiteral(". Not played: ") + notPlayed.join(QStringLiteral(", "));
+      message += QStringLiteral(". Not played: ") + notPlayed.join(QStringLiteral(", "));
     } else if (!checks.empty()) {
-      words += failed == 0
-                   ? QStringLiteral("; all assertions hold")
-                   : QStringLiteral("; %1 of %2 assertions fail").arg(failed).arg(checks.size());
+      message += failed == 0
+                     ? QStringLiteral("; all assertions hold")
+                     : QStringLiteral("; %1 of %2 assertions fail").arg(failed).arg(checks.size());
     }
-    say(words + QStringLiteral(". Results: ") + played->folder, notPlayed.isEmpty() && failed > 0);
+    say(message + QStringLiteral(". Results: ") + played->folder,
+        notPlayed.isEmpty() && failed > 0);
     if (m_tabs->currentWidget() == m_form || m_tabs->currentWidget() == m_text) {
       m_tabs->setCurrentIndex(1);
     }

@@ -53,7 +53,7 @@ class FieldPointer : public QObject {
   void dragRobots();
   void dragTurn();
   /// How far these robots can go towards `way` together: the first that reaches a wall holds all.
-  QPointF together(const std::vector<RobotPlacement>& placements, const QPointF& way) const;
+  QPointF together(const std::vector<RobotPlacement>& placements, const QPointF& offset) const;
   /// Of the ball that is kicked along the arrow that is being drawn.
   Velocity kick() const;
   void preview();

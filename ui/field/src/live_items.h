@@ -37,7 +37,7 @@ struct OtherPose {
   Pose pose;
   Point here;  ///< where this source shows it
   TeamColor team = TeamColor::Blue;
-  QString words;  ///< "12 cm 4°"
+  QString text;  ///< "12 cm 4°"
   bool operator==(const OtherPose&) const = default;
 };
 

@@ -21,9 +21,9 @@ struct NamedRobot {
   RobotKey id;
   QPointF at;
   double radius = 0.0;
-  QSizeF name;        ///< how large its name is when written
-  QSizeF word = {};   ///< the plate with what is said of it; empty: nothing
-  QString said = {};  ///< robots side by side of which the same is said share a plate
+  QSizeF name;           ///< how large its name is when written
+  QSizeF tag = {};       ///< the plate with what is said of it; empty: nothing
+  QString tagText = {};  ///< robots side by side of which the same is said share a plate
 };
 
 /// Where a name or a word is written.
@@ -38,8 +38,8 @@ using DirectionsBefore = std::map<RobotKey, int>;
 
 /// Places for the words, below their robots where there is room, and inside `area`. Of robots that
 /// share a word only the first has a place: in the middle of them.
-std::vector<PlacedName> placeWords(std::span<const NamedRobot> robots, const QRectF& area,
-                                   DirectionsBefore& before);
+std::vector<PlacedName> placeTags(std::span<const NamedRobot> robots, const QRectF& area,
+                                  DirectionsBefore& before);
 /// Places for the names of those that need one; `taken` is not written on.
 std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots, DirectionsBefore& before,
                                    std::vector<QRectF> taken = {});
@@ -53,12 +53,12 @@ class NameLabelsItem : public FieldItem {
     QPointF at;           ///< in the scene, m
     double radius = 0.0;  ///< as drawn, m
     QString name;         ///< empty: not to be written
-    QString word;
+    QString tag;
   };
   /// Also says where the words go, which the robots write themselves.
   void setRobots(std::vector<Robot> robots);
   /// In pixels from the robot, of those that write a word.
-  const std::map<RobotKey, QPointF>& words() const { return m_words; }
+  const std::map<RobotKey, QPointF>& tags() const { return m_tags; }
 
   QRectF boundingRect() const override { return m_bounds; }
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
@@ -75,8 +75,8 @@ class NameLabelsItem : public FieldItem {
 
   std::vector<Robot> m_robots;
   std::vector<Label> m_labels;
-  std::map<RobotKey, QPointF> m_words;
-  DirectionsBefore m_before, m_wordsBefore;
+  std::map<RobotKey, QPointF> m_tags;
+  DirectionsBefore m_before, m_tagsBefore;
   QRectF m_bounds;
 };
 

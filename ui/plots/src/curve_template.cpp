@@ -24,21 +24,21 @@ bool isWord(const QString& group) {
 
 QStringList variablesOf(const CurveSpec& curve) {
   if (curve.kind != CurveKind::Expression) return curve.inputs;
-  const auto expression = Expression::parse(curve.expression);
+  const auto expression = PlotExpression::parse(curve.expression);
   return expression ? expression->variables() : QStringList();
 }
 
 /// As it was typed, with the names that its variables have now.
 QString presentExpression(const QString& typed, const PlotFeed& feed) {
-  static const QRegularExpression word(QStringLiteral("^[A-Za-z_]\\w*$"));
-  const auto parsed = Expression::parse(typed);
+  static const QRegularExpression identifier(QStringLiteral("^[A-Za-z_]\\w*$"));
+  const auto parsed = PlotExpression::parse(typed);
   QString shown = typed;
   for (const QString& name : parsed ? parsed->variables() : QStringList()) {
     const QString present = feed.presentName(name);
     if (present == name) continue;
     const QString group = groupOf(present), column = present.mid(group.size() + 1);
-    const QString now = word.match(group).hasMatch() ? group + QLatin1Char('.') + column
-                                                     : QStringLiteral("{%1}").arg(present);
+    const QString now = identifier.match(group).hasMatch() ? group + QLatin1Char('.') + column
+                                                           : QStringLiteral("{%1}").arg(present);
     const QString braced = QRegularExpression::escape(name);
     const QString plain = QRegularExpression::escape(QString(name).replace('/', '.'));
     shown.replace(QRegularExpression(QStringLiteral("\\{\\s*%1\\s*\\}").arg(braced)), now);
@@ -50,9 +50,9 @@ QString presentExpression(const QString& typed, const PlotFeed& feed) {
 CurveSpec ofGroup(const CurveSpec& curve, const QString& group, const PlotFeed& feed) {
   CurveSpec made = curve;
   for (QString& input : made.inputs) {
-    const QString word = groupOf(input);
-    if (!isWord(word)) continue;
-    input = feed.presentName(group + input.mid(word.size()));
+    const QString identifier = groupOf(input);
+    if (!isWord(identifier)) continue;
+    input = feed.presentName(group + input.mid(identifier.size()));
   }
   // Names of groups may have characters that only braces can hold.
   static const QRegularExpression plain(

@@ -104,9 +104,9 @@ class PlotPane : public QWidget {
  private:
   void edited();
   void expand();
-  std::vector<UnitWish> unitsOfCurves() const;
+  std::vector<AxisRequest> unitsOfCurves() const;
   LegendEntry legendEntry(std::size_t index) const;
-  /// Without drawing anew.
+  /// Without drawing again.
   void setHidden(int index, bool on);
   int freeColor() const;
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include <ui/base/referee_words.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/referee_text.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {

@@ -22,7 +22,7 @@ namespace {
 const QString folderKey = QStringLiteral("session/folder");
 constexpr std::size_t maxLogLines = 10'000;
 
-QString words(const Error& error) {
+QString textOf(const Error& error) {
   return QString::fromStdString(error.text());
 }
 
@@ -199,7 +199,7 @@ void SessionRecording::begin(const QString& path) {
   if (!made) {
     emit failed(QStringLiteral(
                     "Cannot record: %1. Choose another folder in Timeline > Folder for recordings…")
-                    .arg(words(made.error())));
+                    .arg(textOf(made.error())));
     return;
   }
   m_recorder = std::move(*made);
@@ -225,7 +225,7 @@ void SessionRecording::finish(bool matchEnds) {
         emit failed(
             QStringLiteral(
                 "The recording %1 is incomplete: %2. You can open the part that was written.")
-                .arg(path, words(done.error())));
+                .arg(path, textOf(done.error())));
         return;
       }
       if (matchEnds) emit noted(QStringLiteral("The recording ended with the match: %1").arg(path));
@@ -319,7 +319,7 @@ void SessionRecording::saveLast(double seconds) {
       if (done)
         emit saved(path);
       else
-        emit failed(QStringLiteral("Could not save: %1").arg(words(done.error())));
+        emit failed(QStringLiteral("Could not save: %1").arg(textOf(done.error())));
     });
   });
 }

@@ -17,7 +17,7 @@
 
 #include <ui/base/in_place_message.h>
 #include <ui/base/plot_target.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 #include <ui/sources/attached_boards.h>
@@ -113,7 +113,7 @@ class VariablesDock : public QWidget {
     m_words->setClearButtonEnabled(true);
     m_words->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
     connect(m_words, &QLineEdit::textChanged, this, [this](const QString& text) {
-      m_filter->setWords(text);
+      m_filter->setFilterText(text);
       filterChanged();
     });
     m_stars = makeButton("favouritesOnly", "starred-symbolic",

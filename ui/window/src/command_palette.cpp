@@ -11,8 +11,8 @@
 #include <utility>
 
 #include <ui/base/table_style.h>
+#include <ui/base/text_filter.h>
 #include <ui/base/theme.h>
-#include <ui/base/words_filter.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -46,7 +46,7 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* windo
       m_words(new QLineEdit(this)),
       m_list(new QListView(this)),
       m_model(new QStandardItemModel(this)),
-      m_filter(new WordsFilter(this)) {
+      m_filter(new TextFilter(this)) {
   setObjectName(QStringLiteral("commandPalette"));
   setWindowTitle(QStringLiteral("Find anything"));
   setAttribute(Qt::WA_DeleteOnClose);
@@ -86,7 +86,7 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* windo
     m_list->setCurrentIndex(m_filter->index(best(), 0));
   };
   connect(m_words, &QLineEdit::textChanged, this, [this, first](const QString& text) {
-    m_filter->setWords(text);
+    m_filter->setFilterText(text);
     first();
   });
   connect(m_words, &QLineEdit::returnPressed, this, &CommandPalette::runCurrent);

@@ -15,7 +15,7 @@ class QStandardItemModel;
 
 namespace pitchboard::ui {
 
-class WordsFilter;
+class TextFilter;
 
 /// Something that can be found.
 struct PaletteEntry {
@@ -42,7 +42,7 @@ class CommandPalette : public QDialog {
   QLineEdit* m_words;
   QListView* m_list;
   QStandardItemModel* m_model;
-  WordsFilter* m_filter;
+  TextFilter* m_filter;
 };
 
 }  // namespace pitchboard::ui

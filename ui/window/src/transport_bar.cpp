@@ -12,7 +12,7 @@
 #include <limits>
 #include <tuple>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/live/live_bar.h>
 #include <ui/sources/match_controller.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 
 #include <QList>
 #include <QRegularExpression>
@@ -63,7 +63,7 @@ QString joined(const QList<Part>& parts) {
 
 }  // namespace
 
-QString elidedWords(const QFontMetricsF& metrics, const QString& text, double width) {
+QString elideText(const QFontMetricsF& metrics, const QString& text, double width) {
   const auto fits = [&](const QString& some) { return metrics.horizontalAdvance(some) <= width; };
   if (fits(text)) return text;
   QList<Part> parts = partsOf(text);
