@@ -189,7 +189,7 @@ class TestCapi : public QObject {
     for (int array = 0; array < 7; ++array) {
       QByteArrayList names;
       for (std::size_t i = 0; i < pb_column_count(array); ++i) {
-        const QByteArray name = pb_column_name(array, i), words = pb_column_description(array, i);
+        const QByteArray name = pb_column_name(array, i), words = pb_column_words(array, i);
         QVERIFY2(!name.isEmpty() && !words.isEmpty(),
                  qPrintable(QStringLiteral("%1 %2").arg(array).arg(i)));
         QVERIFY2(!names.contains(name), name.constData());

@@ -24,7 +24,7 @@ extern "C" {
 
 /** Increases when functions, columns or members are added. Existing ones never change; a change
  *  that breaks programs would change the library's name (libpitchboard_sim.so.1). */
-#define PB_API_VERSION 3
+#define PB_API_VERSION 2
 
 /** Instead of the index of a world: all worlds. */
 #define PB_ALL (-1)
@@ -100,7 +100,7 @@ PB_API size_t pb_column_count(int32_t array);
 /** Returns null if there is no such column. */
 PB_API const char* pb_column_name(int32_t array, size_t column);
 /** Returns unit and meaning; null if there is no such column. */
-PB_API const char* pb_column_description(int32_t array, size_t column);
+PB_API const char* pb_column_words(int32_t array, size_t column);
 
 /** Sets the defaults. `size` must be sizeof(pb_options). */
 PB_API pb_status pb_options_init(pb_options* options, size_t size);

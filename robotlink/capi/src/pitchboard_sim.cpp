@@ -28,7 +28,7 @@ using namespace pitchboard::link;
 namespace {
 
 static_assert(PB_KEEP == Worlds::keep && PB_ALL == Worlds::all);
-static_assert(PB_BOARD_WORDS == Blackboard::description);
+static_assert(PB_BOARD_WORDS == Blackboard::words);
 
 /// What the handles of the C interface stand for. Thread-safe; a handle is never looked into.
 /// Handles are numbers that are never used twice, so that one that was destroyed is known as such
@@ -230,7 +230,7 @@ pb_status initialized(Options* options, size_t size, const Options& usual, const
 constexpr std::int32_t firstFloat = Blackboard::intVariables;
 
 Result<std::vector<Variable>> variablesOf(const std::int32_t* numbers, std::size_t count) {
-  if (numbers == nullptr || count == 0 || count > 2 * Blackboard::description) {
+  if (numbers == nullptr || count == 0 || count > 2 * Blackboard::words) {
     return failure(ErrorCode::InvalidArgument,
                    "variables must be 1 to 1024 numbers that pb_find_variable() gave");
   }
@@ -270,7 +270,7 @@ const char* pb_column_name(std::int32_t array, size_t column) {
   const auto all = columns(array);
   return column < all.size() ? all[column].name.data() : nullptr;
 }
-const char* pb_column_description(std::int32_t array, size_t column) {
+const char* pb_column_words(std::int32_t array, size_t column) {
   const auto all = columns(array);
   return column < all.size() ? all[column].description.data() : nullptr;
 }

@@ -183,7 +183,7 @@ void WorldRequest::columns() {
   const auto list = [this](const char* key, std::span<const WorldColumn> columns) {
     Json names = Json::array();
     for (const WorldColumn& column : columns) {
-      names.push_back({{"name", column.name}, {"description", column.description}});
+      names.push_back({{"name", column.name}, {"words", column.description}});
     }
     m_answer[key] = std::move(names);
   };
@@ -262,9 +262,9 @@ void WorldRequest::read() {
     return;
   }
   if (names[*what] == "boards") {
-    const std::array shape{all->count(), all->robots(), std::size_t{Blackboard::description}};
-    if (!answerable(rows * Blackboard::description)) return;
-    std::vector<std::uint32_t> out(rows * Blackboard::description);
+    const std::array shape{all->count(), all->robots(), std::size_t{Blackboard::words}};
+    if (!answerable(rows * Blackboard::words)) return;
+    std::vector<std::uint32_t> out(rows * Blackboard::words);
     if (check(all->readBoards(out))) m_answer["values"] = nested<std::uint32_t>(out, shape);
     return;
   }
@@ -278,7 +278,7 @@ void WorldRequest::read() {
 }
 
 std::optional<std::vector<Variable>> WorldRequest::variables() {
-  const auto* list = m_request.array("variables", 2 * Blackboard::description);
+  const auto* list = m_request.array("variables", 2 * Blackboard::words);
   if (!list) return {};
   std::vector<Variable> found;
   for (std::size_t i = 0; i < list->size(); ++i) {
