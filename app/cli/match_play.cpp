@@ -110,7 +110,8 @@ void addPlayOptions(CLI::App& command, MatchPlayOptions& o) {
   shared::addScenarioOptions(command, o.match);
   command
       .add_option("--speed", o.speed,
-                  "Speed relative to real time, or max; default: max with inline cognition, 1 with "
+                  "Speed relative to real time, 0.01 to 1000, or max; default: max with inline "
+                  "cognition, 1 with "
                   "separate processes, a team's programs or --obey-referee")
       ->type_name("X|max");
   command.add_flag("--keep-speed", o.keepSpeed,
@@ -167,13 +168,7 @@ Result<double> speedOf(const MatchPlayOptions& options, link::Cognition cognitio
                          !TRY(link::usesTeamPrograms(scenario));
     return ownPace ? 0.0 : 1.0;
   }
-  if (text == "max") return 0.0;
-  const std::optional<double> speed = shared::numberFrom(text);
-  if (!speed || !(*speed >= 0.001 && *speed <= 1e6)) {
-    return failure(ErrorCode::InvalidArgument,
-                   "--speed must be \"max\" or a number from 0.001 to 1000000 (1 = real time)");
-  }
-  return *speed;
+  return shared::speedFrom(text);
 }
 
 Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario,
