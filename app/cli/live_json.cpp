@@ -69,7 +69,7 @@ Json telemetryJson(const link::LiveDatagram& datagram, const std::string& team,
   for (std::size_t i = 0; i < message.count; ++i) {
     const std::string name = decoder.name(message, i);
     if (!message.has(i)) {
-      // An extra field may be a word; a named one is a number or nothing.
+      // An extra field may be text; a named one is a number or nothing.
       const bool isWord = i >= fields.size() || fields[i].type == FieldType::Text;
       values[name] =
           isWord && !message.texts[i].empty() ? Json(std::string(message.texts[i])) : Json(nullptr);

@@ -33,7 +33,7 @@ struct MatchPlayOptions {
   std::optional<int> answerReferee;
 };
 
-/// Everything above but --duration, which every command words in its own way.
+/// Everything above but --duration, which every command describes in its own way.
 void addPlayOptions(CLI::App& command, MatchPlayOptions& options);
 
 /// Errors name the option.

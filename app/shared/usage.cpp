@@ -50,7 +50,7 @@ std::string firstSentence(const std::string& text) {
   return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
 }
 
-/// The words, broken into lines that begin at `column`; the first line is there already up to it.
+/// The text, broken into lines that begin at `column`; the first line is there already up to it.
 std::string wrapped(const std::string& text, std::size_t column) {
   std::string out;
   std::size_t at = column;
@@ -137,7 +137,7 @@ class Help : public CLI::FormatterBase {
   }
 };
 
-/// The library's list of what was not expected: unknown options, or too many words.
+/// The library's list of what was not expected: unknown options, or too many arguments.
 std::string unexpectedText(const CLI::App& app, const std::vector<std::string>& arguments) {
   const CLI::App& command = chosenIn(app);
   for (const std::string& token : arguments) {
@@ -352,7 +352,7 @@ std::string completionScript(const CLI::App& app, std::string_view shell) {
   std::ranges::replace(function, '-', '_');
   const bool bash = shell == "bash";
   std::string out = bash ? "# bash completion of " + program + "\n" : "#compdef " + program + "\n";
-  // Finds the command by the words that are commands, then offers what belongs to it.
+  // Finds the command by the arguments that are commands, then offers what belongs to it.
   out += function + "() {\n  local command=" + program + " word offered=''\n";
   out += bash ? "  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}\n"
                 "  for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n"

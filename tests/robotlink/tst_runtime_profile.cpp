@@ -166,8 +166,7 @@ class TestRuntimeProfile : public QObject {
       QVERIFY2(!nobody && nobody.error().message.find("neither") != std::string::npos, text);
     }
     // Found by fuzz_rules: it was accepted, and did not read back from its own text.
-    const QByteArray odd =
-        QByteArray::fromBase64("OiAiAG4Aez3ZOnBhY2tldF9zemUiqP1/AAB0bAo=");
+    const QByteArray odd = QByteArray::fromBase64("OiAiAG4Aez3ZOnBhY2tldF9zemUiqP1/AAB0bAo=");
     const auto accepted = runtimeChoiceFromText(odd.toStdString());
     if (accepted) {
       const auto again = runtimeChoiceFromText(runtimeChoiceToText(*accepted));

@@ -105,7 +105,7 @@ std::string teamText(const MatchEvent& event) {
   return event.side ? "the " + std::string(sideName(*event.side)) + " side" : std::string();
 }
 
-/// The words of the kind, and behind them what is known more closely.
+/// Returns the predicate of the kind, followed by the details.
 std::string predicateWithDetail(const MatchEvent& event, std::string_view join = ": ") {
   std::string out(info(event.kind).predicate);
   if (event.detail.empty()) return out;

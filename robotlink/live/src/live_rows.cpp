@@ -84,7 +84,7 @@ ColumnInfo columnOf(const ProfileField& field) {
   return column;
 }
 
-/// The code of a word: a new one for each word that comes, until there are too many of them.
+/// Returns the code of a text: a new one for each new text, until there are too many of them.
 double codeOf(ColumnInfo& column, std::string_view sentText, bool& changed) {
   const auto known = std::ranges::find_if(
       column.labels, [&](const auto& label) { return label.second == sentText; });

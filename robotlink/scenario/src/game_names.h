@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What states, phases, set plays and penalties are called in files: the words of the screen in
+// The names of states, phases, set plays and penalties in files: the labels of the screen in
 // small letters, with '_' between them. Private to robotlink/scenario.
 
 #include <array>
@@ -21,7 +21,7 @@ inline std::string keyOf(std::string_view label) {
   return key;
 }
 
-/// In the order of the values. `none` stands for what has no words.
+/// In the order of the values. `none` stands for a value without a label.
 template <class Enum>
 const std::vector<std::string>& keysOf(std::string_view none = {}) {
   static const std::vector<std::string> all = [none] {

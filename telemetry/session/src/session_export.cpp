@@ -83,7 +83,7 @@ class LineWriter {
     }
     return columns;
   }
-  /// A value; `room` is what the line needs behind it. False: it has no word, nothing was put.
+  /// A value; `room` is what the line needs behind it. False: it has no label, nothing was put.
   bool putLabel(const SelectedColumn& column, double value, std::size_t room, bool json) {
     const std::string* word = column.labelOf(value);
     if (word == nullptr) return false;

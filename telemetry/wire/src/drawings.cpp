@@ -54,7 +54,7 @@ constexpr std::array<ColourName, 14> colourNames{{{"white", 0xffffffff},
 
 constexpr std::array<std::string_view, 3> frameNames{"field", "robot", "belief"};
 
-/// The words of one line.
+/// The tokens of one line.
 class LineTokens {
  public:
   explicit LineTokens(std::string_view line) : m_rest(line) {}

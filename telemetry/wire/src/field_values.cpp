@@ -10,7 +10,7 @@
 namespace pitchboard::telemetry {
 namespace {
 
-// So that `made` never grows: words point into it.
+// So that `made` never grows: texts point into it.
 constexpr std::size_t madeBytes = 16 * 1024;
 constexpr std::size_t longestText = ErrorTally::sampleBytes;
 
@@ -46,7 +46,7 @@ ReadNumber readFlag(std::string_view token) {
   return {missing, TextError::BadFlag};
 }
 
-/// The code whose word this is.
+/// Returns the code with this label.
 ReadNumber readLabel(const ProfileField& field, std::string_view token) {
   for (const auto& [code, label] : field.labels) {
     if (label == token) return {static_cast<double>(code), {}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One value of a message at its place: read as its field's type, scaled, its word kept. Private to
+// One value of a message at its place: read as its field's type, scaled, its text kept. Private to
 // wire. Any thread, with a DecodedText of its own.
 
 #include <cstddef>
@@ -24,7 +24,8 @@ void setText(const ProfileField& field, std::size_t index, std::string_view toke
              DecodedText& out);
 /// A value that was sent as a number.
 void setNumber(const ProfileField& field, std::size_t index, double value, DecodedText& out);
-/// The word of a number that the message does not have as text; "" when there is no more room.
+/// Returns the text of a number that the message does not have as text; "" if there is no more
+/// room.
 std::string_view numberText(double value, DecodedText& out);
 /// A text that ends with the call is kept.
 std::string_view keep(std::string_view text, DecodedText& out);

@@ -65,7 +65,7 @@ void FieldSink::addText(std::string_view key, std::string_view text) {
   if (const ProfileField* field = m_map->find(key, index)) {
     setText(*field, index, text, *m_out);
   } else if (extra(key, index)) {
-    // It may be anything until the team gives it a type: text is kept as a word.
+    // It may be anything until the team gives it a type: it is kept as text.
     m_out->texts[index] = text;
     m_out->values[index] = readFloat(text).value;
   }

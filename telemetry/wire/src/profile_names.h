@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The words of profile files, in the order of the enumerations of profile.h. Private to wire. Any
+// The names in profile files, in the order of the enumerations of profile.h. Private to wire. Any
 // thread.
 
 #include <array>

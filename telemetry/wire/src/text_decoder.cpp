@@ -19,7 +19,7 @@ class TokenSplitter {
   TokenSplitter(std::string_view text, char separator)
       : m_at(text.data()), m_end(text.data() + text.size()), m_separator(separator) {}
 
-  /// The next word; false at the end of the text. Between two semicolons a word may be empty.
+  /// Returns the next token; false at the end of the text. Between two semicolons it may be empty.
   bool next(std::string_view& token) {
     while (m_at != m_end && isSpace(*m_at)) ++m_at;
     if (m_at == m_end) return false;
@@ -129,7 +129,7 @@ void TextDecoder::decodeWords(std::string_view datagram, DecodedText& out) const
     if (read < fields) {
       setText(sent.fields[read], index, token, out);
     } else {
-      // It may be anything until the team gives it a type: text is kept as a word.
+      // It may be anything until the team gives it a type: it is kept as text.
       out.tokens[index] = token;
       out.values[index] = readFloat(token).value;
     }

@@ -26,7 +26,7 @@ bool isUnit(const QString& word) {
   return unit.match(word).hasMatch();
 }
 
-/// Neighbouring words are one part; a number takes its unit along.
+/// Neighbouring words are one part; a number keeps its unit.
 QList<Part> partsOf(const QString& text) {
   QList<Part> parts;
   bool takesUnit = false;
@@ -44,7 +44,7 @@ QList<Part> partsOf(const QString& text) {
   return parts;
 }
 
-/// Shortens words to a width; a letter or two of the last word, which say nothing, are left out.
+/// Shortens words to a width; a remainder of one or two letters is left out.
 QString shortened(const QFontMetricsF& metrics, const QString& words, double width) {
   constexpr qsizetype scrap = 2;  // letters
   QString shown = metrics.elidedText(words, Qt::ElideRight, width);

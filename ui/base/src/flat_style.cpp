@@ -181,7 +181,7 @@ void FlatStyle::drawControl(ControlElement element, const QStyleOption* option, 
   QProxyStyle::drawControl(element, &shown, painter, widget);
 }
 
-// A word says what a dialog's button does; a coloured tick beside it says it twice.
+// The label of a dialog's button says what it does; a coloured tick would repeat it.
 int FlatStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                          QStyleHintReturn* more) const {
   if (hint == SH_DialogButtonBox_ButtonsHaveIcons) return 0;

@@ -17,7 +17,7 @@ namespace {
 constexpr int mostTextLines = 4000;
 constexpr int mostCorners = 200;
 
-/// The parts of a font in which the studio's words differ.
+/// The properties in which the studio's fonts differ.
 struct FontKey {
   explicit FontKey(const QFont& font)
       : family(font.family()),

@@ -17,7 +17,7 @@ class TeamBallsItem : public FieldItem {
  public:
   using FieldItem::FieldItem;
   void setBalls(std::vector<link::TeamBall> balls);
-  /// Where robots are drawn, m: the words keep off them where they can.
+  /// Where robots are drawn, m: the texts avoid them where they can.
   void setRobots(std::vector<QPointF> robots, double radius);
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;

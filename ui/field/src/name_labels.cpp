@@ -17,7 +17,7 @@ namespace {
 constexpr double covered = 0.55;  // of the radius: where the number stands
 constexpr double gap_px = 3.0;
 constexpr std::array<double, 4> steps_px{0.0, 12.0, 26.0, 44.0};
-constexpr std::size_t tagSteps = 2;  // no line leads to a word
+constexpr std::size_t tagSteps = 2;  // no line leads to a tag
 constexpr int below = 1;             // of the directions
 constexpr double nose = 0.7;         // of the radius: how far it reaches beyond the disc
 constexpr int namePixels = 10;

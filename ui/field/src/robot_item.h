@@ -36,7 +36,7 @@ class RobotItem : public FieldItem {
   void setKey(const RobotKey& key) { m_id = key; }
   const RobotLook& look() const { return m_look; }
   void setLook(const RobotLook& look);
-  /// Where its word is written, in pixels from its centre; null: it is not written.
+  /// Where its tag is painted, in pixels from its centre; null: it is not painted.
   void setTagPosition(const std::optional<QPointF>& place);
 
   /// Where the turning handle is, in metres of the scene.

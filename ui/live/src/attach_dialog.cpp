@@ -38,7 +38,7 @@ QTableWidget* makeTable(QWidget* parent, const char* name, const QStringList& co
   table->setHorizontalHeaderLabels(columns);
   styleTable(table);
   table->setSelectionMode(QAbstractItemView::SingleSelection);
-  // The last column says what it is, in words: it has all that the others do not need.
+  // The last column has the explanation: it gets all the width that the others do not need.
   for (int column = 0; column + 1 < table->columnCount(); ++column) {
     table->horizontalHeader()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
   }

@@ -80,8 +80,8 @@ class LogModel : public QAbstractTableModel {
   int m_startLines = 0;
 };
 
-/// Lines with all of the words, of a level and above. Lines of processes that are starting are
-/// folded away unless asked for.
+/// Lines that contain the filter text, of a level and above. Lines of processes that are starting
+/// are folded away unless asked for.
 class LogFilter : public TextFilter {
  public:
   using TextFilter::TextFilter;

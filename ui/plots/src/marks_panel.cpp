@@ -150,7 +150,7 @@ void MarksPanel::forgetTextWidths() {
   }
 }
 
-// Numbers have all the room that they need, words of a code less. Columns do not become narrower
+// Numbers have all the room that they need, labels of codes less. Columns do not become narrower
 // again while a mark is dragged.
 void MarksPanel::fitTextColumns() {
   QStyleOptionViewItem option;

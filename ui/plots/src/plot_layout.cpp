@@ -25,7 +25,7 @@ constexpr std::size_t mostLayoutBytes = 4 << 20;  // a layout has some kilobytes
 constexpr std::size_t mostOfAnything =
     200;  // pages, plots, curves: a file with more is not one of ours
 
-/// A missing word is the first one; `what` as in "there is no style of curve ...".
+/// A missing name is the first one; `what` as in "there is no style of curve ...".
 template <class Enum, std::size_t N>
 Enum readChoice(const JsonObject& object, std::string_view key,
                 const std::array<std::string_view, N>& choices, std::string_view what) {

@@ -112,7 +112,7 @@ class RefereePanel : public QScrollArea {
   }
   void resizeEvent(QResizeEvent* event) override {
     QScrollArea::resizeEvent(event);
-    // Five controls in a row would cut each other's words.
+    // Five controls in a row would cut off each other's labels.
     const bool wide = event->size().width() >= scaled(this, 480);
     m_penaltyRows->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
   }

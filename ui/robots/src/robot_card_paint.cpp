@@ -41,7 +41,7 @@ int RobotCard::rowHeight(int row) const {
   return 16;
 }
 
-/// Lamps and battery make room for words and volts.
+/// Lamps and battery make room for text and volts.
 bool RobotCard::isNarrow() const {
   return width() < scaled(this, 232);
 }
@@ -258,7 +258,7 @@ void RobotCard::paintFoot(QPainter& painter) const {
   painter.setFont(themeFont(TypeRole::Body));
   painter.setPen(m_state.timedOut ? theme().disabledText : theme().text);
   const QRect room = row.adjusted(0, 0, -taken, 0);
-  // Advice gives way as a whole, because its value without the words says nothing.
+  // Advice is left out as a whole, because its value says nothing without the text.
   QString action = m_state.action;
   if (painter.fontMetrics().horizontalAdvance(action) > room.width()) {
     action = action.section(adviceMark, 0, 0);

@@ -184,7 +184,7 @@ std::vector<EventMark> layOutMarks(const std::deque<link::MatchEvent>& events, c
         i + 1 < kept.size() ? kept[i + 1].x - sizes.spacing * 0.6 : axis.left + axis.width;
     const int room = static_cast<int>(stop - kept[i].x - sizes.labelGap);
     constexpr int longest = 160;
-    constexpr int shortest = 5;  // characters: less of a longer word says nothing
+    constexpr int shortest = 5;  // characters: less of a longer text says nothing
     const QString shown = elideText(font, predicate, std::min(room, longest));
     if (room > 0 && (shown == predicate || shown.size() >= shortest)) kept[i].label = shown;
   }

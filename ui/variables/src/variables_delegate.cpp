@@ -58,7 +58,7 @@ QPainterPath sparkPath(const QList<telemetry::SeriesBucket>& buckets, const QRec
   return path;
 }
 
-/// Beside the words of a cell, px.
+/// Beside the text of a cell, px.
 int marginOf(const QStyleOptionViewItem& option) {
   return option.widget->style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, option.widget) +
          1;
@@ -160,7 +160,7 @@ void VariablesDelegate::paint(QPainter* painter, const QStyleOptionViewItem& opt
   }
 }
 
-// Most cells are words on the row's ground. What is in sight is painted ten times a second, and
+// Most cells are text on the row's ground. What is in sight is painted ten times a second, and
 // Qt's way through options, style sheet and text layout takes several times as long.
 void VariablesDelegate::paintPlain(QPainter* painter, const QStyleOptionViewItem& option,
                                    const QModelIndex& index) const {

@@ -102,7 +102,7 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* windo
 bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::KeyPress) {
     const int key = static_cast<QKeyEvent*>(event)->key();
-    // The list is moved in while the words keep the focus.
+    // The list is moved in while the text field keeps the focus.
     if (key == Qt::Key_Up || key == Qt::Key_Down || key == Qt::Key_PageUp ||
         key == Qt::Key_PageDown) {
       QCoreApplication::sendEvent(m_list, event);

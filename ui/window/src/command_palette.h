@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One field that finds everything by words: what menus offer, variables, robots, events. Enter does
+// One search field for everything: actions of the menus, variables, robots, events. Enter does
 // it: runs the action, plots the variable, selects the robot, shows the moment of the event. Made
 // when it is asked for; closes after that. UI thread only.
 

@@ -243,7 +243,7 @@ void MainWindow::showPalette() {
   std::vector<PaletteEntry> entries, deep;
   for (const MenuAction& each : menuActions(*menuBar())) {
     if (!each.action->isEnabled()) continue;
-    // What stands three menus deep is hardly meant by words that a variable has as well.
+    // An action three menus deep is hardly meant if a variable has the same text.
     const bool isDeep = each.menu.count(QStringLiteral(": ")) > 1;
     (isDeep ? deep : entries)
         .push_back({QStringLiteral("%1: %2").arg(each.menu, each.text),

@@ -225,7 +225,7 @@ void MainWindow::resetLayout() {
   setUpdatesEnabled(true);
 }
 
-// What the keyboard reaches can be said: by its own words, or by those of the dock it is in.
+// Screen readers need a name for everything that the keyboard reaches: its own, or its dock's.
 void MainWindow::nameForScreenReaders() {
   centralWidget()->setAccessibleName(QStringLiteral("Field"));
   for (QWidget* each : findChildren<QWidget*>()) {

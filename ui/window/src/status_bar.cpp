@@ -26,7 +26,7 @@
 namespace pitchboard::ui {
 namespace {
 
-/// Narrower than its words it ends in "…", instead of asking for a wider window.
+/// If it is narrower than its text it ends in "…", instead of asking for a wider window.
 class StatusLabel : public QLabel {
  public:
   using QLabel::QLabel;

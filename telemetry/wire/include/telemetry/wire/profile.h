@@ -20,7 +20,7 @@ enum class FieldType : std::uint8_t {
   Int,    ///< whole number that fits 32 bits
   Float,  ///< number that fits IEEE single
   Flag,   ///< 0 or 1
-  Text    ///< a word; a number only if `labels` have one for it
+  Text    ///< a text; a number only if `labels` have one for it
 };
 
 /// How a datagram is written.

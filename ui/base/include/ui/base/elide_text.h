@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Shortens a line of text so that it fits, without showing a wrong number: words may be cut, but
+// Shortens a line of text so that it fits, without showing a wrong number: text may be cut, but
 // never a number with its unit. Pure function; any thread.
 
 #include <QFontMetricsF>
