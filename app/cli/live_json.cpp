@@ -70,9 +70,9 @@ Json telemetryJson(const link::LiveDatagram& datagram, const std::string& team,
     const std::string name = decoder.name(message, i);
     if (!message.has(i)) {
       // An extra field may be text; a named one is a number or nothing.
-      const bool isWord = i >= fields.size() || fields[i].type == FieldType::Text;
+      const bool isText = i >= fields.size() || fields[i].type == FieldType::Text;
       values[name] =
-          isWord && !message.texts[i].empty() ? Json(std::string(message.texts[i])) : Json(nullptr);
+          isText && !message.texts[i].empty() ? Json(std::string(message.texts[i])) : Json(nullptr);
     } else if (message.values[i] == std::floor(message.values[i]) &&
                std::abs(message.values[i]) < 9e15 &&
                (i >= fields.size() || fields[i].type != FieldType::Float)) {

@@ -166,7 +166,7 @@ class TestMatchPackets : public QObject {
       const auto packet = telemetry::decodeReferee(std::string_view(bytes)).value();
       const auto order = RefereeOrders().take(std::get<telemetry::RefereeState>(packet), 12,
                                               world.game->teams[1].slotOf(shirt));
-      return order ? order->word : -1;
+      return order ? order->code : -1;
     };
     const auto call = [&](const sim::RefereeCall& one) {
       QVERIFY(match.simulation().call(one));

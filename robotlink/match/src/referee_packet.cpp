@@ -292,8 +292,8 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
   const AnnouncedSetPlay announced = setPlayIn(packet);
   game.restart.kind = announced.kind;
   if (announced.kind != SetPlay::None) {
-    const bool says = packet.secStateInfo && packet.size == 688;
-    const int step = says ? (*packet.secStateInfo)[1] : game.stopped ? 0 : 2;
+    const bool hasDetails = packet.secStateInfo && packet.size == 688;
+    const int step = hasDetails ? (*packet.secStateInfo)[1] : game.stopped ? 0 : 2;
     game.restart.step = step == 0 ? Step::Placing : step == 1 ? Step::Preparing : Step::Taking;
     game.restart.team = indexOf(announced.team);
   }

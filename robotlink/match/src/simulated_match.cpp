@@ -232,7 +232,7 @@ void SimulatedMatch::takeDrawings(std::vector<ReceivedDrawing>& out) {
   auto& drawings = m_parts->drawings;
   if (!drawings) drawings = std::make_unique<MatchDrawings>(claim->number().drawingPort());
   const sim::WorldState& state = simulation().state();
-  drawings->hear(static_cast<double>(state.tick) / state.settings.tickRate, out);
+  drawings->receive(static_cast<double>(state.tick) / state.settings.tickRate, out);
 }
 
 std::vector<CognitionDebug> SimulatedMatch::cognitionDebug() {

@@ -152,7 +152,7 @@ void RolloutWorld::sample(const Belief& belief) {
     body.error = {known.pose.position.x - body.pose.position.x,
                   known.pose.position.y - body.pose.position.y};
     body.yawError = wrapToPi(known.pose.yaw - body.pose.yaw);
-    body.sigma = std::max(known.sigma, of(i).belief.place.told);
+    body.sigma = std::max(known.sigma, of(i).belief.place.filterSigma);
     body.variant = known.shares.empty() ? 0 : variantOf(known.shares, random.uniform());
     constexpr double slowest = 0.1;
     body.pace = known.paceSigma > 0.0

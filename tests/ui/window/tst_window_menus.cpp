@@ -224,7 +224,7 @@ class TestWindowMenus : public QObject {
     Studio s;
     QTRY_VERIFY(s.controller.frame());
     s.window.showPalette();
-    auto* words = s.window.findChild<QLineEdit*>(QStringLiteral("paletteWords"));
+    auto* words = s.window.findChild<QLineEdit*>(QStringLiteral("paletteSearch"));
     auto* list = s.window.findChild<QListView*>(QStringLiteral("paletteList"));
     const auto* empty = s.window.findChild<QLabel*>(QStringLiteral("paletteEmpty"));
     // An action that asks for more is as exact as one that does not.

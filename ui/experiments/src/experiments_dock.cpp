@@ -45,7 +45,7 @@ class ExperimentsDock : public QWidget {
         m_start(new QPushButton(QStringLiteral("Start"), this)),
         m_report(new QPushButton(QStringLiteral("Report"), this)),
         m_progress(new QProgressBar(this)),
-        m_words(new OneLine(this)),
+        m_message(new OneLine(this)),
         m_tabs(new ResultsTabs(parts.compared != nullptr, this)),
         m_form(new ExperimentForm(this)),
         m_text(new QPlainTextEdit(this)) {
@@ -96,8 +96,8 @@ class ExperimentsDock : public QWidget {
     });
     m_progress->setTextVisible(false);
     m_progress->setFixedSize(scaled(this, 140), scaled(this, 8));
-    m_words->setObjectName(QStringLiteral("experimentWords"));
-    m_words->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_message->setObjectName(QStringLiteral("experimentMessage"));
+    m_message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     auto* row = new QHBoxLayout;
     const int gap = scaled(this, 4);
     row->setContentsMargins(gap, gap, gap, gap);
@@ -112,8 +112,8 @@ class ExperimentsDock : public QWidget {
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addLayout(row);
-    m_words->setContentsMargins(gap, 0, gap, gap);
-    layout->addWidget(m_words);
+    m_message->setContentsMargins(gap, 0, gap, gap);
+    layout->addWidget(m_message);
     layout->addWidget(m_tabs, 1);
     setMinimumHeight(scaled(this, 80));
   }
@@ -159,10 +159,10 @@ class ExperimentsDock : public QWidget {
   void say(const QString& message, bool isError = false) {
     QPalette colours = palette();
     if (isError) colours.setColor(QPalette::WindowText, theme().errorText);
-    m_words->setPalette(colours);
-    m_words->setText(message);
-    m_words->setVisible(!message.isEmpty());
-    m_words->setToolTip(message);
+    m_message->setPalette(colours);
+    m_message->setText(message);
+    m_message->setVisible(!message.isEmpty());
+    m_message->setToolTip(message);
   }
 
   void load() {
@@ -314,7 +314,7 @@ class ExperimentsDock : public QWidget {
   QPushButton* m_start;
   QPushButton* m_report;
   QProgressBar* m_progress;
-  QLabel* m_words;
+  QLabel* m_message;
   ResultsTabs* m_tabs;
   ExperimentForm* m_form;
   QPlainTextEdit* m_text;

@@ -54,8 +54,8 @@ std::vector<RobotPlacement> FieldPointer::standing(const std::vector<RobotKey>& 
     const link::RobotFrame* robot = pose ? m_scene->frame()->robot(key) : nullptr;
     if (robot == nullptr) continue;
     // Keys and wheel come faster than frames: none of their steps may be lost.
-    if (m_scene->frame() && m_scene->frame()->serial == m_onTheWaySince) {
-      for (const RobotPlacement& moved : m_onTheWay) {
+    if (m_scene->frame() && m_scene->frame()->serial == m_pendingSince) {
+      for (const RobotPlacement& moved : m_pending) {
         if (moved.id == robot->slot()) pose = moved.to;
       }
     }
@@ -66,11 +66,11 @@ std::vector<RobotPlacement> FieldPointer::standing(const std::vector<RobotKey>& 
 
 void FieldPointer::nudgeTo(const std::vector<RobotPlacement>& placements) {
   if (placements.empty()) return;
-  if (m_scene->frame()->serial != m_onTheWaySince) m_onTheWay.clear();
-  m_onTheWaySince = m_scene->frame()->serial;
+  if (m_scene->frame()->serial != m_pendingSince) m_pending.clear();
+  m_pendingSince = m_scene->frame()->serial;
   for (const RobotPlacement& placement : placements) {
-    std::erase_if(m_onTheWay, [&](const auto& moved) { return moved.id == placement.id; });
-    m_onTheWay.push_back(placement);
+    std::erase_if(m_pending, [&](const auto& moved) { return moved.id == placement.id; });
+    m_pending.push_back(placement);
   }
   m_controller->edits()->nudgeRobots(placements);
 }

@@ -74,8 +74,8 @@ class FieldPointer : public QObject {
   RobotKey m_pivot;  // the robot whose handle is held
   Point m_ballFrom;
   std::vector<RobotKey> m_selectedBefore;
-  std::vector<RobotPlacement> m_onTheWay;
-  std::uint64_t m_onTheWaySince = 0;  // serial of the frame they were made on
+  std::vector<RobotPlacement> m_pending;
+  std::uint64_t m_pendingSince = 0;  // serial of the frame they were made on
   bool m_clickedOneOfSeveral = false;
 };
 

@@ -18,7 +18,7 @@ QString groupOf(const QString& name) {
   return name.left(name.indexOf(QLatin1Char('/')));
 }
 
-bool isWord(const QString& group) {
+bool isPlainName(const QString& group) {
   return group == eachGroup || group == firstGroup;
 }
 
@@ -51,7 +51,7 @@ CurveSpec ofGroup(const CurveSpec& curve, const QString& group, const PlotFeed& 
   CurveSpec made = curve;
   for (QString& input : made.inputs) {
     const QString identifier = groupOf(input);
-    if (!isWord(identifier)) continue;
+    if (!isPlainName(identifier)) continue;
     input = feed.presentName(group + input.mid(identifier.size()));
   }
   // Names of groups may have characters that only braces can hold.
@@ -75,7 +75,7 @@ CurveSpec ofGroup(const CurveSpec& curve, const QString& group, const PlotFeed& 
 bool isTemplate(const CurveSpec& curve) {
   const QStringList names = variablesOf(curve);
   return std::any_of(names.begin(), names.end(),
-                     [](const QString& name) { return isWord(groupOf(name)); });
+                     [](const QString& name) { return isPlainName(groupOf(name)); });
 }
 
 QList<CurveSpec> curvesOf(const CurveSpec& curve, PlotFeed& feed) {
@@ -83,7 +83,7 @@ QList<CurveSpec> curvesOf(const CurveSpec& curve, PlotFeed& feed) {
   bool every = false;
   for (const QString& name : variablesOf(curve)) {
     const QString group = groupOf(name);
-    if (!isWord(group)) continue;
+    if (!isPlainName(group)) continue;
     columns << name.mid(group.size() + 1);
     every = every || group == eachGroup;
   }

@@ -26,7 +26,7 @@
 namespace pitchboard::ui {
 namespace {
 constexpr int mostEventsNamed = 3;
-constexpr int nameWidth = 188, numberWidth = 54, wordWidth = 84;  // px of the mock
+constexpr int nameWidth = 188, numberWidth = 54, labelWidth = 84;  // px of the mock
 constexpr int widestText = 124;
 constexpr int wordColumns[] = {MarksModel::AtA, MarksModel::AtB};
 
@@ -141,7 +141,7 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
 QSize MarksPanel::sizeHint() const {
   // All columns side by side.
   constexpr int numbers = MarksModel::columns - 1 - static_cast<int>(std::size(wordColumns));
-  return {scaled(this, nameWidth + numbers * numberWidth + 2 * wordWidth), scaled(this, 120)};
+  return {scaled(this, nameWidth + numbers * numberWidth + 2 * labelWidth), scaled(this, 120)};
 }
 
 void MarksPanel::forgetTextWidths() {
@@ -162,8 +162,8 @@ void MarksPanel::fitTextColumns() {
       const QModelIndex cell = m_model->index(row, column);
       const int wide = m_table->itemDelegate()->sizeHint(option, cell).width();
       const QString text = cell.data().toString();
-      const bool isWord = !text.isEmpty() && text.front().isLetter();
-      wanted = std::max(wanted, isWord ? std::min(wide, scaled(this, widestText)) : wide);
+      const bool isText = !text.isEmpty() && text.front().isLetter();
+      wanted = std::max(wanted, isText ? std::min(wide, scaled(this, widestText)) : wide);
     }
     if (wanted != m_table->columnWidth(column)) m_table->setColumnWidth(column, wanted);
   }

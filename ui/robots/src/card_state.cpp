@@ -226,9 +226,9 @@ CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
   for (std::size_t i = 0; i < card.lamps.size(); ++i) {
     const telemetry::ProcessHeartbeat& lamp = robot.lamps[i];
     const double seconds = std::min(telemetry::secondsOf(lamp.since), 1e6);
-    const bool isSilent = lamp.state == LampState::NotResponding;
-    card.lamps[i] = {lamp.state, isSilent ? static_cast<int>(seconds) : 0,
-                     isSilent && isStopped(robot, card.process(i))};
+    const bool isNotResponding = lamp.state == LampState::NotResponding;
+    card.lamps[i] = {lamp.state, isNotResponding ? static_cast<int>(seconds) : 0,
+                     isNotResponding && isStopped(robot, card.process(i))};
   }
   if (robot.decided || !robot.link) card.action = actionText(robot.decided.value_or(robot.action));
   if (card.timedOut && !card.action.isEmpty()) {

@@ -204,7 +204,7 @@ void SessionRecording::begin(const QString& path) {
   }
   m_recorder = std::move(*made);
   m_path = path;
-  m_told.clear();
+  m_reported.clear();
   m_timer->start();
   emit changed();
 }
@@ -263,7 +263,7 @@ void SessionRecording::checkHealth() {
 // Once for each kind; the status bar says it all the time.
 void SessionRecording::warnOf(const telemetry::SessionStatus& status) {
   const telemetry::RecordingTrouble trouble = telemetry::troubleOf(status);
-  if (trouble == telemetry::RecordingTrouble::None || !m_told.insert(trouble).second) return;
+  if (trouble == telemetry::RecordingTrouble::None || !m_reported.insert(trouble).second) return;
   emit noted(QString::fromStdString(telemetry::troubleText(status)));
 }
 

@@ -39,7 +39,7 @@ class CommandPalette : public QDialog {
   int best() const;
 
   std::vector<PaletteEntry> m_entries;
-  QLineEdit* m_words;
+  QLineEdit* m_search;
   QListView* m_list;
   QStandardItemModel* m_model;
   TextFilter* m_filter;

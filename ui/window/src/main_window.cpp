@@ -431,8 +431,8 @@ void MainWindow::connectNotices() {
   const auto tell = [this](const QString& topic) {
     return [this, topic](const QString& sentence) { m_notices->show({topic}, sentence); };
   };
-  for (const auto said : {&SessionRecording::failed, &SessionRecording::noted}) {
-    connect(m_recording, said, m_notices, tell(recording));
+  for (const auto message : {&SessionRecording::failed, &SessionRecording::noted}) {
+    connect(m_recording, message, m_notices, tell(recording));
   }
   connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
   connect(m_recording, &SessionRecording::changed, m_notices, [this] {

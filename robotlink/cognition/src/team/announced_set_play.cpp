@@ -51,8 +51,8 @@ AnnouncedSetPlay setPlayIn(const telemetry::RefereeState& packet) {
   if (announced.kind == sim::SetPlay::None) return announced;
   // Of 2021 on the Humanoid League says whose it is beside it; others by the kick-off.
   constexpr int sizeWithTaker = 688;
-  const bool says = packet.secStateInfo && packet.size == sizeWithTaker;
-  announced.team = says ? (*packet.secStateInfo)[0] : packet.kickOffTeam;
+  const bool hasDetails = packet.secStateInfo && packet.size == sizeWithTaker;
+  announced.team = hasDetails ? (*packet.secStateInfo)[0] : packet.kickOffTeam;
   return announced;
 }
 
