@@ -84,7 +84,7 @@ Result<void> runStudio(std::vector<std::string> arguments,
   std::array<char, 4096> buffer{};
   for (bool asked = false;;) {
     if (interrupted && !std::exchange(asked, true)) kill(process, SIGTERM);
-    const ssize_t count = read(studio.get(), buffer.data(), buffer.size());
+    const ssize_t count = read(output.get(), buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
     studio.take({buffer.data(), static_cast<std::size_t>(count)}, progress);

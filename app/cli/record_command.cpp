@@ -66,8 +66,8 @@ class Health {
     std::snprintf(text, sizeof text, "%.1f s, %.1f MB", status.seconds,
                   static_cast<double>(status.bytes) / 1e6);
     const std::string room = freeSpaceText(status);
-    m_progress.say(text + (room.empty() ? room : ", " + room) +
-                   (trouble == RecordingTrouble::DiskBehind ? ", disk cannot keep up" : ""));
+    m_progress.show(text + (room.empty() ? room : ", " + room) +
+                    (trouble == RecordingTrouble::DiskBehind ? ", disk cannot keep up" : ""));
   }
 
  private:

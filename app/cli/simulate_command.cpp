@@ -178,7 +178,7 @@ Result<void> simulate(const Arguments& arguments) {
     Progress progress("simulated", false);
     outcome = playToEnd(player, speed, [&] {
       const double rate = player.match().simulation().state().settings.tickRate;
-      progress.say(secondsToText(static_cast<double>(player.currentTick()) / rate));
+      progress.show(secondsToText(static_cast<double>(player.currentTick()) / rate));
       return !trace || trace->written();
     });
   }

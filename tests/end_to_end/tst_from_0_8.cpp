@@ -284,9 +284,9 @@ class TestFrom08 : public QObject {
                            QStringLiteral("--screenshot-to"),
                            m_folder.filePath(QStringLiteral("s.png"))}));
     QVERIFY(studio.waitForFinished(longWait));
-    const QByteArray text = studio.readAllStandardError();
-    QVERIFY2(studio.exitCode() == 0, text);
-    QVERIFY2(!text.contains("plots"), text);
+    const QByteArray output = studio.readAllStandardError();
+    QVERIFY2(studio.exitCode() == 0, output);
+    QVERIFY2(!output.contains("plots"), output);
     const QSettings after(path, QSettings::IniFormat);
     const auto curvesOf = [](const QSettings& settings) {
       QList<qsizetype> counts;

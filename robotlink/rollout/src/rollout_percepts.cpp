@@ -24,7 +24,7 @@ void RolloutWorld::drift(std::size_t i, RandomBatch::Sequence& draws) {
   body.error.x = noise.place.step(body.error.x, cycleTime, body.inMotion, draws.normal(0.0, 1.0));
   body.error.y = noise.place.step(body.error.y, cycleTime, body.inMotion, draws.normal(0.0, 1.0));
   body.yawError = noise.yaw.step(body.yawError, cycleTime, body.inMotion, draws.normal(0.0, 1.0));
-  body.sigma += noise.place.gain * cycleTime * (noise.place.report - body.sigma);
+  body.sigma += noise.place.gain * cycleTime * (noise.place.filterSigma - body.sigma);
 }
 
 Pose RolloutWorld::believed(std::size_t i) const {

@@ -130,7 +130,7 @@ void TextDecoder::decodeWords(std::string_view datagram, DecodedText& out) const
       setText(sent.fields[read], index, token, out);
     } else {
       // It may be anything until the team gives it a type: it is kept as text.
-      out.tokens[index] = token;
+      out.texts[index] = token;
       out.values[index] = readFloat(token).value;
     }
     ++read;
@@ -207,10 +207,10 @@ void TextDecoder::publish(DecodedText& out) const {
   const std::size_t shown = profile().fields.size();
   for (std::size_t i = fields; i < shown; ++i) {
     out.values[i] = std::numeric_limits<double>::quiet_NaN();
-    out.tokens[i] = {};
+    out.texts[i] = {};
   }
   for (const std::size_t index : m_plan->published.convert(out.values)) {
-    out.tokens[index] =
+    out.texts[index] =
         std::isnan(out.values[index]) ? std::string_view() : numberText(out.values[index], out);
   }
 }

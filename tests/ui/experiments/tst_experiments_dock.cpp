@@ -202,7 +202,8 @@ void TestExperimentsDock::errorIsReportedWhereTheFileIs() {
       ->setPlainText(QStringLiteral("{\n\"version\": 1,\n\"scenari\": 2}"));
   dock.press();
   QCOMPARE(dock.start(), QStringLiteral("Start"));
-  QVERIFY2(dock.message().startsWith(QStringLiteral("File:3: scenari")), qPrintable(dock.message()));
+  QVERIFY2(dock.message().startsWith(QStringLiteral("File:3: scenari")),
+           qPrintable(dock.message()));
 }
 
 void TestExperimentsDock::cancelKeepsWhatIsThere() {

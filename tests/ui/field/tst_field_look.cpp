@@ -281,7 +281,7 @@ class TestFieldLook : public QObject {
       QVERIFY(!box.intersects(QRectF(robot.at - QPointF(12, 12), QSizeF(24, 24))));
     }
     // What differs is said of each.
-    for (std::size_t i = 0; i < all.size(); ++i) all[i].said = QString("timeout %1 s").arg(i);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].tagText = QString("timeout %1 s").arg(i);
     before.clear();
     QCOMPARE(placeTags(all, area, before).size(), all.size());
   }

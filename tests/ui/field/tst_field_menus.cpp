@@ -69,7 +69,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
   void theRefereeIsInTheMenus() {
     const auto penalty = [this](std::size_t robot) {
       const auto& is = m_controller->frame()->robots[robot].penalty;
-      return is ? QString::fromStdString(is->words) : QString();
+      return is ? QString::fromStdString(is->text) : QString();
     };
     QVERIFY(!trigger(pose(1).position, "Pardon"));  // this match has no referee
     chooseReferee(m_controller->edits(), "humanoid-2021", "rules");

@@ -35,8 +35,8 @@ QString actionText(int code) {
   return QString::fromStdString(actionLabel(code));
 }
 
-QString capitalised(std::string_view text) {
-  QString text = QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+QString capitalised(std::string_view name) {
+  QString text = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
   if (!text.isEmpty()) text[0] = text[0].toUpper();
   return text;
 }

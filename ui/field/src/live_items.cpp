@@ -48,8 +48,8 @@ void TeamBallsItem::setRobots(std::vector<QPointF> robots, double radius) {
 }
 
 // Above the ring, else below, else beside it: the first place that no robot covers.
-QPointF TeamBallsItem::textRect(const ScreenPainting& screen, const link::TeamBall& ball,
-                                QSizeF plate, double ring) const {
+QPointF TeamBallsItem::textPosition(const ScreenPainting& screen, const link::TeamBall& ball,
+                                    QSizeF plate, double ring) const {
   const double high = ring + 12.0, wide = ring + 6.0 + plate.width() / 2;
   const double robot = m_robotRadius * screen.pixelsPerMetre();
   const QPointF places[] = {{0, -high}, {0, high}, {wide, 0}, {-wide, 0}};
@@ -77,7 +77,7 @@ void TeamBallsItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QW
     painter->drawEllipse(QPointF(0, 0), ring, ring);
     painter->drawLine(QPointF(-arm, 0), QPointF(arm, 0));
     painter->drawLine(QPointF(0, -arm), QPointF(0, arm));
-    drawPlateText(painter, textRect(screen, ball, plateSize(textOf(ball)), ring), textOf(ball));
+    drawPlateText(painter, textPosition(screen, ball, plateSize(textOf(ball)), ring), textOf(ball));
   }
 }
 

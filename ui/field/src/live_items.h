@@ -24,8 +24,8 @@ class TeamBallsItem : public FieldItem {
 
  private:
   double radius(const link::TeamBall& ball) const;  // metres
-  QPointF wordsAt(const ScreenPainting& screen, const link::TeamBall& ball, QSizeF plate,
-                  double ring) const;
+  QPointF textPosition(const ScreenPainting& screen, const link::TeamBall& ball, QSizeF plate,
+                       double ring) const;
 
   std::vector<link::TeamBall> m_balls;
   std::vector<QPointF> m_robots;

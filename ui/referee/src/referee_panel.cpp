@@ -244,7 +244,7 @@ class RefereePanel : public QScrollArea {
       const auto kind = static_cast<PenaltyKind>(i);
       // These have controls of their own.
       if (kind == PenaltyKind::SentOff || kind == PenaltyKind::Substitute) continue;
-      m_kind->addItem(asLabel(labelOf(kind)), i);
+      m_kind->addItem(capitalised(labelOf(kind)), i);
     }
     m_kind->setCurrentIndex(m_kind->findData(static_cast<int>(PenaltyKind::Incapable)));
     penaltyRow(0)->addWidget(m_kind, 1);
@@ -306,7 +306,7 @@ class RefereePanel : public QScrollArea {
     m_play->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     m_play->setMinimumContentsLength(8);
     for (int i = 1; i <= static_cast<int>(lastOf(SetPlay{})); ++i) {
-      m_play->addItem(asLabel(labelOf(static_cast<SetPlay>(i))), i);
+      m_play->addItem(capitalised(labelOf(static_cast<SetPlay>(i))), i);
     }
     const auto give = [this] { callReferee(edits(), setPlay(), m_play->currentText()); };
     m_give = button(m_setPlays, QStringLiteral("Give"), give);

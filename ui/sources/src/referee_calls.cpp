@@ -7,6 +7,7 @@
 
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <simcore/rules/check_call.h>
+#include <ui/base/robot_text.h>
 #include <ui/sources/match_controller.h>
 
 namespace pitchboard::ui {
@@ -129,12 +130,6 @@ QString whyRefused(const link::MatchFrame* frame, const sim::RefereeCall& call) 
   return checked ? QString() : QString::fromStdString(checked.error().message);
 }
 
-QString asLabel(std::string_view name) {
-  QString text = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
-  if (!text.isEmpty()) text[0] = text[0].toUpper();
-  return text;
-}
-
 namespace {
 
 using sim::CallKind;
@@ -173,7 +168,7 @@ void addRefereeMenu(QMenu* menu, MatchController* match, const std::vector<Robot
     if (kind == PenaltyKind::SentOff) continue;  // the red card
     addCall(penalise, match,
             kind == PenaltyKind::Substitute ? QStringLiteral("Take off as a substitute")
-                                            : asLabel(labelOf(kind)),
+                                            : capitalised(labelOf(kind)),
             {.kind = CallKind::Penalise, .penalty = kind}, robots);
   }
   addCall(own, match, QStringLiteral("Pardon"), {.kind = CallKind::Pardon}, robots)
@@ -194,7 +189,7 @@ void addRefereeGround(QMenu* menu, MatchController* match, Point place) {
   own->setObjectName(QStringLiteral("refereeMenu"));
   for (int team = 0; team < 2; ++team) {
     const auto& playing = frame->refereedGame->game.teams[static_cast<std::size_t>(team)];
-    const QString colour = asLabel(info(playing.colour).name).toUpper();
+    const QString colour = capitalised(info(playing.colour).name).toUpper();
     addCall(own, match, QStringLiteral("Goal for %1").arg(colour),
             {.kind = CallKind::Goal, .team = team, .value = 1}, {})
         ->setObjectName(QStringLiteral("refereeGoal%1").arg(team));

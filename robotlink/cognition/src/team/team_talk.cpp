@@ -12,8 +12,8 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double talkPeriod = 0.2;  // s
-constexpr double timeout = 3.0;     // s after which a team-mate is unknown
+constexpr double talkPeriod = 0.2;   // s
+constexpr double mateTimeout = 3.0;  // s after which a team-mate is unknown
 constexpr std::string_view header = "PB1";
 
 // One extended team message: "PB1 robot x y theta belief intention state ball", whole numbers; x, y
@@ -66,7 +66,7 @@ class TeamTalk final : public CognitiveProcess {
       if (const auto message = TeamMessage::parse(text)) receive(*message, clock.seconds);
     }
     std::erase_if(m_mates,
-                  [&](const Mate& mate) { return clock.seconds - mate.received > timeout; });
+                  [&](const Mate& mate) { return clock.seconds - mate.received > mateTimeout; });
     writePlaces(board);
     const std::vector<const TeamMessage*> chosen = mostImportant(board);
     for (std::size_t i = 0; i < mostTeamMates; ++i) {

@@ -37,7 +37,4 @@ void addRefereeMenu(QMenu* menu, MatchController* match, const std::vector<Robot
 /// Adds the calls for a place on the field: goals, and the ball at `place` or on a mark.
 void addRefereeGround(QMenu* menu, MatchController* match, Point place);
 
-/// Turns "corner kick" into "Corner kick".
-QString asLabel(std::string_view name);
-
 }  // namespace pitchboard::ui

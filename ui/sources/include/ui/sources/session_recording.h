@@ -104,7 +104,7 @@ class SessionRecording : public QObject {
   std::optional<Recorder> m_recorder;
   QString m_path;
   std::set<telemetry::RecordingTrouble> m_reported;  // of this recording
-  std::deque<LogLine> m_log;                     // of the present match, for saveLast()
+  std::deque<LogLine> m_log;                         // of the present match, for saveLast()
   UiQueue m_toUi;
   Workers m_worker;
 };
