@@ -49,9 +49,9 @@ printf '[Communication]\nno_player_robofei = 3\n[Pitchboard Management]\nprocess
 printf '{"pitchboardPlots": 1, "current": 0, "tabs": [{"name": "A", "plots": [{"kind": "chart", "title": "T", "values": [0, 1], "rightValues": [2, 3], "curves": [{"kind": "difference", "inputs": ["B1/A", "first/B"], "colour": "#ff8800"}]}]}]}' \
   > "$seeds/layout/one.json"
 number=0
-while IFS= read -r words; do
-  printf '%s' "$words" > "$seeds/words/$((number += 1)).txt"
-done <<'WORDS'
+while IFS= read -r text; do
+  printf '%s' "$text" > "$seeds/short_texts/$((number += 1)).txt"
+done <<'TEXTS'
 hypot(B1.TRUE_X - 2, {B1/ball x}) * 100 > 3 && !B2.A ? deg(pi) : wrap(t, 360)
 192.168.0.0/24
 10.0.0.7
@@ -59,7 +59,7 @@ hypot(B1.TRUE_X - 2, {B1/ball x}) * 100 > 3 && !B2.A ? deg(pi) : wrap(t, 360)
 PBT1 path 3 1 1500 -200 0 0
 PBT1 cloud 3 2 100 200 90000 5 -100 0 0 1
 PB1 2 450 300 90 12 1 0 4500300
-WORDS
+TEXTS
 for trace in tests/data/traces/i_action_0*.json; do
   { cat "$trace"; printf '\0'; cat "${trace%.json}.csv.gz"; } > "$seeds/trace/${trace##*/}"
 done

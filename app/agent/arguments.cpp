@@ -111,29 +111,29 @@ Options:
   --version             Print the version and exit
 )";
 
-Result<Arguments> parseArguments(std::span<const char* const> words) {
+Result<Arguments> parseArguments(std::span<const char* const> argv) {
   static constexpr std::string_view options[] = {"--robot",     "--key",     "--rate", "--limit",
                                                  "--variables", "--catalog", "--to"};
   Arguments arguments;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string_view word = words[i];
-    if (word == "-h" || word == "--help") {
+  for (std::size_t i = 0; i < argv.size(); ++i) {
+    const std::string_view argument = argv[i];
+    if (argument == "-h" || argument == "--help") {
       arguments.help = true;
       continue;
     }
-    if (word == "--version") {
+    if (argument == "--version") {
       arguments.version = true;
       continue;
     }
-    const std::size_t equals = word.find('=');
-    const std::string_view option = word.substr(0, equals);
+    const std::size_t equals = argument.find('=');
+    const std::string_view option = argument.substr(0, equals);
     if (std::ranges::find(options, option) == std::end(options)) {
-      return invalid("there is no option \"" + std::string(word.substr(0, 40)) + "\"");
+      return invalid("there is no option \"" + std::string(argument.substr(0, 40)) + "\"");
     }
     if (equals != std::string_view::npos) {
-      TRY(takeOption(arguments, option, word.substr(equals + 1)));
-    } else if (++i < words.size()) {
-      TRY(takeOption(arguments, option, words[i]));
+      TRY(takeOption(arguments, option, argument.substr(equals + 1)));
+    } else if (++i < argv.size()) {
+      TRY(takeOption(arguments, option, argv[i]));
     } else {
       return invalid(std::string(option) + " needs a value");
     }

@@ -39,7 +39,7 @@ struct Arguments {
 extern const char* const helpText;
 
 /// Without the program's name. Error InvalidArgument with the option and what it should be.
-Result<Arguments> parseArguments(std::span<const char* const> words);
+Result<Arguments> parseArguments(std::span<const char* const> argv);
 
 /// `*` stands for any characters, `?` for one.
 bool matchesGlob(std::string_view glob, std::string_view name);

@@ -22,8 +22,8 @@ std::string RobotSegment::look(std::chrono::microseconds now) {
     m_view.reset();
     text = view.error().code == ErrorCode::NotFound ? "waiting for " + name : view.error().text();
   }
-  if (text == m_told && !view) return {};
-  return m_told = std::move(text);
+  if (text == m_reported && !view) return {};
+  return m_reported = std::move(text);
 }
 
 void RobotSegment::read(std::span<const link::Variable> variables,

@@ -33,7 +33,7 @@ class RobotSegment {
   link::SegmentLayout m_layout;
   std::optional<link::SegmentView> m_view;
   std::optional<std::chrono::microseconds> m_looked;
-  std::string m_told;
+  std::string m_reported;
 };
 
 }  // namespace pitchboard::agent

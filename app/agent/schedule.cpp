@@ -83,8 +83,8 @@ void Schedule::close() {
 /// Begins a datagram if it may hold so many bytes; the first one of a second tells the status.
 bool Schedule::open(Time now, double room, std::size_t fieldBytes) {
   Pb2Writer writer(m_options.robot, m_sequence, static_cast<std::uint64_t>(now.count() / 1000));
-  const bool tells = now - m_lastStatus >= statusStep || m_there != m_toldThere;
-  if (tells) {
+  const bool sendsStatus = now - m_lastStatus >= statusStep || m_there != m_reportedThere;
+  if (sendsStatus) {
     const auto refresh = std::chrono::duration_cast<std::chrono::milliseconds>(refreshTime(now));
     writer.add("@REFRESH", Pb2Number(std::int64_t{refresh.count()}).text());
     writer.add("@WAITING", Pb2Number(static_cast<std::int64_t>(m_queue.size())).text());
@@ -96,9 +96,9 @@ bool Schedule::open(Time now, double room, std::size_t fieldBytes) {
   m_open.push_back(std::move(writer));
   ++m_sequence;
   spend(now, cost);
-  if (tells) {
+  if (sendsStatus) {
     m_lastStatus = now;
-    m_toldThere = m_there;
+    m_reportedThere = m_there;
   }
   return true;
 }
@@ -175,8 +175,8 @@ const std::vector<std::string>& Schedule::next(Time now, std::span<const std::ui
   }
   // The status goes along with values; alone only when none come.
   const Time patience = there ? statusStep + 2 * refreshStep : statusStep;
-  const bool silent = m_open.empty() && m_datagrams.empty();
-  if (silent && (m_there != m_toldThere || now - m_lastStatus >= patience)) {
+  const bool nothingSent = m_open.empty() && m_datagrams.empty();
+  if (nothingSent && (m_there != m_reportedThere || now - m_lastStatus >= patience)) {
     (void)open(now, room(), 0);
   }
   close();

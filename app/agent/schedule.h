@@ -95,7 +95,7 @@ class Schedule {
   std::size_t m_cursor = 0;
   Time m_roundStart{}, m_lastRound{}, m_lastRefresh = longAgo;
 
-  bool m_started = false, m_there = false, m_toldThere = false;
+  bool m_started = false, m_there = false, m_reportedThere = false;
   Time m_last{}, m_lastStatus = longAgo;
 };
 

@@ -234,7 +234,7 @@ Result<int> watch(WatchOptions& options) {
     const auto time = SteadyClock::now();
     if (options.duration && time >= end) return 0;
     if (time >= nextCheck) {
-      // Removed, or removed and made anew: what we hold will never change again.
+      // Removed, or removed and made again: what we hold will never change again.
       const auto there = SystemVSegments::info(board.key());
       if (!there || there->shmid != opened.shmid)
         return failure(ErrorCode::NotFound, "was removed while it was watched",

@@ -35,7 +35,7 @@ Result<double> secondsOr(const std::string& text, const char* option, double fal
 
 void printCalibration(const link::Calibration& calibration) {
   std::vector<std::array<std::string, 5>> rows{{"", "value", "95 % interval", "unit", "from"}};
-  for (const auto* values : {&calibration.values, &calibration.told}) {
+  for (const auto* values : {&calibration.values, &calibration.estimates}) {
     for (const link::CalibratedValue& value : *values) {
       const link::WrittenValue w = link::writtenValue(value);
       char number[32], interval[64];

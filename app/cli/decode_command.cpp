@@ -160,7 +160,7 @@ class Decoder : public link::LiveObserver {
     m_anyMessage = true;
     const std::size_t fields = options().profile.fields.size();
     for (std::size_t i = 0; i < std::min(fields, decoded.count); ++i) {
-      if (decoded.has(i) || !decoded.words[i].empty()) m_wasSent.insert(i);
+      if (decoded.has(i) || !decoded.texts[i].empty()) m_wasSent.insert(i);
     }
     for (std::size_t i = 0; i < decoded.namedExtras; ++i) m_otherKeys.emplace(decoded.extraKeys[i]);
   }

@@ -156,7 +156,7 @@ Result<int> playInto(const link::Experiment& experiment, const PlayInto& options
           busy += one.wallSeconds;
           simulated += one.simulatedSeconds;
           const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-          progress.say(progressText(done, numbers.size(), seconds));
+          progress.show(progressText(done, numbers.size(), seconds));
           return folder.add(one.result, one.timesRealTime);
         });
   }

@@ -30,7 +30,7 @@ Result<int> learnTeam(const LearnOptions& options) {
   settings.play.robotProgram = robotProgram(options.play.robotProgram);
   settings.play.cancelled = &interrupted;
   settings.program = programName;
-  settings.progress = [&progress](const std::string& words) { progress.say(words); };
+  settings.progress = [&progress](const std::string& text) { progress.show(text); };
   const auto learned = TRY(link::learn(learning, settings));
   std::printf("%sChosen: %s\n", progress.fresh().c_str(), learned.from.c_str());
   const int ended = printSummary(learned.validation, learned.summary);

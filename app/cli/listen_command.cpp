@@ -50,13 +50,13 @@ class Printer : public link::LiveObserver {
   void happened(const link::MatchEvent& event) override {
     const auto after = std::chrono::duration<double>(event.time);
     const auto time = m_began + std::chrono::duration_cast<telemetry::Duration>(after);
-    const telemetry::SessionEvent told = link::sessionEvent(event);
-    if (!m_json) return put(time, "event", told.text);
+    const telemetry::SessionEvent reported = link::sessionEvent(event);
+    if (!m_json) return put(time, "event", reported.text);
     put(dump({{"type", "event"},
               {"time", unixSeconds(time)},
-              {"kind", told.kind},
-              {"name", told.group},
-              {"text", told.text}}) +
+              {"kind", reported.kind},
+              {"name", reported.group},
+              {"text", reported.text}}) +
         "\n");
   }
 
@@ -165,8 +165,8 @@ Result<int> listenToRobots(const PrintOptions& options) {
   const link::LiveDetails begun = TRY(whenListening(watch));
   const auto printer = std::make_shared<Printer>(live, watch.began(), options.json);
   watch.observe(printer);
-  sayListening(live, begun.network);
-  std::map<std::size_t, std::string> told;
+  reportListening(live, begun.network);
+  std::map<std::size_t, std::string> reported;
   const auto begin = Clock::now();
   auto nextLook = begin, nextHealth = begin + std::chrono::seconds(1);
   const std::chrono::duration<double> limit(options.duration.value_or(0.0));
@@ -175,7 +175,7 @@ Result<int> listenToRobots(const PrintOptions& options) {
     if (now >= nextLook) {
       nextLook = now + milliseconds(100);
       const link::LiveDetails details = watch.details();
-      reportPorts(details.network, told);
+      reportPorts(details.network, reported);
       if (!details.monitorProblem.empty()) {
         return failure(ErrorCode::SystemError, details.monitorProblem);
       }

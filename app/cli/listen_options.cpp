@@ -111,7 +111,7 @@ Result<link::LiveDetails> whenListening(const link::LiveWatch& watch) {
   }
 }
 
-void sayListening(const link::LiveOptions& options, const ReceiverStatus& network) {
+void reportListening(const link::LiveOptions& options, const ReceiverStatus& network) {
   const std::string address = options.bind.text();
   if (options.team.teams.empty()) {
     const int variables = options.variablesPortBase;
@@ -128,10 +128,10 @@ void sayListening(const link::LiveOptions& options, const ReceiverStatus& networ
   std::fprintf(stderr, "listening at %s on UDP ports%s\n", address.c_str(), text.c_str());
 }
 
-void reportPorts(const ReceiverStatus& status, std::map<std::size_t, std::string>& told) {
+void reportPorts(const ReceiverStatus& status, std::map<std::size_t, std::string>& reported) {
   for (std::size_t i = 0; i < status.ports.size(); ++i) {
     const PortStatus& port = status.ports[i];
-    std::string& last = told[i];
+    std::string& last = reported[i];
     if (port.problem == last) continue;
     if (port.bound) {
       std::fprintf(stderr, "port %d is open now\n", port.port);

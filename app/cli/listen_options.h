@@ -39,9 +39,10 @@ Result<link::LiveOptions> liveOptions(const ListenOptions& options);
 Result<link::LiveDetails> whenListening(const link::LiveWatch& watch);
 
 /// Tells on stderr what is received.
-void sayListening(const link::LiveOptions& options, const telemetry::ReceiverStatus& network);
+void reportListening(const link::LiveOptions& options, const telemetry::ReceiverStatus& network);
 /// Says on stderr which ports are not received, once for each change.
-void reportPorts(const telemetry::ReceiverStatus& status, std::map<std::size_t, std::string>& told);
+void reportPorts(const telemetry::ReceiverStatus& status,
+                 std::map<std::size_t, std::string>& reported);
 /// "; refused: 12 of senders that are not on the list, ...": nothing where nothing was.
 std::string refusedText(const link::LiveDetails& details);
 

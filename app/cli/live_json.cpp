@@ -69,10 +69,10 @@ Json telemetryJson(const link::LiveDatagram& datagram, const std::string& team,
   for (std::size_t i = 0; i < message.count; ++i) {
     const std::string name = decoder.name(message, i);
     if (!message.has(i)) {
-      // An extra field may be a word; a named one is a number or nothing.
-      const bool isWord = i >= fields.size() || fields[i].type == FieldType::Text;
+      // An extra field may be text; a named one is a number or nothing.
+      const bool isText = i >= fields.size() || fields[i].type == FieldType::Text;
       values[name] =
-          isWord && !message.words[i].empty() ? Json(std::string(message.words[i])) : Json(nullptr);
+          isText && !message.texts[i].empty() ? Json(std::string(message.texts[i])) : Json(nullptr);
     } else if (message.values[i] == std::floor(message.values[i]) &&
                std::abs(message.values[i]) < 9e15 &&
                (i >= fields.size() || fields[i].type != FieldType::Float)) {
@@ -99,8 +99,8 @@ std::string telemetryLine(const link::LiveDatagram& datagram, const std::string&
     if (!team.empty()) out = team + "  ";
     out += robot;
     for (std::size_t i = 0; i < message.count; ++i) {
-      if (message.words[i].empty()) continue;
-      out += "  " + decoder.name(message, i) + " " + printable(message.words[i], 40);
+      if (message.texts[i].empty()) continue;
+      out += "  " + decoder.name(message, i) + " " + printable(message.texts[i], 40);
     }
     if (message.errors.empty()) return out;
     out += "  ";
@@ -255,7 +255,7 @@ std::string healthLine(const RobotStatus& robot, const std::string& name) {
 
 Json healthJson(const link::SentStatus& sent, WallTime now) {
   const LinkHealth& link = sent.link;
-  const auto said = [](const std::optional<std::int64_t>& value) {
+  const auto optionalNumber = [](const std::optional<std::int64_t>& value) {
     return value ? Json(*value) : Json(nullptr);
   };
   return {{"type", "variablesHealth"},
@@ -275,8 +275,8 @@ Json healthJson(const link::SentStatus& sent, WallTime now) {
           {"age", secondsOf(link.age)},
           {"timedOut", link.timedOut},
           {"restarts", sent.restarts},
-          {"refresh", said(sent.refresh_ms)},
-          {"waiting", said(sent.waiting)},
+          {"refresh", optionalNumber(sent.refresh_ms)},
+          {"waiting", optionalNumber(sent.waiting)},
           {"blackboard", sent.blackboard},
           {"bytes", link.bytes},
           {"sender", link.sender.text()},

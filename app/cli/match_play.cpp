@@ -40,11 +40,11 @@ class ProcessNews : public link::TickObserver {
   void happened(std::span<const link::MatchEvent> events) override {
     for (const link::MatchEvent& event : events) {
       using Kind = link::MatchEventKind;
-      constexpr std::array told{Kind::ProcessDied,        Kind::ProcessEnded,
-                                Kind::ProcessRestarted,   Kind::ProcessNotResponding,
-                                Kind::ProcessGivenUp,     Kind::ProcessRealTime,
-                                Kind::ProcessNotAttached, Kind::CycleLate};
-      if (std::ranges::find(told, event.kind) == told.end()) continue;
+      constexpr std::array reported{Kind::ProcessDied,        Kind::ProcessEnded,
+                                    Kind::ProcessRestarted,   Kind::ProcessNotResponding,
+                                    Kind::ProcessGivenUp,     Kind::ProcessRealTime,
+                                    Kind::ProcessNotAttached, Kind::CycleLate};
+      if (std::ranges::find(reported, event.kind) == reported.end()) continue;
       std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
                    link::sentenceOf(event).c_str());
     }
@@ -106,11 +106,12 @@ class Playing {
 
 }  // namespace
 
-void addPlayOptions(CLI::App& command, PlayOptions& o) {
+void addPlayOptions(CLI::App& command, MatchPlayOptions& o) {
   shared::addScenarioOptions(command, o.match);
   command
       .add_option("--speed", o.speed,
-                  "Speed relative to real time, or max; default: max with inline cognition, 1 with "
+                  "Speed relative to real time, 0.01 to 1000, or max; default: max with inline "
+                  "cognition, 1 with "
                   "separate processes, a team's programs or --obey-referee")
       ->type_name("X|max");
   command.add_flag("--keep-speed", o.keepSpeed,
@@ -149,7 +150,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& o) {
   shared::addGroup(command, "Referee", {"--obey-referee", "--answer-referee"});
 }
 
-Result<link::Cognition> cognitionOf(const PlayOptions& options) {
+Result<link::Cognition> cognitionOf(const MatchPlayOptions& options) {
   // The name up to version 0.14.
   if (options.cognition == "external") return link::Cognition::Separate;
   const auto found =
@@ -159,7 +160,7 @@ Result<link::Cognition> cognitionOf(const PlayOptions& options) {
                  "--cognition must be inline, separate or none, not \"" + options.cognition + "\"");
 }
 
-Result<double> speedOf(const PlayOptions& options, link::Cognition cognition,
+Result<double> speedOf(const MatchPlayOptions& options, link::Cognition cognition,
                        const link::Scenario& scenario) {
   const std::string& text = options.speed;
   if (text.empty()) {
@@ -167,17 +168,11 @@ Result<double> speedOf(const PlayOptions& options, link::Cognition cognition,
                          !TRY(link::usesTeamPrograms(scenario));
     return ownPace ? 0.0 : 1.0;
   }
-  if (text == "max") return 0.0;
-  const std::optional<double> speed = shared::numberFrom(text);
-  if (!speed || !(*speed >= 0.001 && *speed <= 1e6)) {
-    return failure(ErrorCode::InvalidArgument,
-                   "--speed must be \"max\" or a number from 0.001 to 1000000 (1 = real time)");
-  }
-  return *speed;
+  return shared::speedFrom(text);
 }
 
-Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const PlayOptions& options,
-                                      link::Cognition cognition) {
+Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario,
+                                      const MatchPlayOptions& options, link::Cognition cognition) {
   if (!scenario) return scenario;
   if (!options.rules.empty()) {
     scenario->settings.referee = TRY(link::refereeRuleSet(options.rules));
@@ -199,7 +194,8 @@ Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const Pla
   return scenario;
 }
 
-Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario, const PlayOptions& options,
+Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario,
+                                         const MatchPlayOptions& options,
                                          link::Cognition cognition) {
   const auto speed = TRY(speedOf(options, cognition, scenario));
   shared::warnOfIgnoredSettings(scenario);

@@ -20,7 +20,7 @@ namespace pitchboard::cli {
 /// s simulated, where neither the options nor the scenario say when a match ends.
 inline constexpr double defaultDuration = 60.0;
 
-struct PlayOptions {
+struct MatchPlayOptions {
   shared::ScenarioOptions match;
   shared::RobotsOptions robots;
   std::optional<double> duration;  ///< s
@@ -33,23 +33,24 @@ struct PlayOptions {
   std::optional<int> answerReferee;
 };
 
-/// Everything above but --duration, which every command words in its own way.
-void addPlayOptions(CLI::App& command, PlayOptions& options);
+/// Everything above but --duration, which every command describes in its own way.
+void addPlayOptions(CLI::App& command, MatchPlayOptions& options);
 
 /// Errors name the option.
-Result<link::Cognition> cognitionOf(const PlayOptions& options);
+Result<link::Cognition> cognitionOf(const MatchPlayOptions& options);
 /// Times real time; 0 = as fast as possible.
-Result<double> speedOf(const PlayOptions& options, link::Cognition cognition,
+Result<double> speedOf(const MatchPlayOptions& options, link::Cognition cognition,
                        const link::Scenario& scenario);
 
 /// `scenario` with the options' rules and runtimes, and with an end: --duration, else its own stop
 /// conditions, else the final whistle of an automatic referee, else defaultDuration (none with
 /// Cognition::None). Fails if programs of a team are to be started and cannot.
-Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const PlayOptions& options,
-                                      link::Cognition cognition);
+Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario,
+                                      const MatchPlayOptions& options, link::Cognition cognition);
 
 /// Warns on stderr of settings that have no effect, and says which match on this computer it is.
-Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario, const PlayOptions& options,
+Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario,
+                                         const MatchPlayOptions& options,
                                          link::Cognition cognition);
 
 /// Plays until the match is over, the user interrupts it, or `goOn` says no (called after each

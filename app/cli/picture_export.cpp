@@ -80,14 +80,14 @@ Result<void> runStudio(std::vector<std::string> arguments,
                        " cannot be started (" + systemReason(failed) +
                        "). Install the studio, or name its program in PITCHBOARD_STUDIO.");
   }
-  StudioOutput said;
+  StudioOutput studio;
   std::array<char, 4096> buffer{};
   for (bool asked = false;;) {
     if (interrupted && !std::exchange(asked, true)) kill(process, SIGTERM);
     const ssize_t count = read(output.get(), buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
-    said.take({buffer.data(), static_cast<std::size_t>(count)}, progress);
+    studio.take({buffer.data(), static_cast<std::size_t>(count)}, progress);
   }
   int status = 0;
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
@@ -95,10 +95,10 @@ Result<void> runStudio(std::vector<std::string> arguments,
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   if (interrupted) return failure(ErrorCode::Conflict, "Export cancelled.");
   constexpr std::string_view error = "error: ";
-  const bool told = said.last.starts_with(error);
+  const bool isError = studio.last.starts_with(error);
   return failure(ErrorCode::SystemError,
-                 told ? said.last.substr(error.size())
-                      : "The studio ended without painting. Its last output: " + said.last);
+                 isError ? studio.last.substr(error.size())
+                         : "The studio ended without painting. Its last output: " + studio.last);
 }
 
 std::vector<std::string> paintArguments(const std::string& session, const std::string& picture,

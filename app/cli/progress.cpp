@@ -24,19 +24,19 @@ Progress::~Progress() {
 }
 
 bool Progress::operator()(double part) {
-  if (m_shown) say(std::to_string(static_cast<int>(part * 100.0)) + " %");
+  if (m_shown) show(std::to_string(static_cast<int>(part * 100.0)) + " %");
   return !interrupted;
 }
 
-void Progress::say(const std::string& words) {
+void Progress::show(const std::string& text) {
   const auto now = std::chrono::steady_clock::now();
   if (!m_shown || (m_open && now - m_last < interval)) return;
   m_last = now;
   m_open = true;
   if (m_terminal)
-    std::fprintf(stderr, "\r\033[K%s: %s", m_what.c_str(), words.c_str());
+    std::fprintf(stderr, "\r\033[K%s: %s", m_what.c_str(), text.c_str());
   else
-    std::fprintf(stderr, "%s: %s\n", m_what.c_str(), words.c_str());
+    std::fprintf(stderr, "%s: %s\n", m_what.c_str(), text.c_str());
 }
 
 }  // namespace pitchboard::cli

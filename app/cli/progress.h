@@ -18,9 +18,9 @@ class Progress {
 
   /// 0 to 1. False when the user interrupted the command (interrupt.h).
   bool operator()(double part);
-  /// Any words instead of a percentage.
-  void say(const std::string& words);
-  /// What to print before another line on stderr, so that it does not follow this one's words.
+  /// Shows a text instead of a percentage.
+  void show(const std::string& text);
+  /// What to print before another line on stderr, so that it does not continue this line.
   std::string fresh() const { return m_open && m_terminal ? "\r\033[K" : ""; }
 
  private:

@@ -29,7 +29,7 @@ constexpr auto healthInterval = std::chrono::milliseconds(20);
 
 struct RecordOptions {
   std::string output;
-  PlayOptions play;
+  MatchPlayOptions play;
   bool live = false, progress = false;
   ListenOptions network;
 };
@@ -58,7 +58,7 @@ class Health {
 
   void say(const SessionStatus& status) {
     const RecordingTrouble trouble = troubleOf(status);
-    if (trouble != RecordingTrouble::None && m_told.insert(trouble).second) {
+    if (trouble != RecordingTrouble::None && m_reported.insert(trouble).second) {
       std::fprintf(stderr, "%swarning: %s\n", m_progress.fresh().c_str(),
                    troubleText(status).c_str());
     }
@@ -66,13 +66,13 @@ class Health {
     std::snprintf(text, sizeof text, "%.1f s, %.1f MB", status.seconds,
                   static_cast<double>(status.bytes) / 1e6);
     const std::string room = freeSpaceText(status);
-    m_progress.say(text + (room.empty() ? room : ", " + room) +
-                   (trouble == RecordingTrouble::DiskBehind ? ", disk cannot keep up" : ""));
+    m_progress.show(text + (room.empty() ? room : ", " + room) +
+                    (trouble == RecordingTrouble::DiskBehind ? ", disk cannot keep up" : ""));
   }
 
  private:
   Progress m_progress;
-  std::set<RecordingTrouble> m_told;
+  std::set<RecordingTrouble> m_reported;
 };
 
 Result<int> recordMatch(const RecordOptions& options) {
@@ -119,17 +119,17 @@ Result<int> recordLive(const RecordOptions& options) {
   const auto recorder =
       TRY(link::LiveRecorder::create(options.output, live, watch.began(), recording));
   watch.observe(recorder);
-  sayListening(live, details.network);
+  reportListening(live, details.network);
   {
     Health health(options.progress);
-    std::map<std::size_t, std::string> told;
+    std::map<std::size_t, std::string> reported;
     const auto begin = Clock::now();
     const auto isOver = [&] {
       return options.play.duration &&
              Clock::now() - begin >= std::chrono::duration<double>(*options.play.duration);
     };
     while (!interrupted && !isOver() && recorder->status().recording) {
-      reportPorts(watch.details().network, told);
+      reportPorts(watch.details().network, reported);
       health.say(recorder->status());
       std::this_thread::sleep_for(healthInterval);
     }

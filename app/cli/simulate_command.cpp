@@ -51,7 +51,7 @@ Result<void> serveWorldLines(link::Scenario usual) {
 }
 
 struct Arguments {
-  PlayOptions play;
+  MatchPlayOptions play;
   std::string session;
   std::string at;
   bool clock = false;
@@ -107,7 +107,7 @@ Result<Recorded> recordedMoment(const Arguments& arguments) {
 
 Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition cognition,
                                     const std::optional<Recorded>& recorded) {
-  const PlayOptions& play = arguments.play;
+  const MatchPlayOptions& play = arguments.play;
   auto scenario = scenarioToPlay(
       recorded ? shared::changed(recorded->scenario, play.match) : shared::scenarioFrom(play.match),
       play, cognition);
@@ -178,7 +178,7 @@ Result<void> simulate(const Arguments& arguments) {
     Progress progress("simulated", false);
     outcome = playToEnd(player, speed, [&] {
       const double rate = player.match().simulation().state().settings.tickRate;
-      progress.say(secondsToText(static_cast<double>(player.currentTick()) / rate));
+      progress.show(secondsToText(static_cast<double>(player.currentTick()) / rate));
       return !trace || trace->written();
     });
   }

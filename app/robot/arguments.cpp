@@ -75,7 +75,7 @@ void addCommunicationOptions(CLI::App& command, Arguments& a) {
                   "GameControllers are ignored")
       ->type_name("N")
       ->check(CLI::Range(0, 255));
-  command.add_flag("--set-play", a.process.tellSetPlay,
+  command.add_flag("--set-play", a.process.announceSetPlay,
                    "Communication: also write the current set play (COM_SET_PLAY) for our decision "
                    "process; management adds this by itself");
   command
@@ -237,16 +237,16 @@ void addOptions(CLI::App& command, Arguments& a) {
 }
 
 std::vector<std::string> givenOptions(const CLI::App& command) {
-  std::vector<std::string> words;
+  std::vector<std::string> commandLine;
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0 || option->get_lnames().empty()) continue;
     const std::string& name = option->get_lnames().front();
     if (name == "robot" || name == "config" || name == "key" || name == "key-base") continue;
-    words.push_back("--" + name);
+    commandLine.push_back("--" + name);
     if (option->get_items_expected_max() == 0) continue;
-    for (const std::string& value : option->results()) words.push_back(value);
+    for (const std::string& value : option->results()) commandLine.push_back(value);
   }
-  return words;
+  return commandLine;
 }
 
 Result<link::IniFile> settle(CLI::App& command, Arguments& a) {

@@ -53,7 +53,7 @@ Result<void> run(const link::ProcessInfo& info, CLI::App& command, Arguments& ar
     return runInLockStep(std::move(process), make, board, robot, *arguments.process.lockStepSlot,
                          shown);
   }
-  runUntilAsked(*process, board, robot, shown);
+  runUntilStopped(*process, board, robot, shown);
   return {};
 }
 

@@ -77,28 +77,29 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
   const bool clearedByOther =
       std::ranges::find(config.processes, "communication") != config.processes.end();
   // Words of the extension are for a decision of ours alone.
-  const bool tellsSetPlay =
+  const bool announcesSetPlay =
       std::ranges::find(config.processes, "decision") != config.processes.end() &&
-      !config.commands.contains("decision") && !arguments.process.tellSetPlay;
+      !config.commands.contains("decision") && !arguments.process.announceSetPlay;
   std::vector<link::ManagedProcess> processes;
   for (const std::string& name : config.processes) {
-    std::vector<std::string> words;
+    std::vector<std::string> commandLine;
     if (const auto own = config.commands.find(name); own != config.commands.end()) {
-      words = own->second;
-      for (std::string& word : words) {
-        replaceAll(word, "{robot}", robot);
-        replaceAll(word, "{key}", key);
+      commandLine = own->second;
+      for (std::string& argument : commandLine) {
+        replaceAll(argument, "{robot}", robot);
+        replaceAll(argument, "{key}", key);
       }
     } else {
       // Reports options that the process refuses now, instead of at every restart.
       TRY(link::findProcess(name)->make(arguments.process));
-      words = {program, name, "--robot", robot, "--key", key};
-      if (!arguments.config.empty()) words.insert(words.end(), {"--config", arguments.config});
-      words.insert(words.end(), given.begin(), given.end());
-      if (tellsSetPlay && name == "communication") words.emplace_back("--set-play");
+      commandLine = {program, name, "--robot", robot, "--key", key};
+      if (!arguments.config.empty())
+        commandLine.insert(commandLine.end(), {"--config", arguments.config});
+      commandLine.insert(commandLine.end(), given.begin(), given.end());
+      if (announcesSetPlay && name == "communication") commandLine.emplace_back("--set-play");
     }
     link::ManagedProcess process;
-    process.spec = {arguments.process.robot, name, std::move(words)};
+    process.spec = {arguments.process.robot, name, std::move(commandLine)};
     process.spec.isTeamProgram = config.commands.contains(name);
     process.restart = config.timing.restart;
     process.delay = config.timing.startInterval.count();
@@ -127,7 +128,7 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
   do {
     outcome = manager.step(Clock::now());
     print(manager);
-  } while (outcome && !askedToEnd(cycle));
+  } while (outcome && !stopRequested(cycle));
   manager.stopAll();
   print(manager);
   return outcome;

@@ -50,7 +50,7 @@ void holdEndSignals() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
-bool askedToEnd(std::chrono::nanoseconds wait) {
+bool stopRequested(std::chrono::nanoseconds wait) {
   const sigset_t signals = endSignals();
   const Clock::time_point end = Clock::now() + wait;
   while (true) {
@@ -65,8 +65,8 @@ bool askedToEnd(std::chrono::nanoseconds wait) {
   }
 }
 
-void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
-                   link::CognitionDebugSender* display) {
+void runUntilStopped(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
+                     link::CognitionDebugSender* display) {
   const auto period =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(process.period()));
   const Clock::time_point start = Clock::now();
@@ -79,7 +79,7 @@ void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, Rob
     const Clock::time_point now = Clock::now();
     if (next < now) next += (now - next) / period * period + period;
 
-    if (askedToEnd(next - Clock::now())) break;
+    if (stopRequested(next - Clock::now())) break;
   }
   process.finish();
 }
@@ -89,7 +89,7 @@ Result<void> runInLockStep(std::unique_ptr<link::CognitiveProcess> process,
                            link::LockStepSlot& slot, link::CognitionDebugSender* display) {
   // While the match is paused: how soon a signal is noticed, and how often debug data is sent
   // again, because displays drop data that is not repeated.
-  constexpr std::chrono::milliseconds longestWait{100}, remindPeriod{1000};
+  constexpr std::chrono::milliseconds longestWait{100}, refreshPeriod{1000};
   Display shown(robot, display);
   slot.ready(process->period());
   double last = 0.0;
@@ -105,7 +105,7 @@ Result<void> runInLockStep(std::unique_ptr<link::CognitiveProcess> process,
       process->step(board, {last});
       slot.done();
     }
-    shown.tell(*process, cycle ? displayPeriod : remindPeriod);
+    shown.tell(*process, cycle ? displayPeriod : refreshPeriod);
     sigset_t pending;
     sigpending(&pending);
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {

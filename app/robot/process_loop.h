@@ -13,19 +13,19 @@
 
 namespace pitchboard::robot {
 
-/// From now on SIGTERM, SIGINT and SIGHUP wait for runUntilAsked() or askedToEnd(). Call before
-/// anything else.
+/// From now on SIGTERM, SIGINT and SIGHUP wait for runUntilStopped() or stopRequested(). Call
+/// before anything else.
 void holdEndSignals();
 
 /// Waits so long for one of these signals; true when one came, also before the call.
-bool askedToEnd(std::chrono::nanoseconds wait);
+bool stopRequested(std::chrono::nanoseconds wait);
 
 /// Steps the process at its period, by absolute time, until one of these signals arrives: the
 /// rhythm does not drift, and a period that was missed (the computer slept) is left out. Returns
 /// within a cycle's work of the signal. One thread only. With `display` it is told what the process
 /// has in mind, five times a second.
-void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
-                   link::CognitionDebugSender* display);
+void runUntilStopped(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
+                     link::CognitionDebugSender* display);
 
 using ProcessMaker = std::function<Result<std::unique_ptr<link::CognitiveProcess>>()>;
 

@@ -48,6 +48,15 @@ std::optional<double> numberFrom(std::string_view text) {
   return value;
 }
 
+Result<double> speedFrom(const std::string& text) {
+  constexpr double slowest = 0.01, fastest = 1000.0;
+  if (text == "max") return 0.0;
+  const std::optional<double> speed = numberFrom(text);
+  if (speed && *speed >= slowest && *speed <= fastest) return *speed;
+  return failure(ErrorCode::InvalidArgument,
+                 "--speed must be a number from 0.01 to 1000, or max, not \"" + text + '"');
+}
+
 CLI::Option* addDuration(CLI::App& command, const std::string& name, std::optional<double>& seconds,
                          const std::string& description) {
   const auto read = [name, &seconds](const std::string& text) {

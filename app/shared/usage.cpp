@@ -50,14 +50,14 @@ std::string firstSentence(const std::string& text) {
   return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
 }
 
-/// The words, broken into lines that begin at `column`; the first line is there already up to it.
+/// The text, broken into lines that begin at `column`; the first line is there already up to it.
 std::string wrapped(const std::string& text, std::size_t column) {
   std::string out;
   std::size_t at = column;
   for (const std::string& paragraph : CLI::detail::split(text, '\n')) {
-    for (const std::string& word : CLI::detail::split(paragraph, ' ')) {
-      if (word.empty()) continue;
-      if (at > column && at + 1 + word.size() > pageWidth) {
+    for (const std::string& token : CLI::detail::split(paragraph, ' ')) {
+      if (token.empty()) continue;
+      if (at > column && at + 1 + token.size() > pageWidth) {
         out += '\n' + std::string(column, ' ');
         at = column;
       }
@@ -65,8 +65,8 @@ std::string wrapped(const std::string& text, std::size_t column) {
         out += ' ';
         ++at;
       }
-      out += word;
-      at += word.size();
+      out += token;
+      at += token.size();
     }
   }
   return out;
@@ -137,12 +137,12 @@ class Help : public CLI::FormatterBase {
   }
 };
 
-/// The library's list of what was not expected: unknown options, or too many words.
-std::string unexpectedText(const CLI::App& app, const std::vector<std::string>& words) {
+/// The library's list of what was not expected: unknown options, or too many arguments.
+std::string unexpectedText(const CLI::App& app, const std::vector<std::string>& arguments) {
   const CLI::App& command = chosenIn(app);
-  for (const std::string& word : words) {
-    if (!word.starts_with("-") || word.size() < 2) continue;
-    const std::string name = word.substr(0, word.find('='));
+  for (const std::string& token : arguments) {
+    if (!token.starts_with("-") || token.size() < 2) continue;
+    const std::string name = token.substr(0, token.find('='));
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options()) {
       if (option->get_group().empty()) continue;
@@ -154,10 +154,10 @@ std::string unexpectedText(const CLI::App& app, const std::vector<std::string>& 
            (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?");
   }
   const auto commands = commandsOf(command);
-  if (commands.empty()) return "unexpected argument \"" + words.front() + '"';
+  if (commands.empty()) return "unexpected argument \"" + arguments.front() + '"';
   std::vector<std::string> names;
   for (const CLI::App* one : commands) names.push_back(one->get_name());
-  return unknownName("command", words.front(),
+  return unknownName("command", arguments.front(),
                      std::vector<std::string_view>(names.begin(), names.end()));
 }
 
@@ -251,7 +251,7 @@ void addHelp(CLI::App& app) {
 }
 
 std::string problemText(const CLI::App& app, const CLI::ParseError& error) {
-  const std::string said = error.what();
+  const std::string message = error.what();
   const std::vector<std::string> unexpected = app.remaining(true);
   const bool isMissing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   if (!unexpected.empty() && (isMissing || dynamic_cast<const CLI::ExtrasError*>(&error))) {
@@ -259,62 +259,62 @@ std::string problemText(const CLI::App& app, const CLI::ParseError& error) {
   }
   std::smatch part;
   if (isMissing) {
-    if (said.starts_with("A subcommand")) return "a command is missing";
-    const std::string name = said.substr(0, said.find(" is required"));
+    if (message.starts_with("A subcommand")) return "a command is missing";
+    const std::string name = message.substr(0, message.find(" is required"));
     const CLI::Option* option = find(app, name);
     return option && isPositional(*option)
                ? typeOf(*option) + " is missing: " + option->get_description()
                : name + " is missing";
   }
   if (dynamic_cast<const CLI::ExcludesError*>(&error) &&
-      std::regex_match(said, part, std::regex("(.*) excludes (.*)"))) {
+      std::regex_match(message, part, std::regex("(.*) excludes (.*)"))) {
     return part.str(1) + " and " + part.str(2) + " cannot be used together; leave out one of them";
   }
   if (dynamic_cast<const CLI::RequiresError*>(&error) &&
-      std::regex_match(said, part, std::regex("(.*) requires (.*)"))) {
+      std::regex_match(message, part, std::regex("(.*) requires (.*)"))) {
     return part.str(1) + " only works together with " + part.str(2);
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) &&
-      std::regex_search(said, part, std::regex("^(-[^ :]*):"))) {
+      std::regex_search(message, part, std::regex("^(-[^ :]*):"))) {
     const CLI::Option* option = find(app, part.str(1));
     return part.str(1) + " needs " + valueText(option);
   }
   if (dynamic_cast<const CLI::ConversionError*>(&error) &&
-      std::regex_match(said, part, std::regex("Could not convert: (\\S+) = (.*)"))) {
+      std::regex_match(message, part, std::regex("Could not convert: (\\S+) = (.*)"))) {
     return part.str(1) + " must be " + valueText(find(app, part.str(1))) + ", not \"" +
            part.str(2).substr(0, 64) + '"';
   }
-  if (std::regex_match(said, part,
+  if (std::regex_match(message, part,
                        std::regex("(\\S+): Value (.*) not in range \\[?(\\S+) (?:to|-) "
                                   "([^\\]\\s]+)\\]?"))) {
     return part.str(1) + " must be from " + part.str(3) + " to " + part.str(4) + ", not " +
            part.str(2);
   }
-  if (std::regex_match(said, part, std::regex("(\\S+): (.*) not in \\{(.*)\\}"))) {
+  if (std::regex_match(message, part, std::regex("(\\S+): (.*) not in \\{(.*)\\}"))) {
     std::string names = std::regex_replace(part.str(3), std::regex(","), ", ");
     const std::size_t last = names.rfind(',');
     if (last != std::string::npos) names.replace(last, 1, " or");
     return part.str(1) + " must be " + names + ", not \"" + part.str(2) + '"';
   }
   // What our own checks say.
-  if (std::regex_match(said, part, std::regex("(\\S+): (must be .*)"))) {
+  if (std::regex_match(message, part, std::regex("(\\S+): (must be .*)"))) {
     return part.str(1) + ' ' + part.str(2);
   }
-  return said;
+  return message;
 }
 
 namespace {
 
 /// Separated by blanks: the long options of a command, or the names of its commands.
 std::string completionsOf(const CLI::App& app) {
-  std::string words;
-  for (const CLI::App* command : commandsOf(app)) words += command->get_name() + ' ';
+  std::string arguments;
+  for (const CLI::App* command : commandsOf(app)) arguments += command->get_name() + ' ';
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_group().empty()) continue;
-    for (const std::string& name : option->get_lnames()) words += "--" + name + ' ';
+    for (const std::string& name : option->get_lnames()) arguments += "--" + name + ' ';
   }
-  if (!words.empty()) words.pop_back();
-  return words;
+  if (!arguments.empty()) arguments.pop_back();
+  return arguments;
 }
 
 /// A line of the `case` for this command and those below it. Built-in choices such as
@@ -352,7 +352,7 @@ std::string completionScript(const CLI::App& app, std::string_view shell) {
   std::ranges::replace(function, '-', '_');
   const bool bash = shell == "bash";
   std::string out = bash ? "# bash completion of " + program + "\n" : "#compdef " + program + "\n";
-  // Finds the command by the words that are commands, then offers what belongs to it.
+  // Finds the command by the arguments that are commands, then offers what belongs to it.
   out += function + "() {\n  local command=" + program + " word offered=''\n";
   out += bash ? "  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}\n"
                 "  for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n"

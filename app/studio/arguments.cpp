@@ -194,17 +194,6 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
   return {};
 }
 
-Result<double> speedOf(const Arguments& arguments) {
-  if (arguments.speed == "max") return link::MatchRunner::unlimitedSpeed;
-  const std::optional<double> speed = shared::numberFrom(arguments.speed);
-  if (!speed || !(*speed >= 0.01 && *speed <= 1000.0)) {
-    return failure(ErrorCode::InvalidArgument,
-                   "must be a number from 0.01 to 1000, or max, not '" + arguments.speed + "'",
-                   "--speed");
-  }
-  return *speed;
-}
-
 Result<std::optional<double>> timeIn(const telemetry::SessionReader& session,
                                      const std::string& text, const char* option) {
   if (text.empty()) return std::optional<double>{};

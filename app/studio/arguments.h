@@ -58,7 +58,6 @@ struct Arguments {
 /// Fills `arguments`; returns an exit code when the program is to end here (help, bad usage).
 std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments);
 
-Result<double> speedOf(const Arguments& arguments);
 /// Nothing when no size was given.
 Result<std::optional<WindowSize>> sizeOf(const Arguments& arguments);
 /// The scenario with seed, noise and physics of the command line in it.

@@ -173,7 +173,7 @@ int showWindow(QApplication& application, const Arguments& arguments,
 int run(int argc, char** argv) {
   Arguments arguments;
   if (const auto exitCode = parseArguments(argc, argv, arguments)) return *exitCode;
-  const auto speed = speedOf(arguments);
+  const auto speed = shared::speedFrom(arguments.speed);
   if (!speed) return shared::reportError(speed.error());
   const auto size = sizeOf(arguments);
   if (!size) return shared::reportError(size.error());

@@ -11,7 +11,7 @@ without it they are lists of rows or memoryviews over the same memory.
     while True:
         observations, rewards, terminations, truncations, infos = env.step(actions)
 
-An environment that is over begins anew in the same step (Gymnasium's "same-step" autoreset): the
+An environment that is over begins again in the same step (Gymnasium's "same-step" autoreset): the
 observation is already that of the new episode, and infos["final_obs"][i] is the last one of the old.
 
 Run as a program it plays episodes with a simple rule and prints what came of them:

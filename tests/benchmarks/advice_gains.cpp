@@ -13,8 +13,8 @@
 #include "../support/rollout_agreement.h"
 #include "candidates.h"
 #include "game_belief.h"
+#include "lookahead.h"
 #include "position_value.h"
-#include "thought.h"
 
 namespace pitchboard::tests {
 namespace {
@@ -79,7 +79,7 @@ double valueNow(const SimulatedMatch& match, const Thinking& who) {
 /// How the match goes on when the robot is told this, with other random numbers.
 double playOn(SimulatedMatch& match, const link::Moment& moment, const Thinking& who,
               Advice advice) {
-  constexpr int ticksOfThought = 24;  // until it says what it thought
+  constexpr int ticksOfLookahead = 24;  // until it says what it thought
   const link::AdvisorVariables v;
   const sim::WorldState& state = match.simulation().state();
   if (!match.restore(moment)) std::abort();
@@ -88,7 +88,7 @@ double playOn(SimulatedMatch& match, const link::Moment& moment, const Thinking&
   const int perSecond = static_cast<int>(moment.state.settings.tickRate);
   int goals = 0, stamp = 0;
   for (int tick = 1; tick <= playedFor * perSecond && goals == 0; ++tick) {
-    const bool isAnnounced = tick % perSecond == ticksOfThought && tick < toldFor * perSecond;
+    const bool isAnnounced = tick % perSecond == ticksOfLookahead && tick < toldFor * perSecond;
     if (isAnnounced && advice.kind != AdviceKind::None) {
       link::Blackboard& board = *match.blackboard(who.options.robot);
       v.write(board, who.options.field, advice);
@@ -116,7 +116,7 @@ class Comparison {
 
   void compare(SimulatedMatch& match, link::Moment moment, Thinking& who, Question question,
                const rollout::Belief& belief, const Candidates& candidates, std::uint64_t seed) {
-    const link::ThoughtPlan plan =
+    const link::LookaheadPlan plan =
         link::planFor(question, link::AdvisorOptions{}.rollouts, horizon);
     const auto fast = [&](std::size_t candidate) {
       std::vector<double> values;
@@ -145,9 +145,9 @@ class Comparison {
       for (const double value : values) sum += value;
       return sum / static_cast<double>(values.size());
     };
-    link::Thought thought(belief, candidates, seed + 500000, plan);
-    while (!thought.isDone()) thought.playOne(who.rollouts, who.options.field);
-    const link::ThoughtResult result = thought.result();
+    link::Lookahead lookahead(belief, candidates, seed + 500000, plan);
+    while (!lookahead.isDone()) lookahead.playOne(who.rollouts, who.options.field);
+    const link::LookaheadResult result = lookahead.result();
     const std::size_t best = result.best;
     ++m_questions;
     if (best == 0 && m_onlySuggested) return;

@@ -5,7 +5,7 @@
 //   bench_day make FILE [--hours 24] [--rate 5] [--robots 22]    as the studio would record it
 //   bench_day open FILE [--memory MB]                            as the studio opens it
 //
-// Nothing is received: the same books, rows and recorder take datagrams that are made up, in the
+// Nothing is received: the same state, rows and recorder take datagrams that are made up, in the
 // chunks that they would have in real time.
 #include <QCoreApplication>
 #include <QElapsedTimer>

@@ -82,7 +82,7 @@ void liveFrame(benchmark::State& state) {
   frames(state, [](FieldView&) { QCoreApplication::processEvents(); });
 }
 
-/// Everything painted anew, as after a change of zoom: the upper bound.
+/// Everything painted again, as after a change of zoom: the upper bound.
 void wholeRepaint(benchmark::State& state) {
   QImage screen;
   frames(state, [&screen](FieldView& view) {

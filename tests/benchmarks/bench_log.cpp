@@ -35,7 +35,7 @@ void measure(const char* title, const QString& words, int perFrame) {
   LogModel model;
   LogFilter filter;
   filter.setSourceModel(&model);
-  filter.setWords(words);
+  filter.setFilterText(words);
   QTableView table;
   table.setModel(&filter);
   styleTable(&table);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ticks per second of the `published` model, no drawing, no cognition: every robot walks, turns or
-// walks round, chosen anew every 100 ticks, and searches the ball. The published implementation
+// walks round, chosen again every 100 ticks, and searches the ball. The published implementation
 // makes 10 300, 2 250 and 390 frames/s with 1, 6 and 22 robots (system.md section 10).
 
 #include <benchmark/benchmark.h>

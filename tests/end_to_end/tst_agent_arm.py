@@ -53,7 +53,7 @@ def check(name, qemu):
         wrong = {n: (hex(word), hex(segment.words[places[n]])) for n, word in seen.items()
                  if word != segment.words[places[n]]}
         assert not wrong, wrong
-        # A change, after the segment was made anew.
+        # A change, after the segment was made again.
         segment.remove()
         segment = Segment(segment.key)
         segment.words[places["DECISION_ACTION_A"]] = 12

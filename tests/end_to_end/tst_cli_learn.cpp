@@ -109,7 +109,7 @@ class TestCliLearn : public QObject {
     }
   }
 
-  void whatIsWrongIsSaid() {
+  void whatIsWrongIsReported() {
     const ProgramRun fails =
         cli({"learn", file("fails.json", "1", R"(, "assertions": ["n(goals) == 3"])"), "--out",
              in("fails")});

@@ -161,7 +161,7 @@ class TestCliLive : public QObject {
     QVERIFY2(listener.err.contains("not text: 1"), listener.err.constData());
   }
 
-  void healthIsToldOnceASecondAndAtTheEnd() {
+  void healthIsReportedOnceASecondAndAtTheEnd() {
     QTemporaryDir folder;
     QFile profile(folder.filePath("p.json"));
     QVERIFY(profile.open(QIODevice::WriteOnly));

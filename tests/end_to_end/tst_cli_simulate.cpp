@@ -238,6 +238,8 @@ class TestCliSimulate : public QObject {
     QTest::addColumn<QByteArray>("words");
     QTest::newRow("scenario") << QStringList{"--scenario", "nope"} << QByteArray("nope");
     QTest::newRow("speed") << QStringList{"--speed", "fast"} << QByteArray("--speed must be");
+    QTest::newRow("speed range") << QStringList{"--speed", "1e6"}
+                                 << QByteArray("from 0.01 to 1000, or max, not \"1e6\"");
     QTest::newRow("cognition") << QStringList{"--cognition", "x"} << QByteArray("--cognition must");
     QTest::newRow("duration") << QStringList{"--duration", "-1"} << QByteArray("--duration must");
     QTest::newRow("seconds") << QStringList{"--duration", "1:75"}

@@ -65,7 +65,7 @@ class TestCliTournament : public QObject {
     QVERIFY2(more.out.contains("FAILED  one: n(goals) == 2 (n(goals) = 6)"), more.out.constData());
   }
 
-  void whatIsWrongIsSaid() {
+  void whatIsWrongIsReported() {
     const ProgramRun none = tournament({"paper-scenario-1", "--out", in("no")});
     QVERIFY2(none.exitCode == 2 && none.err.contains("it is no tournament"), none.err.constData());
     const QString path = file("bad.json", R"([{"name": "one"}, {"name": "two", "speed": 3}])");

@@ -79,12 +79,12 @@ class TestCooperation : public QObject {
   }
 
   // For people, too: what was printed, and what recorded.
-  void whatDoesNotRepeatIsSaid_data() {
+  void whatDoesNotRepeatIsReported_data() {
     QTest::addColumn<bool>("cooperates");
     QTest::newRow("cooperates") << true;
     QTest::newRow("does not") << false;
   }
-  void whatDoesNotRepeatIsSaid() {
+  void whatDoesNotRepeatIsReported() {
     QFETCH(bool, cooperates);
     const QString profile =
         profileOf({"python3", PITCHBOARD_SOURCE_DIR "/tests/end_to_end/cycle_robot.py", "${key}"},

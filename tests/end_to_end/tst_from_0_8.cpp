@@ -225,7 +225,7 @@ class TestFrom08 : public QObject {
         QByteArray());
     QVERIFY(std::abs(frame.snapshot.ball.x - 1.03) < 1e-3);
     QVERIFY(frame.robots[1].penalty);
-    QCOMPARE(frame.robots[1].penalty->words, std::string("pickup or incapable"));
+    QCOMPARE(frame.robots[1].penalty->text, std::string("pickup or incapable"));
     QCOMPARE(frame.referee->teams[0].playersLeft, 1);
     frame = at(43.0);
     QCOMPARE(frame.referee->setPlay, std::string("corner kick"));
@@ -284,9 +284,9 @@ class TestFrom08 : public QObject {
                            QStringLiteral("--screenshot-to"),
                            m_folder.filePath(QStringLiteral("s.png"))}));
     QVERIFY(studio.waitForFinished(longWait));
-    const QByteArray words = studio.readAllStandardError();
-    QVERIFY2(studio.exitCode() == 0, words);
-    QVERIFY2(!words.contains("plots"), words);
+    const QByteArray output = studio.readAllStandardError();
+    QVERIFY2(studio.exitCode() == 0, output);
+    QVERIFY2(!output.contains("plots"), output);
     const QSettings after(path, QSettings::IniFormat);
     const auto curvesOf = [](const QSettings& settings) {
       QList<qsizetype> counts;

@@ -37,7 +37,7 @@ QJsonObject expected(const QString& name) {
 }
 
 // While a kick-off or a set play of one team goes on: the others keep away from the ball.
-int wordInPlay(const QString& name, const QJsonObject& state, int team) {
+int codeInPlay(const QString& name, const QJsonObject& state, int team) {
   const bool hasBall = state["kickOffTeamNumber"].toInt() == team;
   const int secondary = state["secGameState"].toInt();
   if (secondary >= 4 && secondary <= 9) {
@@ -64,7 +64,7 @@ int wordOf(const QString& name, const QJsonObject& state, int team) {
     case 2:
       return 12;
     case 3:
-      return wordInPlay(name, state, team);
+      return codeInPlay(name, state, team);
     default:
       return 1;
   }
@@ -80,7 +80,7 @@ class TestRefereeObeyed : public QObject {
   const TestSocket m_controller;
 
   /// Sends until the process has written `word`.
-  void hears(const QByteArray& datagram, int team, int shirt, int word) {
+  void receives(const QByteArray& datagram, int team, int shirt, int word) {
     ProcessOptions options;
     options.telemetryPortBase = 60000;
     options.refereePort = TestSocket(INADDR_ANY).port();
@@ -123,8 +123,8 @@ class TestRefereeObeyed : public QObject {
         const bool stands = player["penalty"].toInt() != 0;
         int& done = stands ? penalised : free;
         if (done++ > 0) continue;  // one of each kind is enough
-        hears(packet(name), team["number"].toInt(), player["n"].toInt(),
-              stands ? 1 : wordOf(name, state, team["number"].toInt()));
+        receives(packet(name), team["number"].toInt(), player["n"].toInt(),
+                 stands ? 1 : wordOf(name, state, team["number"].toInt()));
       }
     }
     QVERIFY(free + penalised > 0);
@@ -187,13 +187,13 @@ class TestRefereeObeyed : public QObject {
   }
 
   // Only where the decision is ours: a team's own map may have something else on these words.
-  void aSetPlayIsToldToOurDecision_data() {
+  void aSetPlayIsReportedToOurDecision_data() {
     QTest::addColumn<QByteArray>("decision");
     QTest::addColumn<bool>("told");
     QTest::newRow("ours") << QByteArray() << true;
     QTest::newRow("a team's") << QByteArray("command.decision = /bin/sleep 600\n") << false;
   }
-  void aSetPlayIsToldToOurDecision() {
+  void aSetPlayIsReportedToOurDecision() {
     QFETCH(QByteArray, decision);
     QFETCH(bool, told);
     const QString corner = "v12hl688_CORNER_KICK";

@@ -142,7 +142,7 @@ class TestStudioRecording : public QObject {
     QCOMPARE(old.readAll(), QByteArray("the final"));
   }
 
-  void whatCannotBeRecordedIsSaid_data() {
+  void whatCannotBeRecordedIsReported_data() {
     QTest::addColumn<QStringList>("arguments");
     QTest::addColumn<QByteArray>("says");
     QTest::newRow("a session") << QStringList{QStringLiteral("--record"), QStringLiteral("a.mcap"),
@@ -152,7 +152,7 @@ class TestStudioRecording : public QObject {
                                              QStringLiteral("/proc/none/a.mcap")}
                               << QByteArray("Choose another one");
   }
-  void whatCannotBeRecordedIsSaid() {
+  void whatCannotBeRecordedIsReported() {
     QFETCH(QStringList, arguments);
     QFETCH(QByteArray, says);
     Studio studio(m_folder);
@@ -221,7 +221,7 @@ class TestStudioRecording : public QObject {
     QVERIFY(secondsIn() > 3.0);
   }
 
-  void aDiskThatStallsIsSaid() {
+  void aDiskThatStallsIsReported() {
     const QString path = newPath();
     QProcess recorder;
     QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();

@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   if (decoded.accepted() && (decoded.robot < 1 || decoded.robot > TextDecoder::maxRobot)) {
     std::abort();
   }
-  for (std::size_t i = 0; i < decoded.count; ++i) (void)printable(decoded.words[i], 40);
+  for (std::size_t i = 0; i < decoded.count; ++i) (void)printable(decoded.texts[i], 40);
   // The same bytes as a setup: what is read reads back the same.
   if (const auto setup = parseTeamSetup(payload, "fuzz")) {
     const auto again = parseTeamSetup(teamSetupText(*setup), "again");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any bytes as datagrams of a live match of several teams, the whole way: team, format, books,
+// Any bytes as datagrams of a live match of several teams, the whole way: team, format, state,
 // rows, frame; and what a session keeps of it reads back as the same. The first byte chooses port
 // and sender.
 #include <cstdlib>

@@ -77,7 +77,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   if (++rounds % 16 == 0) match->check();
-  // Names are few, and robots come and go: it begins anew.
+  // Names are few, and robots come and go: it begins again.
   if (rounds % 20'000 == 0) match = std::make_unique<Match>();
   return 0;
 }

@@ -14,7 +14,7 @@
 
 #include "candidates.h"
 #include "game_belief.h"
-#include "thought.h"
+#include "lookahead.h"
 
 namespace tst_advisor {
 
@@ -78,8 +78,8 @@ Advice kick(AdviceKind kind, const Point& place) {
 }
 
 /// What a robot does in one cycle after the other.
-struct Mind {
-  Mind() : process(findProcess("decision")->make(options()).value()) {
+struct State {
+  State() : process(findProcess("decision")->make(options()).value()) {
     const RobotVariables v;
     board.write(v.comReferee, 2);
     board.write(v.localizationBelief, 10.0F);
@@ -205,9 +205,10 @@ class TestAdvisor : public QObject {
     auto rollouts = rollout::Rollouts::create(setupFor(options)).value();
     int chosen = 0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-      Thought thought(beliefOf(now, opponents, 0.0, options), candidates, 100000 * seed, {72, 6.0});
-      while (!thought.isDone()) thought.playOne(rollouts, options.field);
-      chosen += thought.result().best == right;
+      Lookahead lookahead(beliefOf(now, opponents, 0.0, options), candidates, 100000 * seed,
+                          {72, 6.0});
+      while (!lookahead.isDone()) lookahead.playOne(rollouts, options.field);
+      chosen += lookahead.result().best == right;
     }
     QVERIFY2(chosen >= 95, qPrintable(QString::number(chosen)));
   }
@@ -219,10 +220,10 @@ class TestAdvisor : public QObject {
     auto rollouts = rollout::Rollouts::create(setupFor(options)).value();
     // It goes for the ball anyway.
     const Candidates candidates{Advice{}, kick(AdviceKind::GoToBall, {1.0, 0.0})};
-    Thought thought(beliefOf(now, {}, 0.0, options), candidates, 7, {});
-    while (!thought.isDone()) thought.playOne(rollouts, options.field);
-    QCOMPARE(thought.played(), 8);
-    QCOMPARE(thought.result().best, std::size_t{0});
+    Lookahead lookahead(beliefOf(now, {}, 0.0, options), candidates, 7, {});
+    while (!lookahead.isDone()) lookahead.playOne(rollouts, options.field);
+    QCOMPARE(lookahead.played(), 8);
+    QCOMPARE(lookahead.result().best, std::size_t{0});
   }
 
   /// The other team has as many robots, also when this robot has not seen them.
@@ -287,14 +288,14 @@ class TestAdvisor : public QObject {
 
   void itSaysWhatItThought() {
     auto match = played(scenarioOf(true), 60);
-    int thoughts = 0, last = 0;
+    int lookaheads = 0, last = 0;
     for (int i = 0; i < 1800; ++i) {
       match.tick();
       const int stamp = wordOf(match, 1, "ADVISOR_STAMP");
       if (stamp == last) continue;
       QCOMPARE(stamp, last + 1);
       last = stamp;
-      ++thoughts;
+      ++lookaheads;
       const int candidates = wordOf(match, 1, "ADVISOR_CANDIDATES");
       QVERIFY(wordOf(match, 1, "ADVISOR_ROLLOUTS") >= 4 * candidates);
       QVERIFY(candidates >= 2 && candidates <= 6);
@@ -309,7 +310,7 @@ class TestAdvisor : public QObject {
       }
       QCOMPARE(most, 15U);
     }
-    QVERIFY(thoughts > 3);
+    QVERIFY(lookaheads > 3);
   }
 
   /// A moment in the middle of a thought goes on as the match did.
@@ -343,11 +344,11 @@ class TestAdvisor : public QObject {
   }
 
   void freshAdviceIsTaken() {
-    Mind mind;
+    State mind;
     mind.put({{2.0, 0.0}, 0.0});
     mind.see(0.30, 0.2);
     QVERIFY(mind.kicks(30));
-    Mind told;
+    State told;
     told.put({{2.0, 0.0}, 0.0});
     told.see(0.30, 0.2);
     for (int i = 0; i < 3; ++i) {
@@ -359,7 +360,7 @@ class TestAdvisor : public QObject {
 
   void adviceSaysWhoGoesAndWhereToStand() {
     const auto mindWith = [](const Point& mate, Intention intention) {
-      Mind mind;
+      State mind;
       mind.see(1.0, 0.0);
       mind.tell(mate, intention);
       mind.actions(5);
@@ -367,18 +368,18 @@ class TestAdvisor : public QObject {
     };
     const Advice leave = kick(AdviceKind::LeaveBall, {1.0, 0.0});
     const Advice go = kick(AdviceKind::GoToBall, {1.0, 0.0});
-    Mind first = mindWith({-2.0, 0.5}, Intention::Support);
+    State first = mindWith({-2.0, 0.5}, Intention::Support);
     QCOMPARE(first.word("DECISION_STATE"), static_cast<int>(Intention::Ball));
     first.advise(leave);
     first.actions(3);
     QCOMPARE(first.word("DECISION_STATE"), static_cast<int>(Intention::Support));
     // Nobody else would go.
-    Mind alone = mindWith({-2.0, 0.5}, Intention::Idle);
+    State alone = mindWith({-2.0, 0.5}, Intention::Idle);
     alone.advise(leave);
     alone.actions(3);
     QCOMPARE(alone.word("DECISION_STATE"), static_cast<int>(Intention::Ball));
 
-    Mind second = mindWith({0.7, 0.1}, Intention::Ball);
+    State second = mindWith({0.7, 0.1}, Intention::Ball);
     QCOMPARE(second.word("DECISION_STATE"), static_cast<int>(Intention::Support));
     second.advise(go);
     second.actions(3);
@@ -410,8 +411,8 @@ class TestAdvisor : public QObject {
     QFETCH(int, choice);
     QFETCH(float, x);
     QFETCH(bool, renewed);
-    Mind usual, told;
-    for (Mind* mind : {&usual, &told}) {
+    State usual, told;
+    for (State* mind : {&usual, &told}) {
       mind->put({{-1.0, 0.5}, 0.1});
       mind->see(0.30, 0.1);
     }
@@ -429,7 +430,7 @@ class TestAdvisor : public QObject {
   /// When no match waits for it, it plays what its share of a core allows, and also comes to an
   /// end.
   void itRunsFreely() {
-    Mind mind;
+    State mind;
     mind.put({{2.5, 0.0}, 0.0});
     mind.see(0.4, 0.0);
     ProcessOptions options = kidSize();
@@ -448,23 +449,23 @@ class TestAdvisor : public QObject {
   /// While a match is played, and back again.
   void teamsBeginAndEndToThinkAhead() {
     auto match = played(scenarioOf(false), 60);
-    const auto thoughts = [&](int ticks) {
+    const auto lookaheads = [&](int ticks) {
       const int before = wordOf(match, 1, "ADVISOR_STAMP");
       for (int i = 0; i < ticks; ++i) match.tick();
       return wordOf(match, 1, "ADVISOR_STAMP") - before;
     };
-    QCOMPARE(thoughts(1200), 0);
+    QCOMPARE(lookaheads(1200), 0);
     QVERIFY(match.robots().setAdvisor(TeamColor::Blue, AdvisorOptions{}));
-    QVERIFY(thoughts(2400) > 0);
+    QVERIFY(lookaheads(2400) > 0);
     QCOMPARE(wordOf(match, 4, "ADVISOR_STAMP"), 0);  // of the other team
     QVERIFY(match.toScenario().advisors.contains(TeamColor::Blue));
     // Numbers that cannot be used change nothing.
     QVERIFY(!match.robots().setAdvisor(TeamColor::Blue, AdvisorOptions{.rollouts = 0}));
     QVERIFY(match.toScenario().advisors.at(TeamColor::Blue) == AdvisorOptions{});
-    QVERIFY(thoughts(2400) > 0);
+    QVERIFY(lookaheads(2400) > 0);
     QVERIFY(match.robots().setAdvisor(TeamColor::Blue, {}));
     QCOMPARE(wordOf(match, 1, "ADVISOR_STATE"), 0);
-    QCOMPARE(thoughts(2400), 0);
+    QCOMPARE(lookaheads(2400), 0);
     QVERIFY(match.toScenario().advisors.empty());
   }
 

@@ -153,7 +153,7 @@ class TestAgent : public QObject {
     QVERIFY(agent.runs());
   }
 
-  void aSegmentOfAnotherSizeIsToldOnce() {
+  void aSegmentOfAnotherSizeIsReportedOnce() {
     QVERIFY(shmget(m_key, 4096, IPC_CREAT | IPC_EXCL | 0600) >= 0);
     Agent agent({"--key", QString::number(m_key)});
     QTRY_VERIFY(agent.said().contains("has 4096 bytes, not 2048"));

@@ -218,7 +218,7 @@ class TestAgentSchedule : public QObject {
     QVERIFY(rig.schedule.waiting() == 0);
   }
 
-  void aBlackboardThatGoesIsTold() {
+  void aBlackboardThatGoesIsReported() {
     Rig rig(20);
     rig.there = false;
     for (int i = 0; i < 50; ++i) rig.step();
@@ -305,7 +305,7 @@ class TestAgentSchedule : public QObject {
     QVERIFY2(error.contains(says), qPrintable(error));
   }
 
-  void aNetworkThatFailsIsToldOnce() {
+  void aNetworkThatFailsIsReportedOnce() {
     auto output = Output::to({0x7f000001}, 9);
     QVERIFY(output);
     const std::string tooLong(70'000, 'x');

@@ -280,9 +280,9 @@ class TestCapi : public QObject {
     QCOMPARE(values(worlds, WorldArray::Game)[3 * gameRow + ball], -0.5);
 
     const std::vector<int> some{0, 2};
-    const std::vector<std::uint64_t> anew{5, 6};
+    const std::vector<std::uint64_t> again{5, 6};
     const auto before = hashes(worlds);
-    QVERIFY(worlds.reset(some, anew).has_value());
+    QVERIFY(worlds.reset(some, again).has_value());
     Worlds fresh = make(steered(), options);
     QVERIFY(fresh.reset(0, 5).has_value() && fresh.reset(2, 6).has_value());
     QCOMPARE(hashes(worlds)[0], hashes(fresh)[0]);
@@ -292,8 +292,8 @@ class TestCapi : public QObject {
     // Nothing changes when a world is not there, or a value is missing.
     const auto now = hashes(worlds);
     const std::vector<int> wrong{0, 4}, everyone{Worlds::all, 1};
-    QVERIFY(!worlds.reset(wrong, anew) && !worlds.reset(everyone, anew));
-    QVERIFY(!worlds.restore(which, anew, snapshot) && !worlds.placeBalls(some, places, still));
+    QVERIFY(!worlds.reset(wrong, again) && !worlds.reset(everyone, again));
+    QVERIFY(!worlds.restore(which, again, snapshot) && !worlds.placeBalls(some, places, still));
     QCOMPARE(hashes(worlds), now);
   }
 

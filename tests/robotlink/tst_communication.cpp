@@ -93,7 +93,7 @@ class TestCommunication : public QObject {
     process->step(board, {1.0});
     QCOMPARE(telemetry.take(), QByteArray("3 258 448 -8 56.3184547424 184.634048462 41.0279350281 "
                                           "0 0 0 1 0 8 nan 189 OUT"));
-    QVERIFY(process->period() <= 0.1);  // the referee is heard between two telemetry datagrams
+    QVERIFY(process->period() <= 0.1);  // the referee is received between two telemetry datagrams
   }
 
   void eachFlagHasItsPlace() {

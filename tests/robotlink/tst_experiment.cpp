@@ -12,7 +12,7 @@
 #include <base/read_file.h>
 #include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/experiment/run_player.h>
-#include <robotlink/experiment/situation.h>
+#include <robotlink/experiment/situation_test.h>
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 
@@ -324,7 +324,7 @@ void TestExperiment::aSituationKeepsTheGame() {
   base.writes = {{{}, "COM_REFEREE", 2, 0.0}};
   MomentOptions options;
   options.base = &base;
-  Situation situation;
+  SituationTest situation;
   situation.name = experimentNameFrom("ready, set");
   QCOMPARE(situation.name, std::string("ready--set"));
   situation.scenario = situationScenario(frame, options).scenario;
@@ -348,7 +348,7 @@ void TestExperiment::aSituationKeepsTheGame() {
   // What is offered can be used.
   for (const SituationTemplate& one : situationTemplates()) {
     situation.assertions = {one.assertion};
-    QVERIFY2(situationToJson(situation).has_value(), one.words);
+    QVERIFY2(situationToJson(situation).has_value(), one.text);
   }
 }
 

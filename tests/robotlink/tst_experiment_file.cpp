@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include <robotlink/experiment/situation.h>
+#include <robotlink/experiment/situation_test.h>
 
 #include "experiment_rig.h"
 

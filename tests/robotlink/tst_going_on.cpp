@@ -147,7 +147,7 @@ class TestGoingOn : public QObject {
     }
   }
 
-  // What was done by hand is in the states, and robots that come and go are remembered anew.
+  // What was done by hand is in the states, and robots that come and go are remembered again.
   void changesByHandArePartOfThePast() {
     Played match(scenarioOf(3));
     match.playTo(14 * second);

@@ -321,7 +321,7 @@ class TestLearn : public QObject {
     row("metric", "walked_m -", "walked -", "walked");
     row("parameter", "\"slow_within\"", "\"slow_withim\"", "did you mean \"slow_within\"");
     row("nobody reads it", "\"slow_within\"", "\"distance_to_kick\"", "no robot of the team reads");
-    row("twice", "\"slow_within\"", "\"kick_distance\"", "stands there twice");
+    row("twice", "\"slow_within\"", "\"kick_distance\"", "is given twice");
     row("opponents", "{\"name\": \"far\", \"robots\"", "{\"name\": \"far\", \"robot\"",
         "opponents[1].robot: unknown key");
     row("held out", "[\"usual\", {", "[\"usuel\", {", "there is no opponent \"usuel\"");

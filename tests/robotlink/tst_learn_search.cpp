@@ -146,7 +146,7 @@ class TestLearnSearch : public QObject {
     for (int i = 0; i < 25; ++i) {
       CmaSearch resumed = begun(5);
       for (const Generation& one : journal) QVERIFY(resumed.replay(one).has_value());
-      QCOMPARE(resumed.told(), journal.size());
+      QCOMPARE(resumed.generationsDone(), journal.size());
       QVERIFY(resumed.mean() == whole.mean());
       QVERIFY(*resumed.ask() == *whole.ask());
       journal.push_back(play(whole, rosenbrock));
@@ -161,7 +161,7 @@ class TestLearnSearch : public QObject {
     QVERIFY(!refused && refused.error().code == ErrorCode::Conflict);
     QVERIFY2(refused.error().message.starts_with("generation 1 has other points"),
              refused.error().message.c_str());
-    QCOMPARE(search.told(), std::size_t{0});
+    QCOMPARE(search.generationsDone(), std::size_t{0});
     Generation shorter = play(search, sphere);
     CmaSearch again = begun(3);
     shorter.points.pop_back();
@@ -178,7 +178,7 @@ class TestLearnSearch : public QObject {
     std::vector<double> bad(12, 0.0);
     bad[3] = std::nan("");
     QVERIFY(!search.tell(bad));
-    QCOMPARE(search.told(), std::size_t{0});
+    QCOMPARE(search.generationsDone(), std::size_t{0});
   }
 };
 

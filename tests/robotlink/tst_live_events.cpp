@@ -112,7 +112,7 @@ class TestLiveEvents : public QObject {
     QCOMPARE(kindsOf(s.at(3.0)), (Kinds{Kind::RobotReceived, Kind::RobotOffline}));
   }
 
-  void anotherAddressIsToldAndTheRobotStays() {
+  void anotherAddressIsReportedAndTheRobotStays() {
     Stage s;
     s.robot(3);
     (void)s.at(1.0);
@@ -126,7 +126,7 @@ class TestLiveEvents : public QObject {
     QVERIFY(s.at(4.0).empty());
   }
 
-  void aClockThatWasSetIsToldOnce() {
+  void aClockThatWasSetIsReportedOnce() {
     using namespace std::chrono_literals;
     LiveEvents events;
     QVERIFY(events.compareClock(0s, 1.0).empty());
@@ -139,7 +139,7 @@ class TestLiveEvents : public QObject {
     QCOMPARE(events.compareClock(-1h, 5.0).at(0).value, std::optional(-7200));
   }
 
-  void aSecondSenderIsToldOnce() {
+  void aSecondSenderIsReportedOnce() {
     Stage s;
     s.robot(1);
     (void)s.at(1.0);
@@ -166,7 +166,7 @@ class TestLiveEvents : public QObject {
     QCOMPARE(sentenceOf(told[0]), std::string("B1 penalised: pushing, 30 s"));
     s.frame.robots[0].penalty->secondsLeft = 12;  // counting down is no event
     QVERIFY(s.at(3.0).empty());
-    s.frame.robots[0].penalty->words = "pickup";
+    s.frame.robots[0].penalty->text = "pickup";
     QCOMPARE(kindsOf(s.at(4.0)), (Kinds{Kind::Penalised}));
     s.frame.robots[0].penalty.reset();
     QCOMPARE(kindsOf(s.at(5.0)), (Kinds{Kind::PenaltyOver}));
@@ -203,7 +203,7 @@ class TestLiveEvents : public QObject {
     QCOMPARE(kindsOf(s.at(8.0)), (Kinds{Kind::GamePhase}));
   }
 
-  void whatAGameHadBegunWithIsToldToWhoComesLater() {
+  void whatAGameHadBegunWithIsReportedToWhoComesLater() {
     Stage s;
     RefereeView& view = s.referee();
     view.firstHalf = false;
@@ -285,7 +285,7 @@ class TestLiveEvents : public QObject {
     QCOMPARE(kindsOf(s.at(2.0)), kindsOf(first));
   }
 
-  void aLowBatteryIsSaidOnce() {
+  void aLowBatteryIsReportedOnce() {
     Stage s;
     RobotFrame& robot = s.robot(2);
     const auto volts = [&](double value) {

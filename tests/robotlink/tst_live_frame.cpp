@@ -43,7 +43,7 @@ RobotStatus robotSaying(const std::string& message) {
   robot.decoder = decoder;
   robot.values.assign(decoded.values.begin(),
                       decoded.values.begin() + static_cast<std::ptrdiff_t>(decoded.count));
-  for (std::size_t i = 0; i < decoded.count; ++i) robot.words.emplace_back(decoded.words[i]);
+  for (std::size_t i = 0; i < decoded.count; ++i) robot.texts.emplace_back(decoded.texts[i]);
   return robot;
 }
 

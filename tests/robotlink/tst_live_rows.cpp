@@ -208,7 +208,7 @@ class TestLiveRows : public QObject {
     QCOMPARE(send("striker", 4.0), std::string("striker"));
     QCOMPARE(rig.latest("Robot 3", "ROLE"), 8.0);
     QCOMPARE(rig.view("Robot 3")->rows(), std::size_t{4});
-    for (std::size_t i = 0; i < LiveRows::maxWords; ++i)
+    for (std::size_t i = 0; i < LiveRows::maxTexts; ++i)
       send("w" + std::to_string(i), 5.0 + static_cast<double>(i));
     QCOMPARE(send("one-more", 100.0), std::string("other"));
     QCOMPARE(send("striker", 101.0), std::string("striker"));

@@ -257,8 +257,8 @@ class TestLiveTeams : public QObject {
     const auto group = store->findGroup("Robot 3");
     QVERIFY(group);
     const TeamSetup ours = setupOf(R"({"colour": "blue", "senders": ["10.0.0.0/24"]})");
-    const TeamSetup guests = setupOf(R"({"colour": "red", "senders": ["10.0.1.0/24"]})");
-    apply({ours, guests});
+    const TeamSetup visitors = setupOf(R"({"colour": "red", "senders": ["10.0.1.0/24"]})");
+    apply({ours, visitors});
     say(2, "10.0.0.3");
     QCOMPARE(theOnlyOne(2), (RobotKey{1, 3, 0}));
     QCOMPARE(state.drawings.at(2.0).at(0).robot, (RobotKey{1, 3, 0}));
@@ -267,7 +267,7 @@ class TestLiveTeams : public QObject {
     QCOMPARE(store->view(*group)->rows(), std::size_t(2));
     QVERIFY(store->findGroup("B3 link") && !store->findGroup("Robot 3 link"));
     // A setup that moves takes its robots along, and one that is taken away leaves them.
-    apply({guests, ours});
+    apply({visitors, ours});
     QCOMPARE(theOnlyOne(2), (RobotKey{2, 3, 0}));
     say(3, "10.0.0.3");
     QCOMPARE(theOnlyOne(3), (RobotKey{2, 3, 0}));
@@ -325,7 +325,7 @@ class TestLiveTeams : public QObject {
     QCOMPARE(named("R3 (2)"), std::string("none"));
   }
 
-  void booksKeepTheSetups() {
+  void snapshotsKeepTheSetups() {
     const LiveOptions options = twoTeams();
     const LiveState state(options);
     const auto read = LiveState::read(state.text(options, 1.0, start), start);
@@ -334,7 +334,7 @@ class TestLiveTeams : public QObject {
   }
 
   /// Every team writes in its own way; who spoke last makes no difference.
-  void booksKnowHowEachTeamWrites() {
+  void snapshotsKeepEachTeamsFormat() {
     const LiveOptions options = twoTeams();
     for (const bool oursLast : {false, true}) {
       LiveState state(options);

@@ -66,7 +66,7 @@ class TestMatchEvents : public QObject {
       QVERIFY(!logLineOf(full(kind)).origin.empty());
       MatchEvent bare;
       bare.kind = kind;
-      bare.detail = info(kind).words.empty() ? "PLAYING" : "";
+      bare.detail = info(kind).predicate.empty() ? "PLAYING" : "";
       QVERIFY2(!sentenceOf(bare).empty(), info(kind).name.data());
     }
     QCOMPARE(names.size(), matchEventKindCount);
@@ -179,7 +179,7 @@ class TestMatchEvents : public QObject {
     QCOMPARE(seen[0].kind, Kind::BallSeen);
   }
 
-  void aStoppedClockIsToldBetweenTicks() {
+  void aStoppedClockIsReportedBetweenTicks() {
     auto match = SimulatedMatch::create(loadScenario("one-robot").value(), {}).value();
     (void)taken(match);
     match.simulation().setClockRunning(false);

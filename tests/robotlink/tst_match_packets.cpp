@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The GameController's packets of a simulated match, in every version: sent in the rhythm of the
-// controllers, and obeyed by another match that hears them.
+// controllers, and obeyed by another match that receives them.
 #include <QtTest>
 
 #include <cmath>
@@ -160,13 +160,13 @@ class TestMatchPackets : public QObject {
     play(match, 0.6);
     const sim::WorldState& world = match.simulation().state();
     const auto word = [&] { return match.blackboard(ours)->read(match.variables().comReferee); };
-    // What a robot of team 12 hears, whose communication process nobody has changed.
+    // What a robot of team 12 receives, whose communication process nobody has changed.
     const auto received = [&] {
       const auto bytes = telemetry::encodeReferee(refereePacket(world, 1)).value();
       const auto packet = telemetry::decodeReferee(std::string_view(bytes)).value();
       const auto order = RefereeOrders().take(std::get<telemetry::RefereeState>(packet), 12,
                                               world.game->teams[1].slotOf(shirt));
-      return order ? order->word : -1;
+      return order ? order->code : -1;
     };
     const auto call = [&](const sim::RefereeCall& one) {
       QVERIFY(match.simulation().call(one));
@@ -202,7 +202,7 @@ class TestMatchPackets : public QObject {
     MatchOptions options;
     options.process.particles = 100;
     options.obeyReferee = port;
-    // It has rules of its own; what it hears decides.
+    // It has rules of its own; what it receives decides.
     auto obeying = SimulatedMatch::create(scenarioFor(12, 688), options).value();
     SimulatedMatch match = sending(version, size, port);
     const sim::GameState& wanted = *match.simulation().state().game;
@@ -264,7 +264,7 @@ class TestMatchPackets : public QObject {
     const auto penalty = [&](const SimulatedMatch& match) {
       return match.simulation().state().game->teams[0].players[1].penalty;
     };
-    const auto hears = [&](sim::PenaltyKind kind) {
+    const auto receives = [&](sim::PenaltyKind kind) {
       play(controller, 0.5);
       obeying.tick();
       return penalty(obeying) == kind;
@@ -273,7 +273,7 @@ class TestMatchPackets : public QObject {
     call({.kind = sim::CallKind::State, .state = sim::PlayState::Set});
     call({.kind = sim::CallKind::State, .state = sim::PlayState::Playing});
     call({.kind = sim::CallKind::Penalise, .robot = robot, .penalty = sim::PenaltyKind::Pushing});
-    QTRY_VERIFY(hears(sim::PenaltyKind::Pushing));
+    QTRY_VERIFY(receives(sim::PenaltyKind::Pushing));
     play(obeying, 5.0);
     const Pose beside = *obeying.simulation().robotPose(robot);
     QVERIFY(std::abs(beside.position.y) > obeying.simulation().state().settings.field.halfWidth());
@@ -288,11 +288,11 @@ class TestMatchPackets : public QObject {
       QVERIFY(distance(obeying.simulation().robotPose(robot)->position, beside.position) < 0.05);
     }
     call({.kind = sim::CallKind::Pardon, .robot = robot});
-    QTRY_VERIFY(hears(sim::PenaltyKind::None));
+    QTRY_VERIFY(receives(sim::PenaltyKind::None));
   }
 
   // Of robots that know the extension of the map: whose set play it is, score and time.
-  void robotsAreToldOfTheGame() {
+  void robotsAreReportedOfTheGame() {
     Scenario scenario = scenarioFor(12, 688);
     scenario.robots[0].behaviour = "striker";
     auto match = SimulatedMatch::create(scenario, {}).value();
@@ -334,7 +334,7 @@ class TestMatchPackets : public QObject {
   void version7ChangesSides() {
     SimulatedMatch match = SimulatedMatch::create(scenarioFor(12, 688), {}).value();
     sim::WorldState world = match.simulation().state();
-    const auto hears = [&](int half, int state, int secState) {
+    const auto receives = [&](int half, int state, int secState) {
       telemetry::RefereeState packet = telemetry::asVersion7(refereePacket(world, 1));
       packet.firstHalf = half == 1 ? 1 : 0;
       packet.state = state;
@@ -342,17 +342,17 @@ class TestMatchPackets : public QObject {
       adoptPacket(packet, world);
       return world.game->swapped;
     };
-    QVERIFY(!hears(1, 3, 0));
-    QVERIFY(hears(2, 0, 0));
-    QVERIFY(hears(2, 3, 0));
+    QVERIFY(!receives(1, 3, 0));
+    QVERIFY(receives(2, 0, 0));
+    QVERIFY(receives(2, 3, 0));
     QVERIFY(world.robots[0].imuStartsAt180);
     // In a shoot-out the sides change with each shot after the first.
-    QVERIFY(hears(2, 0, 1));
-    QVERIFY(hears(2, 2, 1));
-    QVERIFY(hears(2, 3, 1));
-    QVERIFY(hears(2, 4, 1));
-    QVERIFY(!hears(2, 2, 1));
-    QVERIFY(!hears(2, 3, 1));
+    QVERIFY(receives(2, 0, 1));
+    QVERIFY(receives(2, 2, 1));
+    QVERIFY(receives(2, 3, 1));
+    QVERIFY(receives(2, 4, 1));
+    QVERIFY(!receives(2, 2, 1));
+    QVERIFY(!receives(2, 3, 1));
   }
 
   void itIsAnswered_data() {

@@ -118,7 +118,7 @@ class TestMatchRunner : public QObject {
     QTRY_COMPARE(runner->latest()->snapshot.ball, (Point{1, 1}));
   }
 
-  void newsAreToldOnceUntilSomebodyAsks() {
+  void newsAreReportedOnceUntilSomebodyAsks() {
     auto runner = start(builtIn("one-robot"), true);
     QVERIFY(runner->waitUntilStill(10s));
     (void)runner->latest();

@@ -344,7 +344,7 @@ class TestOpponents : public QObject {
     QVERIFY(before.pace != Evidence<paceModels>{} || before.aim != Evidence<aimModels>{});
     QVERIFY(match.robots().restartProcess(RobotId{striker}, "advisor"));
     for (int i = 0; i < 12; ++i) match.tick();
-    // It may have looked once more; it has not begun anew.
+    // It may have looked once more; it has not begun again.
     QCOMPARE(learnedBy(match, striker).pace, before.pace);
     QCOMPARE(learnedBy(match, striker).aim, before.aim);
   }

@@ -205,7 +205,7 @@ class TestProcessClocks : public QObject {
   }
 
   // Work, and half a second of sleep: at a high speed nothing is left of the sleep.
-  void whatAProgramCannotKeepUpWithIsTold() {
+  void whatAProgramCannotKeepUpWithIsReported() {
     ManagedProcess process =
         python({"-c", "import time\nwhile True:\n sum(range(300000))\n time.sleep(0.5)\n"});
     const int id = add(process);

@@ -73,7 +73,7 @@ class TestRecordedLive : public QObject {
         pipeline.details(zero + std::chrono::milliseconds(2100)).team;
     QVERIFY(robot.battery && robot.battery == team.robots.at(0).battery);
     QCOMPARE(robot.link->sender.address, team.robots[0].sender.address);
-    QCOMPARE(robot.values.size(), team.robots[0].words.size());
+    QCOMPARE(robot.values.size(), team.robots[0].texts.size());
     for (std::size_t i = 0; i < robot.values.size(); ++i) {
       QCOMPARE(std::stod(robot.values[i].text), team.robots[0].values[i]);
       QCOMPARE(robot.values[i].name, team.robots[0].name(i));

@@ -20,7 +20,7 @@ telemetry::RefereeState recorded(const char* name) {
 /// Of a robot that has just been started.
 std::optional<int> wordOf(const telemetry::RefereeState& state, int team, int player) {
   const auto order = link::RefereeOrders().take(state, team, player);
-  return order ? std::optional(order->word) : std::nullopt;
+  return order ? std::optional(order->code) : std::nullopt;
 }
 
 /// A packet of the Humanoid League, 688 bytes, of teams 1 and 2.
@@ -118,8 +118,8 @@ class TestRefereeOrders : public QObject {
       for (const Step& step : steps) {
         const auto take = takers.take(step.packet, 2, 1), wait = others.take(step.packet, 1, 1);
         QVERIFY(take && wait);
-        QCOMPARE(take->word, step.takers);
-        QCOMPARE(wait->word, step.others);
+        QCOMPARE(take->code, step.takers);
+        QCOMPARE(wait->code, step.others);
         const bool given = step.packet.secState == throwIn;
         QCOMPARE(take->setPlay, given ? sim::SetPlay::ThrowIn : sim::SetPlay::None);
         QCOMPARE(wait->setPlay, take->setPlay);

@@ -189,7 +189,7 @@ class TestReport : public QObject {
     QCOMPARE(count("<rect"), 2 + 5 + 6 + 2);
   }
 
-  void whatHappenedToProcessesIsToldEach() {
+  void whatHappenedToProcessesIsReportedEach() {
     ReportContent content;
     content.statistics = m_statistics;
     const auto add = [&](MatchEventKind kind, double time, const char* detail) {

@@ -98,7 +98,7 @@ class TestRobotsPlay : public QObject {
       scenario.settings.afterGoal = sim::AfterGoal::StopClock;
       MatchOptions options;
       options.process.particles = 500;
-      options.tellSides = false;
+      options.announceSides = false;
       auto match = SimulatedMatch::create(scenario, options).value();
       std::vector<MatchEvent> events;
       for (int i = 0; i < 120 * 60 && match.simulation().state().clockRunning; ++i) match.tick();

@@ -292,7 +292,7 @@ class TestRollout : public QObject {
     belief.robots = {at(-4, 2.5, 0)};
     belief.ball = ballAt(1, 0);
     belief.ball.sigma = 0.3;
-    const Summary spread = summaryOf(play(rollouts, belief, 2000, {.seconds = 0.1}));
+    const OutcomeSummary spread = summaryOf(play(rollouts, belief, 2000, {.seconds = 0.1}));
     QVERIFY(std::abs(spread.ballSigmaX - 0.3) < 0.02 && std::abs(spread.ballSigmaY - 0.3) < 0.02);
     QVERIFY(std::abs(spread.ball.x - 1.0) < 0.03);
     belief.ball = ballAt(0, 0, {1.0, 0.0});
@@ -309,7 +309,7 @@ class TestRollout : public QObject {
     belief.ball = ballAt(4.0, 0.1, {2.0, 0.0});
     belief.robots[5].absent = true;
     const auto out = play(rollouts, belief, 200, {.seconds = 3.0, .look = 0.1});
-    const Summary summary = summaryOf(out);
+    const OutcomeSummary summary = summaryOf(out);
     QCOMPARE(summary.rollouts, std::size_t{200});
     QVERIFY(summary.goalLeft.value > 0.9 && summary.goalLeft.low < summary.goalLeft.value);
     QVERIFY(summary.goalLeft.high <= 1.0 && summary.goalRight.value == 0.0);
@@ -323,8 +323,8 @@ class TestRollout : public QObject {
 
   void everyColumnHasAName() {
     QSet<QByteArray> names;
-    for (const ColumnInfo& column : columns()) {
-      QVERIFY(!column.name.empty() && !column.words.empty());
+    for (const OutcomeColumn& column : columns()) {
+      QVERIFY(!column.name.empty() && !column.description.empty());
       names << QByteArray(column.name.data(), static_cast<qsizetype>(column.name.size()));
     }
     QCOMPARE(names.size(), static_cast<qsizetype>(columnCount));
@@ -345,7 +345,8 @@ class TestRollout : public QObject {
     setup.body.falls = true;
     setup.noise = link::noisePreset("realistic").value();
     auto rollouts = Rollouts::create(setup).value();
-    const Summary summary = summaryOf(play(rollouts, belief, 5, {.seconds = 10.0, .goOn = true}));
+    const OutcomeSummary summary =
+        summaryOf(play(rollouts, belief, 5, {.seconds = 10.0, .goOn = true}));
     QCOMPARE(summary.rollouts, std::size_t{5});
     QVERIFY(std::isfinite(summary.ball.x));
   }

@@ -165,6 +165,13 @@ class TestRuntimeProfile : public QObject {
       const auto nobody = runtimeChoiceFromText(text);
       QVERIFY2(!nobody && nobody.error().message.find("neither") != std::string::npos, text);
     }
+    // Found by fuzz_rules: it was accepted, and did not read back from its own text.
+    const QByteArray odd = QByteArray::fromBase64("OiAiAG4Aez3ZOnBhY2tldF9zemUiqP1/AAB0bAo=");
+    const auto accepted = runtimeChoiceFromText(odd.toStdString());
+    if (accepted) {
+      const auto again = runtimeChoiceFromText(runtimeChoiceToText(*accepted));
+      QVERIFY(again && *again == *accepted);
+    }
     const auto unknown = loadRuntime(choice("owm"));
     QVERIFY2(!unknown && unknown.error().text().find("did you mean \"own\"") != std::string::npos,
              "owm");

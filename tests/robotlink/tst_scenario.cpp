@@ -291,7 +291,7 @@ class TestScenario : public QObject {
     QCOMPARE(QString::fromStdString(scenario.error().text()).section('\n', 0, 0), error);
   }
 
-  void everyErrorIsSaid() {
+  void everyErrorIsReported() {
     const auto scenario = read(R"({"version": 1, "tick_rate": 0,
 "robots": [{"team": "blu", "number": 1, "x": 0, "y": 0},
 {"team": "red", "number": 0, "x": 0, "y": 0},

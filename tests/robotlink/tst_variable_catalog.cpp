@@ -122,7 +122,7 @@ QString actionsTable() {
   for (const ActionInfo& action : knownActions) {
     text += QString("| %1 | %2 |\n")
                 .arg(action.code)
-                .arg(QString::fromUtf8(action.words.data(), qsizetype(action.words.size())));
+                .arg(QString::fromUtf8(action.label.data(), qsizetype(action.label.size())));
   }
   return text;
 }

@@ -76,7 +76,7 @@ class TestWholeMatch : public QObject {
     QVERIFY(world.game->swapped);  // the second half
   }
 
-  // Ours are told anew where they attack; a team's own programs go on as on a real field.
+  // Ours are told again where they attack; a team's own programs go on as on a real field.
   void halfTimeKeepsTeamPrograms() {
     const QTemporaryDir folder;
     QFile file(folder.filePath("team.json"));

@@ -109,7 +109,7 @@ class TestFiles : public QObject {
     QCOMPARE(textOf(path("real")), std::string("new"));
   }
 
-  void whatCannotBeWrittenIsSaid() {
+  void whatCannotBeWrittenIsReported() {
     const auto nowhere = writeFile("/nonexistent/a", "x", IfExists::Replace);
     QVERIFY(nowhere.error().text().find("/nonexistent/a: The folder does not exist") == 0);
     const auto folder = writeFile(m_folder.path().toStdString(), "x", IfExists::Replace);

@@ -79,7 +79,7 @@ class TestPublishedFrame : public QObject {
     const Action* action = findAction(code);
     QVERIFY(action != nullptr);
     QVERIFY(action->kind == ActionKind::Walk);
-    QCOMPARE(QString::fromStdString(std::string(action->words)), QString(QTest::currentDataTag()));
+    QCOMPARE(QString::fromStdString(std::string(action->label)), QString(QTest::currentDataTag()));
     QVERIFY(std::abs(frame::mpsFromCmPerFrame(action->front) - forward) < 1e-12);
     QVERIFY(std::abs(frame::mpsFromCmPerFrame(action->drift) - left) < 1e-12);
     QVERIFY(std::abs(action->turn * frame::framesPerSecond - turn) < 1e-9);
@@ -90,12 +90,12 @@ class TestPublishedFrame : public QObject {
       QVERIFY(findAction(code) == nullptr);
       QCOMPARE(pitchboard::actionLabel(code), "action " + std::to_string(code));
     }
-    std::set<std::string_view> words;
+    std::set<std::string_view> label;
     for (const Action& action : actionTable()) {
-      QVERIFY(words.insert(action.words).second);
-      QCOMPARE(pitchboard::actionLabel(action.code), std::string(action.words));
+      QVERIFY(label.insert(action.label).second);
+      QCOMPARE(pitchboard::actionLabel(action.code), std::string(action.label));
     }
-    QCOMPARE(pitchboard::actionLabels().size(), words.size());
+    QCOMPARE(pitchboard::actionLabels().size(), label.size());
   }
 };
 

@@ -23,19 +23,19 @@ class TestDiskSync : public QObject {
       answer.acquire();
       return {};
     });
-    QCOMPARE(disk.owedSeconds(), 0.0);
+    QCOMPARE(disk.syncLatency(), 0.0);
     QVERIFY(disk.request());
     begun.acquire();
     // However much is written meanwhile, the disk is asked once more.
     for (int i = 0; i < 1000; ++i) QVERIFY(disk.request());
     QCOMPARE(calls, 1);
-    const double owed = disk.owedSeconds();
+    const double owed = disk.syncLatency();
     QVERIFY(owed > 0.0);
-    QTRY_VERIFY(disk.owedSeconds() > owed);
+    QTRY_VERIFY(disk.syncLatency() > owed);
     answer.release();
     begun.acquire();
     answer.release();
-    QTRY_COMPARE(disk.owedSeconds(), 0.0);
+    QTRY_COMPARE(disk.syncLatency(), 0.0);
     QCOMPARE(calls, 2);
   }
 
@@ -52,7 +52,7 @@ class TestDiskSync : public QObject {
     }
   }
 
-  void anErrorIsToldAndStays() {
+  void anErrorIsReportedAndStays() {
     DiskSync disk(
         []() -> Result<void> { return failure(ErrorCode::SystemError, "The disk is gone."); });
     const auto finished = disk.finish();

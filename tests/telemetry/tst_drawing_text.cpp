@@ -64,7 +64,7 @@ class TestDrawingText : public QObject {
              DrawingShape{ShapeKind::Text, {{1, 0.5}}, 0.0, 0x44112233U, 4.5, "I go  there"}));
     const DrawingLayer& seen = drawing->layers[1];
     QVERIFY(seen.frame == DrawingFrame::Robot && seen.life == 0.5 && seen.adds);
-    // Colour and width begin anew in each layer.
+    // Colour and width begin again in each layer.
     QVERIFY(
         (seen.shapes[0] == DrawingShape{ShapeKind::Disc, {{1, 0.5}}, 0.25, 0xffe5484dU, 2.0, {}}));
     QCOMPARE(seen.shapes[1].points.size(), std::size_t{3});
@@ -170,7 +170,7 @@ class TestDrawingText : public QObject {
     QCOMPARE(layersOf(store, 2.1), std::size_t{1});
   }
 
-  void pagesMakeTheBookAgain() {
+  void pagesRestoreTheStore() {
     DrawingStore store, copy;
     QVERIFY(store.take("PBD1 1\nlayer a 5\nline 0 0 0.1 0.3\nlayer b robot 2\ndisc 0 0 1", 1.0));
     QVERIFY(store.take("PBD1 2\nlayer a belief 3\ncolour blue\ntext 0 0 hello", 1.5, 3));

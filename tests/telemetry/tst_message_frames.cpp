@@ -155,7 +155,7 @@ class TestMessageFrames : public QObject {
     QCOMPARE(decoder.profile().fields.size(), std::size_t(5));
     QCOMPARE(decoder.profile().fields[3].unit, std::string("cm"));
     QCOMPARE(decoder.value(read.decoded, FieldMeaning::X), std::optional(600.0));
-    QCOMPARE(read.decoded.words[3], std::string_view("80"));
+    QCOMPARE(read.decoded.texts[3], std::string_view("80"));
   }
 
   void extraFieldsStayBehindWhatIsMade() {
@@ -167,7 +167,7 @@ class TestMessageFrames : public QObject {
     QCOMPARE(decoder.name(read.decoded, 4), std::string("LOCALIZATION_X"));
     QCOMPARE(decoder.name(read.decoded, 6), std::string("OTHER_1"));
     QCOMPARE(read.decoded.values[6], 5.0);
-    QCOMPARE(read.decoded.words[7], std::string_view("word"));
+    QCOMPARE(read.decoded.texts[7], std::string_view("word"));
   }
 
   void keysAndValues() {
@@ -183,7 +183,7 @@ class TestMessageFrames : public QObject {
     QCOMPARE(read.decoded.robot, 4);
     QCOMPARE(read.at("ROLE"), 2.0);
     QCOMPARE(read.at("VOLTAGE"), 124.0);
-    QCOMPARE(read.decoded.words[3], std::string_view("müde"));
+    QCOMPARE(read.decoded.texts[3], std::string_view("müde"));
     QVERIFY(qIsNaN(read.at("NOTE")));
     const Read without(decoder, "role=Torwart");
     QVERIFY(without.decoded.errors.has(TextError::BadRobot));
@@ -221,7 +221,7 @@ class TestMessageFrames : public QObject {
     const TextDecoder decoder(*utf8);
     const Read read(decoder, "1 Jürgen OUT");
     QVERIFY(read.decoded.errors.empty());
-    QCOMPARE(read.decoded.words[1], std::string_view("Jürgen"));
+    QCOMPARE(read.decoded.texts[1], std::string_view("Jürgen"));
     QCOMPARE(printable("Jürgen\x01"), std::string("Jürgen\\x01"));
     for (const char* bad :
          {"1 \xc0\xaf OUT", "1 \xed\xa0\x80 OUT", "1 \xf5\x80\x80\x80 OUT", "1 \xe2\x82"}) {

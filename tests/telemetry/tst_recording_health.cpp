@@ -61,7 +61,7 @@ class TestRecordingHealth : public QObject {
     QCOMPARE(troubleOf(SessionStatus()), RecordingTrouble::None);  // the system does not say
   }
 
-  void roomIsSaidInPlainWords() {
+  void roomIsReportedInPlainWords() {
     QCOMPARE(freeSpaceText(SessionStatus()), std::string());
     QCOMPARE(freeSpaceText(status(52.34, 0.0)), std::string("52.3 GB free"));
     QCOMPARE(freeSpaceText(status(0.4, 0.0)), std::string("400 MB free"));
@@ -71,16 +71,16 @@ class TestRecordingHealth : public QObject {
     QCOMPARE(freeSpaceText(status(500.0, 1e6)), std::string("room for more than 2 days"));
   }
 
-  void whatTheDiskOwesAndWhatIsMissingIsSaid() {
+  void whatTheDiskOwesAndWhatIsMissingIsReported() {
     SessionStatus of = status(100.0, 1e3);
-    of.owedSeconds = 1.0;
+    of.syncLatency = 1.0;
     QCOMPARE(troubleOf(of), RecordingTrouble::None);
-    of.owedSeconds = 9.6;
+    of.syncLatency = 9.6;
     QCOMPARE(troubleOf(of), RecordingTrouble::DiskBehind);
     QVERIFY(says(of, "cannot keep up: no write has finished for 10 s"));
     of.dropped = 7;
     QVERIFY(says(of, "7 rows and messages are missing"));
-    of.owedSeconds = 0.0;
+    of.syncLatency = 0.0;
     QCOMPARE(troubleOf(of), RecordingTrouble::Dropped);
     QVERIFY(says(of, "The disk could not keep up: 7 rows"));
   }

@@ -115,7 +115,7 @@ class TestSessionTime : public QObject {
     QVERIFY2(QString::fromStdString(time.error().message).contains(words),
              time.error().message.c_str());
   }
-  void whatIsNoMomentIsSaid() {
+  void whatIsNoMomentIsReported() {
     const WallTime start{std::chrono::seconds(1'800'000'000)};
     const QString all = QStringLiteral(
         " soon 12:60 12:00:60 12:60:00 12:00: 1:0 :30 1:2:3 0:00:00:00 1e2 12:00x 2026-02-30T12:00 "

@@ -76,7 +76,7 @@ QString wrong(const QJsonObject& message) {
           .arg(it.key())
           .arg(got, 0, 'g', 9)
           .arg(expected, 0, 'g', 9);
-    if (decoded.words[*place].empty()) return it.key() + QStringLiteral(" has no word");
+    if (decoded.texts[*place].empty()) return it.key() + QStringLiteral(" has no word");
   }
   return {};
 }

@@ -63,9 +63,9 @@ class TestTextDecoder : public QObject {
       QCOMPARE(parts.size(), 3);
       decoder.decode(parts[2].toStdString(), decoded);
       QVERIFY2(decoded.errors.empty(), parts[2].constData());
-      const QList<QByteArray> words = parts[2].trimmed().split(' ');
+      const QList<QByteArray> texts = parts[2].trimmed().split(' ');
       for (int i = 0; i < 15; ++i) {
-        QCOMPARE(decoded.values[static_cast<std::size_t>(i)], words[i].toDouble());
+        QCOMPARE(decoded.values[static_cast<std::size_t>(i)], texts[i].toDouble());
       }
       ++lines;
     }
@@ -172,7 +172,7 @@ class TestTextDecoder : public QObject {
     QCOMPARE(decoded.values[15], 12.0);
     QCOMPARE(decoder.name(decoded, 16), std::string("OTHER_2"));
     QVERIFY(!decoded.has(16));
-    QVERIFY(decoded.words[16] == "goalie");
+    QVERIFY(decoded.texts[16] == "goalie");
   }
 
   void isTheSameInEveryLocale() {

@@ -25,9 +25,9 @@ double weakRange(const Thinker& who) {
   return sim::rollingDistance(who.field.surface, who.model.weakKickSpeed);
 }
 
-Point ahead(const Point& from, double yaw, double way) {
+Point ahead(const Point& from, double yaw, double metres) {
   const auto [s, c] = repeatable::sinCos(yaw);
-  return {from.x + way * c, from.y + way * s};
+  return {from.x + metres * c, from.y + metres * s};
 }
 
 Point inside(const sim::FieldSpec& field, const Point& at, double margin) {
@@ -72,8 +72,8 @@ void addAtBall(const Situation& now, const Thinker& who, Collector& out) {
   const TeamMate* receiver = nullptr;
   for (const auto& mate : now.mates) {
     if (!mate || !mate->takesPart() || mate->intention == Intention::Keep) continue;
-    const double way = distance(mate->position, ball);
-    if (way < 0.8 || way > strong || mate->position.x < ball.x - 0.5) continue;
+    const double metres = distance(mate->position, ball);
+    if (metres < 0.8 || metres > strong || mate->position.x < ball.x - 0.5) continue;
     if (!receiver || mate->position.x > receiver->position.x) receiver = &*mate;
   }
   if (receiver) {
@@ -90,8 +90,8 @@ void addAtBall(const Situation& now, const Thinker& who, Collector& out) {
   if (nearest && distance(*nearest, ball) < pressing) {
     const double straight = direction(ball, goal);
     const double off = wrapToPi(direction(ball, *nearest) - straight);
-    const double way = straight + (off > 0.0 ? -0.6 : 0.6);
-    out.add(AdviceKind::WeakKick, inside(field, ahead(ball, way, weak), 0.3));
+    const double heading = straight + (off > 0.0 ? -0.6 : 0.6);
+    out.add(AdviceKind::WeakKick, inside(field, ahead(ball, heading, weak), 0.3));
   }
 }
 
@@ -119,14 +119,14 @@ bool isKick(const Act& act) {
   return index < knownActions.size() && knownActions[index].kind == ActionKind::Kick;
 }
 
-bool knowsEnough(const Situation& now) {
-  const bool isToldBall = std::ranges::any_of(
+bool enoughIsKnown(const Situation& now) {
+  const bool hasReportedBall = std::ranges::any_of(
       now.mates, [](const auto& mate) { return mate && mate->active && mate->ball; });
-  return now.localized && now.ball && (now.ballAge < longestMemory || isToldBall);
+  return now.localized && now.ball && (now.ballAge < longestMemory || hasReportedBall);
 }
 
 Question questionOf(const Situation& now, const Thinker& who) {
-  if (now.referee != Referee::Play || now.fallen || !knowsEnough(now)) return Question::None;
+  if (now.referee != Referee::Play || now.fallen || !enoughIsKnown(now)) return Question::None;
   const double away = distance(now.pose.position, *now.ball);
   if (now.intention == Intention::Ball && now.seesBall && away < atBall) return Question::AtBall;
   if (who.isKeeper) {

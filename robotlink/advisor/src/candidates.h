@@ -25,7 +25,7 @@ struct Thinker {
 /// Nobody can change a kick that goes on.
 bool isKick(const Act& act);
 /// The robot knows enough to think.
-bool knowsEnough(const Situation& now);
+bool enoughIsKnown(const Situation& now);
 /// Whether it matters now what the robot does; None unless it knows enough.
 Question questionOf(const Situation& now, const Thinker& who);
 /// `last`: what was suggested last; it is among them where it still fits.

@@ -15,7 +15,7 @@ constexpr double remembers = 6.0;    // s
 constexpr double moves = 0.8;        // m between two sightings of one opponent
 constexpr double sigmaSeen = 0.12;   // m
 constexpr double sigmaGrows = 0.15;  // m/s
-constexpr double keepersRoom = 1.3;  // m before a goal
+constexpr double keeperZone = 1.3;   // m before a goal
 constexpr double getsUp = 3.0;       // s that a team-mate lies on the field, on average
 
 rollout::RobotBelief at(const Point& place, double yaw, double sigma, double yawSigma) {
@@ -102,10 +102,10 @@ void OpponentMemory::update(const Points& opponents, double now) {
     std::size_t best = m_known.size();
     double least = moves;
     for (std::size_t i = 0; i < m_known.size(); ++i) {
-      const double way = distance(m_known[i].place, place);
-      if (way >= least || (i < isNew.size() && isNew[i])) continue;
+      const double metres = distance(m_known[i].place, place);
+      if (metres >= least || (i < isNew.size() && isNew[i])) continue;
       best = i;
-      least = way;
+      least = metres;
     }
     if (best == m_known.size()) {
       m_known.push_back({place, now});
@@ -153,8 +153,9 @@ rollout::Belief beliefOf(const Situation& now, const OpponentMemory& opponents, 
   const Point theirGoal{field.halfLength(), 0.0};
   const OpponentMemory::Known* keeper = nullptr;
   for (const OpponentMemory::Known& one : opponents.known()) {
-    const double way = distance(one.place, theirGoal);
-    if (way < keepersRoom && (!keeper || way < distance(keeper->place, theirGoal))) keeper = &one;
+    const double metres = distance(one.place, theirGoal);
+    if (metres < keeperZone && (!keeper || metres < distance(keeper->place, theirGoal)))
+      keeper = &one;
   }
   const auto sigmaOf = [time](const OpponentMemory::Known& one) {
     return sigmaSeen + sigmaGrows * (time - one.seen);

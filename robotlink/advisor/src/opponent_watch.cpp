@@ -64,9 +64,9 @@ void OpponentWatch::watchWalks(double time, const sim::RobotModel& model, Oppone
   for (const Point& place : m_fresh) {
     Walk* best = nullptr;
     for (Walk& walk : m_walks) {
-      const double way = distance(walk.last, place);
-      if (walk.seen >= time || way > jump + fastest * (time - walk.seen)) continue;
-      if (!best || way < distance(best->last, place)) best = &walk;
+      const double metres = distance(walk.last, place);
+      if (walk.seen >= time || metres > jump + fastest * (time - walk.seen)) continue;
+      if (!best || metres < distance(best->last, place)) best = &walk;
     }
     if (!best) {
       m_walks.push_back({place, place, time, time});
@@ -89,10 +89,10 @@ void OpponentWatch::watchWalks(double time, const sim::RobotModel& model, Oppone
 /// at the ball is seen too seldom to ask for one.
 void OpponentWatch::watchBall(const Situation& now, double time, const sim::FieldSpec& field,
                               OpponentModel& learned) {
-  constexpr double ours = 0.55;                 // m
-  constexpr double way = 0.8, rests = 0.25;     // m that it rolls; that it may seem to roll
-  constexpr double jump = 0.6;                  // m: put there by the referee
-  constexpr double waits = 0.8, longest = 2.0;  // s
+  constexpr double ours = 0.55;                    // m
+  constexpr double leastRoll = 0.8, rests = 0.25;  // m that it rolls; that it may seem to roll
+  constexpr double jump = 0.6;                     // m: put there by the referee
+  constexpr double waits = 0.8, longest = 2.0;     // s
   if (!now.seesBall || !now.ball) return;
   const Point ball = *now.ball;
   const auto isNear = [&ball](double within) {
@@ -109,7 +109,7 @@ void OpponentWatch::watchBall(const Situation& now, double time, const sim::Fiel
     roll.seen = time;
     if (lost) {
       m_roll.reset();
-    } else if (distance(roll.from, ball) >= way) {
+    } else if (distance(roll.from, ball) >= leastRoll) {
       learnAim(learned, field, theirs(roll.from), theirs(ball));
       m_roll.reset();
       return;

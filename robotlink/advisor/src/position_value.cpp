@@ -9,7 +9,7 @@ namespace {
 
 // By least squares from the goal difference of the next 30 s (up to the first goal or the ball out)
 // in rollouts of random situations of four against four kid-size robots. In those of value_fit,
-// which fits them anew, they explain 0.32 of the variance of the means; the best numbers 0.38.
+// which fits them again, they explain 0.32 of the variance of the means; the best numbers 0.38.
 constexpr double ofPlace = 0.350, ofDepth = -0.058, ofWide = -0.113, ofBall = 0.199;
 constexpr double scoring = 0.7;  // of a ball that rolls into the goal, and may be stopped
 
@@ -19,9 +19,9 @@ double positionValue(const sim::FieldSpec& field, const Position& position) {
   const double speed = length({position.velocity.x, position.velocity.y});
   Point rest = position.ball;
   if (speed > 0.0) {
-    const double way = sim::rollingDistance(field.surface, speed);
-    const Point to{rest.x + way * position.velocity.x / speed,
-                   rest.y + way * position.velocity.y / speed};
+    const double range = sim::rollingDistance(field.surface, speed);
+    const Point to{rest.x + range * position.velocity.x / speed,
+                   rest.y + range * position.velocity.y / speed};
     const double line = std::copysign(field.halfLength(), to.x);
     if (std::abs(to.x) > field.halfLength() && to.x != rest.x) {
       const double y = rest.y + (line - rest.x) / (to.x - rest.x) * (to.y - rest.y);

@@ -126,7 +126,7 @@ void addMotion(const MotionFit& fit, const Counts& counts, Calibration& out) {
 
 /// Seconds to reach and to leave a speed follow from two numbers of the gait: the logarithm of
 /// their quotient is normal.
-void tellTimes(const MotionFit& fit, Calibration& out) {
+void reportTimes(const MotionFit& fit, Calibration& out) {
   const auto tell = [&](const char* name, std::size_t speed, std::size_t acceleration) {
     if (fit.information[speed] < learnedEnough || fit.information[acceleration] < learnedEnough) {
       return;
@@ -137,8 +137,8 @@ void tellTimes(const MotionFit& fit, Calibration& out) {
         normal95 * std::sqrt(std::max(0.0, fit.covariance(s, s) + fit.covariance(a, a) -
                                                2.0 * fit.covariance(s, a)));
     const CalibratedValue* of = out.find(motionParameters[speed].key);
-    out.told.push_back({name, std::exp(middle), std::exp(middle - half), std::exp(middle + half),
-                        of != nullptr ? of->samples : 0, "actions"});
+    out.estimates.push_back({name, std::exp(middle), std::exp(middle - half),
+                             std::exp(middle + half), of != nullptr ? of->samples : 0, "actions"});
   };
   tell("forward, fast: time to start and stop", motionForwardFast, motionAcceleration);
   tell("forward, slow: time to start and stop", motionForwardSlow, motionAcceleration);
@@ -175,8 +175,8 @@ std::optional<double> actionShare(const CalibrationLog& log, const MotionFit::Of
 
 /// The spread of a speed between actions: standard deviation with its interval from the chi-square
 /// distribution. RobotModel has no number for it; part of it is the noise of every step.
-void tellSpreads(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
-                 const MotionFit& fit, Calibration& out) {
+void reportSpreads(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
+                   const MotionFit& fit, Calibration& out) {
   std::map<std::size_t, std::vector<double>> shares;  // by parameter
   for (std::size_t f = 0; f < logs.size(); ++f) {
     const auto& actions = filters[f].actions();
@@ -201,15 +201,16 @@ void tellSpreads(std::span<const MotionFilter> filters, std::span<const Calibrat
     for (const double one : all) squares += (one - mean) * (one - mean);
     const double speed = std::exp(fit.logs[parameter]);
     const auto sigma = [&](double freedom) { return speed * std::sqrt(squares / freedom); };
-    out.told.push_back({std::string(motionParameters[parameter].key) + ": spread between actions",
-                        sigma(n - 1.0), sigma(chiSquaredQuantile(n - 1.0, 0.975)),
-                        sigma(chiSquaredQuantile(n - 1.0, 0.025)), all.size(), "actions"});
+    out.estimates.push_back(
+        {std::string(motionParameters[parameter].key) + ": spread between actions", sigma(n - 1.0),
+         sigma(chiSquaredQuantile(n - 1.0, 0.975)), sigma(chiSquaredQuantile(n - 1.0, 0.025)),
+         all.size(), "actions"});
   }
 }
 
 /// What the filter left out, by cause.
-void tellLeftOut(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
-                 const MotionFit& fit, Calibration& out) {
+void reportLeftOut(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
+                   const MotionFit& fit, Calibration& out) {
   for (std::size_t f = 0; f < logs.size(); ++f) {
     const auto& actions = filters[f].actions();
     for (std::size_t i = 1; i < logs[f].rows.size(); ++i) {
@@ -322,11 +323,11 @@ Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::R
   if (motion.ofLogs.empty()) return failure(ErrorCode::Conflict, "the calibration was cancelled");
 
   addMotion(motion, countsOf(filters, fitted), out);
-  tellTimes(motion, out);
-  tellSpreads(filters, fitted, motion, out);
+  reportTimes(motion, out);
+  reportSpreads(filters, fitted, motion, out);
   fitPercepts(filters, fitted, motion, out);
   fitKicks(filters, fitted, motion, out);
-  tellLeftOut(filters, fitted, motion, out);
+  reportLeftOut(filters, fitted, motion, out);
   for (const char* key : hiddenKeys()) out.kept[key] = "a recording does not contain it";
   if (out.values.empty()) {
     return failure(ErrorCode::NotFound,

@@ -119,9 +119,9 @@ void describeResiduals(const MotionFit& motion, Calibration& out) {
       }
     }
     if (all.size() < 2) continue;
-    CalibrationResiduals told;
-    told.sense = name;
-    told.count = all.size();
+    CalibrationResiduals residuals;
+    residuals.sense = name;
+    residuals.count = all.size();
     double sum = 0.0, squares = 0.0, products = 0.0;
     std::vector<double> parts(std::min(timeParts, all.size())), counts(parts.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -133,18 +133,19 @@ void describeResiduals(const MotionFit& motion, Calibration& out) {
       counts[part] += 1.0;
     }
     const auto count = static_cast<double>(all.size());
-    told.mean = sum / count;
-    told.deviation = std::sqrt(std::max(0.0, squares / count - told.mean * told.mean));
-    told.autocorrelation = squares > 0.0 ? products / squares : 0.0;
+    residuals.mean = sum / count;
+    residuals.deviation =
+        std::sqrt(std::max(0.0, squares / count - residuals.mean * residuals.mean));
+    residuals.autocorrelation = squares > 0.0 ? products / squares : 0.0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
-      told.overTime.push_back(std::sqrt(parts[p] / std::max(1.0, counts[p])));
+      residuals.overTime.push_back(std::sqrt(parts[p] / std::max(1.0, counts[p])));
     }
     std::ranges::sort(all);
     for (double z = -2.0; z <= 2.01; z += 0.5) {
       const double at = normalCdf(z) * (count - 1.0);
-      told.quantiles.push_back(all[static_cast<std::size_t>(at)]);
+      residuals.quantiles.push_back(all[static_cast<std::size_t>(at)]);
     }
-    out.residuals.push_back(std::move(told));
+    out.residuals.push_back(std::move(residuals));
   }
 }
 

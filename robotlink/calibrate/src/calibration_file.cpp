@@ -22,8 +22,9 @@ Json rounded(double value) {
   return jsonNumber(std::strtod(text, nullptr));
 }
 
-const sim::Unit* unitOf(const std::string& key) {
-  const auto find = [](const auto& parameters, const std::string& name) -> const sim::Unit* {
+const sim::ParameterUnit* unitOf(const std::string& key) {
+  const auto find = [](const auto& parameters,
+                       const std::string& name) -> const sim::ParameterUnit* {
     for (const auto& parameter : parameters) {
       if (name == parameter.key) return &parameter.unit;
     }
@@ -52,7 +53,7 @@ Json toJson(const CalibratedValue& value) {
 }  // namespace
 
 WrittenValue writtenValue(const CalibratedValue& value) {
-  const sim::Unit* unit = unitOf(value.key);
+  const sim::ParameterUnit* unit = unitOf(value.key);
   WrittenValue out{value.value, value.low, value.high, unit != nullptr ? unit->symbol : ""};
   if (unit == nullptr || !unit->angle) return out;
   for (double* one : {&out.value, &out.low, &out.high}) *one = degreesFromRadians(*one);
@@ -99,7 +100,8 @@ std::string calibrationToJson(const Calibration& calibration, std::string_view p
   }
   record["kept"] = calibration.kept;
   record["told"] = Json::object();
-  for (const CalibratedValue& value : calibration.told) record["told"][value.key] = toJson(value);
+  for (const CalibratedValue& value : calibration.estimates)
+    record["told"][value.key] = toJson(value);
   record["left_out_s"] = Json::object();
   for (const auto& [cause, seconds] : calibration.leftOut) {
     record["left_out_s"][cause] = rounded(seconds);

@@ -39,7 +39,7 @@ std::string valueTable(const Calibration& c) {
            "</tr>\n";
   };
   for (const CalibratedValue& value : c.values) row(value);
-  for (const CalibratedValue& value : c.told) row(value);
+  for (const CalibratedValue& value : c.estimates) row(value);
   out +=
       "</tbody></table></div>\n<h2>Not estimated</h2>\n<p class=\"quiet\">These keep the number "
       "of the base model.</p>\n<div class=\"scroll\"><table><tbody>\n";

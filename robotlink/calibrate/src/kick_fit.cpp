@@ -34,7 +34,7 @@ KickKind kindOf(int code) {
 }
 
 /// A ball's place relative to where the robot stood when the kick began (forward, left), as seen.
-struct BallSight {
+struct BallObservation {
   double time = 0.0;  // s since the kick began, of the image
   double x = 0.0, y = 0.0;
   double bearing = 0.0;              // of the ray, in the same frame
@@ -43,7 +43,7 @@ struct BallSight {
 
 struct Kick {
   int code = 0;
-  std::vector<BallSight> sights;
+  std::vector<BallObservation> sights;
   double yawAtContact = 0.0;                  // rad, since the kick began
   double xAtContact = 0.0, yAtContact = 0.0;  // m, where the robot stood then
   // Fitted for a given deceleration:
@@ -76,10 +76,10 @@ void residualsOf(const Kick& kick, const Eigen::Matrix<double, 5, 1>& at, double
   out.resize(static_cast<Eigen::Index>(2 * kick.sights.size()));
   const double speed = std::max(1e-6, std::hypot(at[3], at[4]));
   for (std::size_t i = 0; i < kick.sights.size(); ++i) {
-    const BallSight& sight = kick.sights[i];
-    const double way = rolled(speed, loss, sight.time - at[2]);
-    const double dx = sight.x - (at[0] + at[3] / speed * way);
-    const double dy = sight.y - (at[1] + at[4] / speed * way);
+    const BallObservation& sight = kick.sights[i];
+    const double rolledSoFar = rolled(speed, loss, sight.time - at[2]);
+    const double dx = sight.x - (at[0] + at[3] / speed * rolledSoFar);
+    const double dy = sight.y - (at[1] + at[4] / speed * rolledSoFar);
     const double c = std::cos(sight.bearing), s = std::sin(sight.bearing);
     out[static_cast<Eigen::Index>(2 * i)] = (c * dx + s * dy) / sight.radial;
     out[static_cast<Eigen::Index>(2 * i + 1)] = (c * dy - s * dx) / sight.round;
@@ -168,7 +168,7 @@ std::optional<Kick> kickAt(const CalibrationLog& log, const MotionFilter& filter
     if (!state.known) continue;
     const double turned = wrapToPi(state.mean[MotionState::Yaw] - yaw0);
     const double ox = state.odometryX - from.odometryX, oy = state.odometryY - from.odometryY;
-    BallSight sight;
+    BallObservation sight;
     sight.time = rows[image].time - began;
     // Before the kick only a ball at rest helps, and the last half second is the nearest to it.
     if (sight.time < -0.5) continue;
@@ -208,11 +208,11 @@ std::optional<Kick> kickAt(const CalibrationLog& log, const MotionFilter& filter
     kick.sights[i].round = std::max(0.002, motion.model.noise.visionBearing * d);
   }
   rolling = 0;
-  for (const BallSight& sight : kick.sights) rolling += sight.time > contact + 0.1 ? 1 : 0;
+  for (const BallObservation& sight : kick.sights) rolling += sight.time > contact + 0.1 ? 1 : 0;
   if (rolling < leastRolling) return {};
   // Begin: at rest where it was seen before, then towards where it was seen last.
   double x = 0.0, y = 0.0, n = 0.0;
-  for (const BallSight& sight : kick.sights) {
+  for (const BallObservation& sight : kick.sights) {
     if (sight.time > 0.25) continue;
     x += sight.x;
     y += sight.y;
@@ -268,7 +268,7 @@ double scatterOf(const std::vector<Kick>& kicks) {
   return freedom > 0.0 ? std::max(1.0, chi2 / freedom) : 1.0;
 }
 
-/// Rolling deceleration: all tracks share it; for each candidate every track is fitted anew.
+/// Rolling deceleration: all tracks share it; for each candidate every track is fitted again.
 RollingFit fitRolling(const std::vector<Kick>& kicks) {
   constexpr int candidates = 41;
   std::vector<double> chi2(candidates);

@@ -18,7 +18,7 @@ namespace {
 using State = MotionState;
 
 constexpr double frame = 1.0 / 60.0;       // s, in which noise is given
-constexpr double longestPause = 0.5;       // s without rows; then the filter starts anew
+constexpr double longestPause = 0.5;       // s without rows; then the filter starts again
 constexpr double longestDelay = 0.52;      // s
 constexpr double gateSigmas = 6.0;         // of an outlier
 constexpr int mostOutliers = 8;            // hardly anything else between; then something was moved
@@ -38,7 +38,7 @@ constexpr double mostBelievedSigma = 0.7;  // m, of a place to begin from
 constexpr double beliefInterval = 2.0;     // s; errors of a belief closer together are the same
 constexpr double believedYawSpread = 0.06;  // rad
 
-/// s without rows after which the filter starts anew.
+/// s without rows after which the filter starts again.
 double pauseOf(const CalibrationLog& log) {
   return std::max(longestPause, 3.0 * log.period);
 }
@@ -509,15 +509,15 @@ void MotionFilter::run(const sim::RobotModel& model, double delay, FilterDecisio
     } else if (i > 0) {
       pass.predict(i, dt);
     }
-    const bool anew = beginsAnew(i);
+    const bool again = beginsAnew(i);
     const bool looks = (!pass.state.known || !pass.state.placed) && !action.down &&
                        row.time - lastLook >= startInterval;
-    if (anew || looks) {
+    if (again || looks) {
       lastLook = row.time;
       const MotionStart& start = startAt(i, model, delay, decisions);
       // Without a place, what it knows of its yaw is as good as before.
       if (!pass.state.known || !start.covariance.isZero()) {
-        const bool settles = !pass.state.known && (gap || !anew);
+        const bool settles = !pass.state.known && (gap || !again);
         pass.start(start, row.time);
         if (settles) pass.settle(action);
       }

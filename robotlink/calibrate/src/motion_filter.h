@@ -54,7 +54,7 @@ struct FilterDecisions {
   std::vector<std::uint8_t> all;
   bool recorded = false;
   std::size_t outliers = 0, imuResets = 0, ballMoves = 0, jumps = 0;
-  /// Where it was found to begin, by row. They are kept when measurements are decided anew, until
+  /// Where it was found to begin, by row. They are kept when measurements are decided again, until
   /// they are cleared.
   std::map<std::uint32_t, MotionStart> starts;
   double gaitSpread = speedPrior;  ///< for looking for them, see startFromCorners()

@@ -268,7 +268,7 @@ DelayPosterior delayPosterior(Scoring& scoring, double prior, int reach) {
   const int first = std::max(0, middle - reach), last = std::min(longestDelayTicks, middle + reach);
   out.best = first;
   for (int d = first; d <= last; ++d) {
-    // Other delays give other measurements their turn first: decisions are made anew for each.
+    // Other delays give other measurements their turn first: decisions are made again for each.
     scoring.decideAnew();
     likelihood[static_cast<std::size_t>(d)] = scoring.logPosterior(scoring.logs, d * tick);
     if (likelihood[static_cast<std::size_t>(d)] > likelihood[static_cast<std::size_t>(out.best)]) {

@@ -53,7 +53,7 @@ Look lookFrom(const CalibrationLog& log, const std::vector<ExecutedAction>& acti
     double time, x, y, yaw;
   };
   Look out;
-  std::vector<Place> way;
+  std::vector<Place> trajectory;
   std::size_t image = 0;  // in `way`
   const std::array<Point, 4> corners = fieldCorners(log.field);
   std::array<int, 4> seen{};
@@ -73,14 +73,15 @@ Look lookFrom(const CalibrationLog& log, const std::vector<ExecutedAction>& acti
       if (gait.moves) out.walkedFrames += dt * 60.0;
     }
     if (!imuZero && row.imuYaw) imuZero = wrapToPi(*row.imuYaw - yaw);
-    way.push_back({row.time, x, y, yaw});
+    trajectory.push_back({row.time, x, y, yaw});
     const double taken = row.time - delay;
-    if (taken < way.front().time - 1e-6) continue;
-    while (image + 1 < way.size() && way[image + 1].time <= taken + 0.25 * log.period) ++image;
+    if (taken < trajectory.front().time - 1e-6) continue;
+    while (image + 1 < trajectory.size() && trajectory[image + 1].time <= taken + 0.25 * log.period)
+      ++image;
     for (std::size_t c = 0; c < corners.size(); ++c) {
       if (!row.corners[c]) continue;
-      out.sights.push_back(
-          {way[image].x, way[image].y, way[image].yaw, corners[c], *row.corners[c]});
+      out.sights.push_back({trajectory[image].x, trajectory[image].y, trajectory[image].yaw,
+                            corners[c], *row.corners[c]});
       ++seen[c];
     }
   }

@@ -33,34 +33,34 @@ static_assert(PB_BOARD_WORDS == Blackboard::words);
 /// What the handles of the C interface stand for. Thread-safe; a handle is never looked into.
 /// Handles are numbers that are never used twice, so that one that was destroyed is known as such
 /// whatever memory holds now.
-template <class Thing, class Handle>
+template <class Object, class Handle>
 class Handles {
  public:
-  Handle* add(std::shared_ptr<Thing> thing) {
+  Handle* add(std::shared_ptr<Object> object) {
     const std::lock_guard lock(m_mutex);
     m_last += sizeof(std::max_align_t);
-    m_things.emplace(m_last, std::move(thing));
+    m_objects.emplace(m_last, std::move(object));
     return reinterpret_cast<Handle*>(m_last);
   }
-  std::shared_ptr<Thing> find(const Handle* handle) {
+  std::shared_ptr<Object> find(const Handle* handle) {
     const std::lock_guard lock(m_mutex);
-    const auto found = m_things.find(reinterpret_cast<std::uintptr_t>(handle));
-    return found == m_things.end() ? nullptr : found->second;
+    const auto found = m_objects.find(reinterpret_cast<std::uintptr_t>(handle));
+    return found == m_objects.end() ? nullptr : found->second;
   }
   /// The thing goes when nobody uses it any more.
-  std::shared_ptr<Thing> remove(const Handle* handle) {
+  std::shared_ptr<Object> remove(const Handle* handle) {
     const std::lock_guard lock(m_mutex);
-    const auto found = m_things.find(reinterpret_cast<std::uintptr_t>(handle));
-    if (found == m_things.end()) return nullptr;
-    auto thing = std::move(found->second);
-    m_things.erase(found);
-    return thing;
+    const auto found = m_objects.find(reinterpret_cast<std::uintptr_t>(handle));
+    if (found == m_objects.end()) return nullptr;
+    auto object = std::move(found->second);
+    m_objects.erase(found);
+    return object;
   }
 
  private:
   std::mutex m_mutex;
   std::uintptr_t m_last = 0x1000;
-  std::unordered_map<std::uintptr_t, std::shared_ptr<Thing>> m_things;
+  std::unordered_map<std::uintptr_t, std::shared_ptr<Object>> m_objects;
 };
 
 struct LockedWorlds {
@@ -95,15 +95,15 @@ auto& snapshotHandles() {
 constexpr std::size_t longestError = 2000;
 thread_local char lastError[longestError] = "";
 
-pb_status told(pb_status status, std::string_view sentence) {
+pb_status reportStatus(pb_status status, std::string_view sentence) {
   const std::size_t length = std::min(sentence.size(), longestError - 1);
   std::memcpy(lastError, sentence.data(), length);
   lastError[length] = '\0';
   return status;
 }
 
-pb_status told(const Result<void>& result) {
-  if (result) return told(PB_OK, "");
+pb_status reportStatus(const Result<void>& result) {
+  if (result) return reportStatus(PB_OK, "");
   const auto code = [&] {
     switch (result.error().code) {
       case ErrorCode::InvalidArgument:
@@ -121,11 +121,11 @@ pb_status told(const Result<void>& result) {
     }
     return PB_INVALID_ARGUMENT;
   }();
-  return told(code, result.error().text());
+  return reportStatus(code, result.error().text());
 }
 
 pb_status missing(const char* what) {
-  return told(PB_INVALID_ARGUMENT, std::string(what) + " must not be null");
+  return reportStatus(PB_INVALID_ARGUMENT, std::string(what) + " must not be null");
 }
 
 /// Runs `call`, which gives a status, and lets no exception out.
@@ -134,9 +134,9 @@ pb_status guarded(const Call& call) {
   try {
     return call();
   } catch (const std::bad_alloc&) {
-    return told(PB_SYSTEM_ERROR, "there is not enough memory; ask for fewer worlds");
+    return reportStatus(PB_SYSTEM_ERROR, "there is not enough memory; ask for fewer worlds");
   } catch (const std::exception& error) {
-    return told(PB_SYSTEM_ERROR, error.what());
+    return reportStatus(PB_SYSTEM_ERROR, error.what());
   }
 }
 
@@ -147,11 +147,11 @@ pb_status withWorlds(const pb_worlds* handle, const Use& use) {
     if (handle == nullptr) return missing("worlds");
     const auto found = worldHandles().find(handle);
     if (!found) {
-      return told(PB_STALE_HANDLE,
-                  "these worlds do not exist: they were destroyed or never created");
+      return reportStatus(PB_STALE_HANDLE,
+                          "these worlds do not exist: they were destroyed or never created");
     }
     const std::lock_guard lock(found->mutex);
-    return told(use(found->worlds));
+    return reportStatus(use(found->worlds));
   });
 }
 
@@ -162,11 +162,11 @@ pb_status withRollouts(const pb_rollouts* handle, const Use& use) {
     if (handle == nullptr) return missing("rollouts");
     const auto found = rolloutHandles().find(handle);
     if (!found) {
-      return told(PB_STALE_HANDLE,
-                  "these rollouts do not exist: they were destroyed or never created");
+      return reportStatus(PB_STALE_HANDLE,
+                          "these rollouts do not exist: they were destroyed or never created");
     }
     const std::lock_guard lock(found->mutex);
-    return told(use(*found));
+    return reportStatus(use(*found));
   });
 }
 
@@ -218,12 +218,12 @@ template <class Options>
 pb_status initialized(Options* options, size_t size, const Options& usual, const char* name) {
   if (options == nullptr) return missing("options");
   if (size != sizeof(Options)) {
-    return told(PB_INVALID_ARGUMENT,
-                std::string("size must be sizeof(") + name + ") of this version's header");
+    return reportStatus(PB_INVALID_ARGUMENT,
+                        std::string("size must be sizeof(") + name + ") of this version's header");
   }
   *options = usual;
   options->size = size;
-  return told(PB_OK, "");
+  return reportStatus(PB_OK, "");
 }
 
 // Variables as numbers: ints by their index, floats behind them.
@@ -272,7 +272,7 @@ const char* pb_column_name(std::int32_t array, size_t column) {
 }
 const char* pb_column_words(std::int32_t array, size_t column) {
   const auto all = columns(array);
-  return column < all.size() ? all[column].words.data() : nullptr;
+  return column < all.size() ? all[column].description.data() : nullptr;
 }
 
 pb_status pb_options_init(pb_options* options, size_t size) {
@@ -288,29 +288,30 @@ pb_status pb_create(const pb_options* options, pb_worlds** worlds) {
     *worlds = nullptr;
     if (options == nullptr) return missing("options");
     if (options->size != sizeof(pb_options)) {
-      return told(PB_INVALID_ARGUMENT, "these options were not filled by pb_options_init()");
+      return reportStatus(PB_INVALID_ARGUMENT,
+                          "these options were not filled by pb_options_init()");
     }
     const auto scenario = scenarioOf(*options);
-    if (!scenario) return told(tl::unexpected(scenario.error()));
+    if (!scenario) return reportStatus(tl::unexpected(scenario.error()));
     WorldsOptions wanted;
     wanted.count = options->worlds;
     wanted.threads = options->threads;
     if (options->has_seed != 0) wanted.seed = options->seed;
     if (options->particles != 0) wanted.particles = options->particles;
     auto made = Worlds::create(*scenario, wanted);
-    if (!made) return told(tl::unexpected(made.error()));
+    if (!made) return reportStatus(tl::unexpected(made.error()));
     *worlds = worldHandles().add(std::make_shared<LockedWorlds>(std::move(*made)));
-    return told(PB_OK, "");
+    return reportStatus(PB_OK, "");
   });
 }
 
 pb_status pb_destroy(pb_worlds* worlds) {
   return guarded([&] {
-    if (worlds == nullptr) return told(PB_OK, "");
+    if (worlds == nullptr) return reportStatus(PB_OK, "");
     const auto removed = worldHandles().remove(worlds);
-    if (!removed) return told(PB_STALE_HANDLE, "these worlds were destroyed before");
+    if (!removed) return reportStatus(PB_STALE_HANDLE, "these worlds were destroyed before");
     const std::lock_guard waited(removed->mutex);
-    return told(PB_OK, "");
+    return reportStatus(PB_OK, "");
   });
 }
 
@@ -373,9 +374,9 @@ pb_status pb_find_variable(const char* name, std::int32_t* variable) {
   return guarded([&] {
     if (name == nullptr || variable == nullptr) return missing("name and variable");
     const auto found = worldVariable(name);
-    if (!found) return told(tl::unexpected(found.error()));
+    if (!found) return reportStatus(tl::unexpected(found.error()));
     *variable = found->index + (found->type == VariableType::Float ? firstFloat : 0);
-    return told(PB_OK, "");
+    return reportStatus(PB_OK, "");
   });
 }
 
@@ -432,15 +433,16 @@ pb_status pb_restore(pb_worlds* worlds, std::int32_t world, const pb_snapshot* s
     if (snapshot == nullptr) return missing("snapshot");
     const auto found = snapshotHandles().find(snapshot);
     if (!found)
-      return told(PB_STALE_HANDLE, "this snapshot does not exist: it was destroyed or never taken");
+      return reportStatus(PB_STALE_HANDLE,
+                          "this snapshot does not exist: it was destroyed or never taken");
     return withWorlds(worlds, [&](Worlds& w) { return w.restore(world, *found); });
   });
 }
 
 pb_status pb_destroy_snapshot(pb_snapshot* snapshot) {
   return guarded([&] {
-    if (snapshot == nullptr || snapshotHandles().remove(snapshot)) return told(PB_OK, "");
-    return told(PB_STALE_HANDLE, "this snapshot was destroyed before");
+    if (snapshot == nullptr || snapshotHandles().remove(snapshot)) return reportStatus(PB_OK, "");
+    return reportStatus(PB_STALE_HANDLE, "this snapshot was destroyed before");
   });
 }
 
@@ -456,7 +458,8 @@ pb_status pb_restore_seeded(pb_worlds* worlds, const std::int32_t* which,
     if (snapshot == nullptr) return missing("snapshot");
     const auto found = snapshotHandles().find(snapshot);
     if (!found)
-      return told(PB_STALE_HANDLE, "this snapshot does not exist: it was destroyed or never taken");
+      return reportStatus(PB_STALE_HANDLE,
+                          "this snapshot does not exist: it was destroyed or never taken");
     return withWorlds(worlds, [&](Worlds& w) {
       return w.restore(spanOf(which, count), spanOf(seeds, count), *found);
     });
@@ -509,8 +512,8 @@ pb_status pb_rollouts_create(const pb_rollout_options* options, pb_rollouts** ro
     *rollouts = nullptr;
     if (options == nullptr) return missing("options");
     if (options->size != sizeof(pb_rollout_options)) {
-      return told(PB_INVALID_ARGUMENT,
-                  "these options were not filled by pb_rollout_options_init()");
+      return reportStatus(PB_INVALID_ARGUMENT,
+                          "these options were not filled by pb_rollout_options_init()");
     }
     const auto made = [&]() -> Result<std::shared_ptr<LockedRollouts>> {
       Scenario scenario = TRY(scenarioOf(options->scenario, options->text, "match"));
@@ -519,19 +522,19 @@ pb_status pb_rollouts_create(const pb_rollout_options* options, pb_rollouts** ro
       auto all = TRY(rollout::Rollouts::create(start.setup, {options->threads, 1}));
       return std::make_shared<LockedRollouts>(std::move(all), std::move(start.belief));
     }();
-    if (!made) return told(tl::unexpected(made.error()));
+    if (!made) return reportStatus(tl::unexpected(made.error()));
     *rollouts = rolloutHandles().add(*made);
-    return told(PB_OK, "");
+    return reportStatus(PB_OK, "");
   });
 }
 
 pb_status pb_rollouts_destroy(pb_rollouts* rollouts) {
   return guarded([&] {
-    if (rollouts == nullptr) return told(PB_OK, "");
+    if (rollouts == nullptr) return reportStatus(PB_OK, "");
     const auto removed = rolloutHandles().remove(rollouts);
-    if (!removed) return told(PB_STALE_HANDLE, "these rollouts were destroyed before");
+    if (!removed) return reportStatus(PB_STALE_HANDLE, "these rollouts were destroyed before");
     const std::lock_guard waited(removed->mutex);
-    return told(PB_OK, "");
+    return reportStatus(PB_OK, "");
   });
 }
 

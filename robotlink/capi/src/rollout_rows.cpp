@@ -58,8 +58,8 @@ void visitGame(Belief& belief, const Visit& visit) {
 template <class Of, class VisitAll>
 std::vector<WorldColumn> columnsBy(Of of, const VisitAll& visitAll) {
   std::vector<WorldColumn> columns;
-  visitAll(of, [&columns](const char* name, const char* words, const auto&) {
-    columns.push_back({name, words});
+  visitAll(of, [&columns](const char* name, const char* description, const auto&) {
+    columns.push_back({name, description});
   });
   return columns;
 }
@@ -148,7 +148,8 @@ std::span<const WorldColumn> beliefGameColumns() {
 std::span<const WorldColumn> outcomeColumns() {
   static const auto columns = [] {
     std::vector<WorldColumn> made;
-    for (const rollout::ColumnInfo& one : rollout::columns()) made.push_back({one.name, one.words});
+    for (const rollout::OutcomeColumn& one : rollout::columns())
+      made.push_back({one.name, one.description});
     return made;
   }();
   return columns;

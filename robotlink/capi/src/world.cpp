@@ -47,14 +47,14 @@ std::vector<IntVar> boardLines() {
                              v.imuGyroY,      v.imuGyroZ,       v.imuAccelX,       v.imuAccelY,
                              v.imuAccelZ,     v.visionBallDist, v.visionBallAngle, v.visionPanDeg,
                              v.visionTiltDeg, v.landmarkDeg[0], v.landmarkDeg[3]};
-  constexpr int wordsOfLine = cacheLine / sizeof(std::uint32_t);
+  constexpr int wordsPerLine = cacheLine / sizeof(std::uint32_t);
   std::set<int> lines;
-  for (const IntVar variable : ints) lines.insert(variable.index / wordsOfLine);
+  for (const IntVar variable : ints) lines.insert(variable.index / wordsPerLine);
   for (const FloatVar variable : floats) {
-    lines.insert((Blackboard::floatOffset + variable.index) / wordsOfLine);
+    lines.insert((Blackboard::floatOffset + variable.index) / wordsPerLine);
   }
   std::vector<IntVar> first;
-  for (const int line : lines) first.push_back(IntVar{line * wordsOfLine});
+  for (const int line : lines) first.push_back(IntVar{line * wordsPerLine});
   return first;
 }
 

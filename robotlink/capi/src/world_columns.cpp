@@ -10,8 +10,8 @@ namespace {
 struct Listing {
   std::vector<WorldColumn> columns;
   template <class Value>
-  void operator()(std::string_view name, std::string_view words, const Value& /*value*/) {
-    columns.push_back({name, words});
+  void operator()(std::string_view name, std::string_view description, const Value& /*value*/) {
+    columns.push_back({name, description});
   }
 };
 

@@ -183,7 +183,7 @@ void WorldRequest::columns() {
   const auto list = [this](const char* key, std::span<const WorldColumn> columns) {
     Json names = Json::array();
     for (const WorldColumn& column : columns) {
-      names.push_back({{"name", column.name}, {"words", column.words}});
+      names.push_back({{"name", column.name}, {"words", column.description}});
     }
     m_answer[key] = std::move(names);
   };

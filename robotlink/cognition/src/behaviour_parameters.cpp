@@ -167,7 +167,7 @@ Result<void> validate(const BehaviourParameters& parameters) {
   for (const BehaviourParameter& p : behaviourParameters) {
     const double value = parameters.*p.member;
     if (value >= p.stored(p.least) && value <= p.stored(p.most)) continue;
-    const std::string unit = *p.unit.words ? std::string(" ") + p.unit.words : std::string();
+    const std::string unit = *p.unit.name ? std::string(" ") + p.unit.name : std::string();
     return failure(ErrorCode::InvalidArgument,
                    "must lie between " + shortest(p.least) + " and " + shortest(p.most) + unit,
                    std::string("behaviour.") + p.key);

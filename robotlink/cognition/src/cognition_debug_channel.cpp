@@ -64,19 +64,19 @@ void CognitionDebugReceiver::poll(Time now) {
   for (int i = 0; i < mostPerPoll; ++i) {
     const ssize_t size = ::recv(m_socket.get(), m_buffer.data(), m_buffer.size(), 0);
     if (size < 0) break;
-    CognitionDebug said;
-    if (!readDebugDatagram({m_buffer.data(), static_cast<std::size_t>(size)}, said)) {
+    CognitionDebug message;
+    if (!readDebugDatagram({m_buffer.data(), static_cast<std::size_t>(size)}, message)) {
       ++m_strange;
       continue;
     }
-    Received& received = m_received[said.robot];
-    received.cognitionDebug.robot = said.robot;
-    if (said.cloud) {
-      received.cognitionDebug.cloud = std::move(said.cloud);
+    Received& received = m_received[message.robot];
+    received.cognitionDebug.robot = message.robot;
+    if (message.cloud) {
+      received.cognitionDebug.cloud = std::move(message.cloud);
       received.cloudTime = now;
     }
-    if (said.path) {
-      received.cognitionDebug.path = std::move(said.path);
+    if (message.path) {
+      received.cognitionDebug.path = std::move(message.path);
       received.pathTime = now;
     }
   }

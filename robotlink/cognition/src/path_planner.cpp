@@ -70,10 +70,10 @@ class PathSearch {
   double m_halfLength = 0.0, m_halfWidth = 0.0;
   std::vector<Obstacle> m_obstacles;
   std::vector<char> m_active;
-  std::vector<Node> m_nodes;  // 0 start, 1 target, then corners
-  std::vector<int> m_hit;     // obstacles that stood in the way of the last search
-  std::vector<int> m_way;     // nodes of the path, the last first
-  int m_end = 1;              // node where the last search ended
+  std::vector<Node> m_nodes;     // 0 start, 1 target, then corners
+  std::vector<int> m_hit;        // obstacles that stood in the way of the last search
+  std::vector<int> m_pathNodes;  // nodes of the path, the last first
+  int m_end = 1;                 // node where the last search ended
 };
 
 bool PathSearch::within(const Point& p) const {
@@ -127,9 +127,9 @@ Point PathSearch::freeTarget(const Point& target, const Point& start, bool& free
     if (length(away) < rim) {
       away = {start.x - inside->centre.x, start.y - inside->centre.y};
     }
-    const double way = length(away);
-    if (way < rim) away = {1.0, 0.0};
-    const double scale = (inside->radius + rim) / std::max(way, rim);
+    const double gap = length(away);
+    if (gap < rim) away = {1.0, 0.0};
+    const double scale = (inside->radius + rim) / std::max(gap, rim);
     p = {inside->centre.x + away.x * scale, inside->centre.y + away.y * scale};
   }
   return p;
@@ -224,14 +224,14 @@ Path PathSearch::plan(const Point& start, const Point& target, std::span<const O
 }
 
 void PathSearch::addPoints(Path& path) {
-  m_way.clear();
+  m_pathNodes.clear();
   for (int i = m_end; i >= 0; i = m_nodes[static_cast<std::size_t>(i)].parent) {
-    m_way.push_back(i);
+    m_pathNodes.push_back(i);
   }
-  Point last = m_nodes[static_cast<std::size_t>(m_way.back())].point;
-  if (m_way.size() == 1) path.points.push_back(last);
-  for (std::size_t i = m_way.size(); i-- > 0;) {
-    const Point& point = m_nodes[static_cast<std::size_t>(m_way[i])].point;
+  Point last = m_nodes[static_cast<std::size_t>(m_pathNodes.back())].point;
+  if (m_pathNodes.size() == 1) path.points.push_back(last);
+  for (std::size_t i = m_pathNodes.size(); i-- > 0;) {
+    const Point& point = m_nodes[static_cast<std::size_t>(m_pathNodes[i])].point;
     path.length += distance(last, point);
     if (!path.points.full()) path.points.push_back(point);
     last = point;

@@ -42,18 +42,18 @@ const MetricInfo* find(std::span<const MetricInfo> metrics, std::string_view nam
   return found == metrics.end() ? nullptr : &*found;
 }
 
-struct Word {
+struct Operand {
   std::string statistic, metric;
   std::size_t end = 0;
 };
 
 /// A metric, its statistic, or a rate at this place; empty `metric`: something else.
-Word wordAt(std::string_view text, std::size_t at, Check::Over over,
-            std::span<const MetricInfo> metrics) {
+Operand operandAt(std::string_view text, std::size_t at, Check::Over over,
+                  std::span<const MetricInfo> metrics) {
   const std::size_t end = endOfName(text, at);
   const std::string_view name = text.substr(at, end - at);
   if (over == Check::Over::Run) {
-    return find(metrics, name) ? Word{"value", std::string(name), end} : Word{{}, {}, end};
+    return find(metrics, name) ? Operand{"value", std::string(name), end} : Operand{{}, {}, end};
   }
   const std::size_t open = behindSpaces(text, end);
   if (open < text.size() && text[open] == '(') {
@@ -100,14 +100,14 @@ Result<Check> Check::parse(std::string_view text, Over over, std::span<const Met
       ++at;
       continue;
     }
-    const Word word = wordAt(text, at, over, metrics);
-    const std::string_view asWritten = text.substr(at, word.end - at);
-    if (!word.metric.empty()) {
-      const std::string name = word.statistic + '/' + word.metric;
+    const Operand operand = operandAt(text, at, over, metrics);
+    const std::string_view asWritten = text.substr(at, operand.end - at);
+    if (!operand.metric.empty()) {
+      const std::string name = operand.statistic + '/' + operand.metric;
       translated += '{' + name + '}';
       written.emplace_back(name, asWritten);
     } else {
-      const std::size_t next = behindSpaces(text, word.end);
+      const std::size_t next = behindSpaces(text, operand.end);
       const bool isCall = next < text.size() && text[next] == '(';
       if (!isCall && asWritten != "pi") {
         std::vector<std::string_view> known;
@@ -116,7 +116,7 @@ Result<Check> Check::parse(std::string_view text, Over over, std::span<const Met
       }
       translated += asWritten;
     }
-    at = word.end;
+    at = operand.end;
   }
   auto expression = TRY(telemetry::Expression::parse(translated));
   std::vector<Name> names;

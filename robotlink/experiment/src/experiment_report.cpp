@@ -225,7 +225,7 @@ Table wrongTable(const ExperimentSummary& s) {
 }
 
 std::vector<Table> tablesOf(const Experiment& e, const ExperimentSummary& s) {
-  const std::vector<std::size_t> metrics = tellingMetrics(s);
+  const std::vector<std::size_t> metrics = informativeMetrics(s);
   std::vector<Table> all{teamsTable(s),           pairingsTable(s),       wrongTable(s),
                          assertionsTable(s),      comparisonsTable(e, s), endsTable(s),
                          metricsTable(s, metrics)};
@@ -271,21 +271,22 @@ std::string tableHtml(const Table& table) {
 std::string pathsHtml(const Experiment& e, const ResultTable::OfCondition& runs, std::size_t index,
                       const std::string& name) {
   if (runs.drawn.empty()) return {};
-  std::vector<FieldTrajectory> ways;
+  std::vector<FieldTrajectory> trajectories;
   for (const auto& run : runs.drawn) {
     const bool goal = run.endedBy == "goal";
     for (const RunPath& path : run.paths) {
       if (path.who == "ball") continue;
-      ways.push_back({path.points, goal ? "#7fb4ff" : "#ff9d8a", 0.55, 0.02});
+      trajectories.push_back({path.points, goal ? "#7fb4ff" : "#ff9d8a", 0.55, 0.02});
     }
   }
   for (const auto& run : runs.drawn) {
     for (const RunPath& path : run.paths) {
-      if (path.who == "ball") ways.push_back({path.points, "#f0a35e", 0.6, 0.015});
+      if (path.who == "ball") trajectories.push_back({path.points, "#f0a35e", 0.6, 0.015});
     }
   }
-  return "<figure>" + fieldSvg(e.conditions[index].scenario.settings.field, ways) + "<figcaption>" +
-         escaped(name) + ": paths of the first " + std::to_string(runs.drawn.size()) +
+  return "<figure>" + fieldSvg(e.conditions[index].scenario.settings.field, trajectories) +
+         "<figcaption>" + escaped(name) + ": paths of the first " +
+         std::to_string(runs.drawn.size()) +
          " runs; blue: robots of runs that ended with a goal, red: of the others, orange: the "
          "ball.</figcaption></figure>\n";
 }
@@ -331,7 +332,7 @@ std::string distributionHtml(const ResultTable& table, const ExperimentSummary& 
 std::string distributionsHtml(const ResultTable& table, const ExperimentSummary& s) {
   std::string charts;
   std::size_t count = 0;
-  for (const std::size_t m : tellingMetrics(s)) {
+  for (const std::size_t m : informativeMetrics(s)) {
     if (s.metrics[m].rate || count >= mostDistributions) continue;
     const std::string chart = distributionHtml(table, s, m);
     count += !chart.empty();

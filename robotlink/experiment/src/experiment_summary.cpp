@@ -132,7 +132,7 @@ Result<std::vector<double>> valuesOf(std::string_view expression, const ResultTa
   return out;
 }
 
-std::vector<std::size_t> tellingMetrics(const ExperimentSummary& summary) {
+std::vector<std::size_t> informativeMetrics(const ExperimentSummary& summary) {
   std::vector<std::size_t> out;
   for (std::size_t m = 0; m < summary.metrics.size(); ++m) {
     const bool tells = std::ranges::any_of(summary.conditions, [m](const ConditionSummary& one) {

@@ -33,7 +33,7 @@ bool takesPart(const sim::WorldState& world, const sim::RobotIdentity& robot) {
   return !player || player->penalty == sim::PenaltyKind::None;
 }
 
-/// By the referee's word; without one nobody is.
+/// As the referee's packets say; without a referee nobody is.
 bool isGoalkeeper(const sim::WorldState& world, const sim::RobotIdentity& robot) {
   const sim::GamePlayer* player = playerOf(world, robot);
   return player && player->goalkeeper;

@@ -62,7 +62,7 @@ constexpr std::array<TeamMetric, robotValueCount> robotTable{{
 }};
 
 struct EndText {
-  const char *endedBy, *words;
+  const char *endedBy, *text;
 };
 constexpr std::array<EndText, 7> ends{{{"goal", "goal"},
                                        {"goal_against", "goal against"},
@@ -113,7 +113,7 @@ std::vector<MetricInfo> metricsOf(const Experiment& experiment) {
 
 std::string endText(const std::string& endedBy) {
   const auto found = std::ranges::find(ends, endedBy, &EndText::endedBy);
-  return found == ends.end() ? endedBy : found->words;
+  return found == ends.end() ? endedBy : found->text;
 }
 
 }  // namespace pitchboard::link

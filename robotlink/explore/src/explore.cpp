@@ -222,11 +222,11 @@ class Exploration {
     if (distance(ball, goal) < strong) {
       TRY(addKick("Kicks at the goal", AdviceKind::StrongKick, goal));
     } else {
-      const double way = direction(ball, goal);
+      const double heading = direction(ball, goal);
       const double x = field.halfLength() - beforeLine, y = field.halfWidth() - beforeLine;
       TRY(addKick("Kicks ahead", AdviceKind::StrongKick,
-                  {std::clamp(ball.x + strong * std::cos(way), -x, x),
-                   std::clamp(ball.y + strong * std::sin(way), -y, y)}));
+                  {std::clamp(ball.x + strong * std::cos(heading), -x, x),
+                   std::clamp(ball.y + strong * std::sin(heading), -y, y)}));
     }
     for (std::size_t i = 0; i < belief.robots.size(); ++i) {
       const rollout::RobotBelief& mate = belief.robots[i];

@@ -222,30 +222,30 @@ class StartMaker {
     game.goalsLeft = std::max(0, scenario.score.left);
     game.goalsRight = std::max(0, scenario.score.right);
     if (!scenario.game) return {};
-    const sim::GameStart& told = *scenario.game;
-    if (told.over || told.state == sim::PlayState::Finished) {
+    const sim::GameStart& start = *scenario.game;
+    if (start.over || start.state == sim::PlayState::Finished) {
       return failure(ErrorCode::Unsupported, "The game is over. Choose an earlier moment.");
     }
     if (m_known.referee) {
       game.goalsLeft = m_known.referee->teams[0].score;
       game.goalsRight = m_known.referee->teams[1].score;
     }
-    if (told.clock && *told.clock > 0.0) game.secondsLeft = *told.clock;
-    if (told.state != sim::PlayState::Playing) {
-      note("The game is in " + std::string(labelOf(told.state)) +
+    if (start.clock && *start.clock > 0.0) game.secondsLeft = *start.clock;
+    if (start.state != sim::PlayState::Playing) {
+      note("The game is in " + std::string(labelOf(start.state)) +
            ". Rollouts have no referee: all robots play at once.");
       return {};
     }
-    const bool isAnnounced = told.setPlay && told.setPlay->kind != sim::SetPlay::None &&
-                             told.setPlay->team &&
-                             told.setPlay->step != sim::Restart::Step::Executed &&
-                             told.setPlay->step != sim::Restart::Step::Free;
+    const bool isAnnounced = start.setPlay && start.setPlay->kind != sim::SetPlay::None &&
+                             start.setPlay->team &&
+                             start.setPlay->step != sim::Restart::Step::Executed &&
+                             start.setPlay->step != sim::Restart::Step::Free;
     if (!isAnnounced) return {};
     for (const ScenarioRobot& robot : scenario.robots) {
-      if (robot.identity.team != *told.setPlay->team) continue;
-      game.setPlay = told.setPlay->kind;
+      if (robot.identity.team != *start.setPlay->team) continue;
+      game.setPlay = start.setPlay->kind;
       game.setPlaySide = robot.identity.imuStartsAt180 ? rollout::Side::Right : rollout::Side::Left;
-      game.setPlayLeft = told.countdown.value_or(setPlayLasts);
+      game.setPlayLeft = start.countdown.value_or(setPlayLasts);
     }
     return {};
   }

@@ -105,9 +105,9 @@ std::string teamText(const MatchEvent& event) {
   return event.side ? "the " + std::string(sideName(*event.side)) + " side" : std::string();
 }
 
-/// The words of the kind, and behind them what is known more closely.
-std::string wordsAnd(const MatchEvent& event, std::string_view join = ": ") {
-  std::string out(info(event.kind).words);
+/// Returns the predicate of the kind, followed by the details.
+std::string predicateWithDetail(const MatchEvent& event, std::string_view join = ": ") {
+  std::string out(info(event.kind).predicate);
   if (event.detail.empty()) return out;
   if (!out.empty()) out += join;
   return out + event.detail;
@@ -118,7 +118,7 @@ std::string predicateOf(const MatchEvent& event) {
   switch (event.kind) {
     case Kind::Goal:
     case Kind::ScoreCorrected: {
-      std::string out(info(event.kind).words);
+      std::string out(info(event.kind).predicate);
       if (const std::string team = teamText(event); !team.empty()) out += " for " + team;
       if (event.score) {
         out +=
@@ -127,58 +127,59 @@ std::string predicateOf(const MatchEvent& event) {
       return out;
     }
     case Kind::Kick:
-      return event.value ? std::string(info(event.kind).words) + ": " + actionLabel(*event.value)
-                         : wordsAnd(event);
+      return event.value
+                 ? std::string(info(event.kind).predicate) + ": " + actionLabel(*event.value)
+                 : predicateWithDetail(event);
     case Kind::UnknownAction:
       return event.value ? "chose the unknown action code " + std::to_string(*event.value) +
                                ", which counts as stop"
-                         : wordsAnd(event);
+                         : predicateWithDetail(event);
     case Kind::GameState:
       return event.detail + (event.value ? " at " + clockText(*event.value) : std::string());
     case Kind::MatchOver:
-      return wordsAnd(event, " (") + (event.detail.empty() ? "" : ")");
+      return predicateWithDetail(event, " (") + (event.detail.empty() ? "" : ")");
     case Kind::Half:
       return event.value == 2 ? "second half" : "first half";
     case Kind::SetPlay:
       if (!event.detail.empty() && event.team != 0) return event.detail + " for " + teamText(event);
       [[fallthrough]];
     case Kind::GamePhase:
-      return event.detail.empty() ? std::string(info(event.kind).words) : event.detail;
+      return event.detail.empty() ? std::string(info(event.kind).predicate) : event.detail;
     case Kind::RefereeReceived:
-      return wordsAnd(event) +
+      return predicateWithDetail(event) +
              (event.value ? ", version " + std::to_string(*event.value) : std::string());
     case Kind::SecondReferee:
-      return wordsAnd(event, "; showing ");
+      return predicateWithDetail(event, "; showing ");
     case Kind::RobotReceived:
-      return wordsAnd(event, " from ");
+      return predicateWithDetail(event, " from ");
     case Kind::SecondSender:
-      return wordsAnd(event, "; this one is ");
+      return predicateWithDetail(event, "; this one is ");
     case Kind::BatteryLow:
-      return wordsAnd(event, ": ") + (event.value
-                                          ? ": " + std::to_string(*event.value / 10) + '.' +
-                                                std::to_string(std::abs(*event.value) % 10) + " V"
-                                          : std::string());
+      return predicateWithDetail(event, ": ") +
+             (event.value ? ": " + std::to_string(*event.value / 10) + '.' +
+                                std::to_string(std::abs(*event.value) % 10) + " V"
+                          : std::string());
     case Kind::ClockSet:
-      return wordsAnd(event) + " by " + (event.value.value_or(0) > 0 ? "+" : "") +
+      return predicateWithDetail(event) + " by " + (event.value.value_or(0) > 0 ? "+" : "") +
              std::to_string(event.value.value_or(0)) + " s; timestamps in Live are not affected";
     case Kind::Penalised:
-      return wordsAnd(event) +
+      return predicateWithDetail(event) +
              (event.value.value_or(0) > 0 ? ", " + durationText(*event.value) : std::string());
     case Kind::ProcessStarted:
     case Kind::ProcessRestarted:
-      return std::string(info(event.kind).words) +
+      return std::string(info(event.kind).predicate) +
              (event.value ? " (process " + std::to_string(*event.value) + ')' : std::string());
     case Kind::ProcessEnded:
-      return event.detail.empty() ? "stopped" : wordsAnd(event);
+      return event.detail.empty() ? "stopped" : predicateWithDetail(event);
     case Kind::ProcessNotAttached:
-      return wordsAnd(event, " ");
+      return predicateWithDetail(event, " ");
     case Kind::PortLost:
       return event.detail + " Trying again; the other ports work.";
     case Kind::PortBack:
       return "port " + std::to_string(event.value.value_or(0)) + ' ' +
-             std::string(info(event.kind).words);
+             std::string(info(event.kind).predicate);
     default:
-      return wordsAnd(event);
+      return predicateWithDetail(event);
   }
 }
 

@@ -8,7 +8,7 @@ using telemetry::RefereePlayer;
 using telemetry::RefereeState;
 using telemetry::RefereeTeam;
 
-/// The set play and the phase in words. One version says in one field what another says in two.
+/// The set play and the phase as text. Some versions have one field for both, others have two.
 void describeSetPlay(const RefereeState& state, std::string& setPlay, std::string& phase) {
   constexpr int normal = 0, shootout = 1, overtime = 2;
   if (state.secState && *state.secState != normal) {

@@ -30,7 +30,7 @@ struct Exchange {
 };
 
 /// The problem that pagmo minimises. Its copies share one exchange.
-struct ToldProblem {
+struct AskTellProblem {
   std::size_t dimensions = 1;
   Exchange* exchange = nullptr;
 
@@ -71,7 +71,7 @@ tl::unexpected<Error> searchFailed(const std::exception& e) {
 struct CmaSearch::State {
   explicit State(const SearchSettings& s)
       : algorithm(1, -1, -1, -1, -1, s.sigma, 0.0, 0.0, true, false, s.seed),
-        population(pagmo::problem(ToldProblem{s.start.size(), &exchange}), 0U, s.seed),
+        population(pagmo::problem(AskTellProblem{s.start.size(), &exchange}), 0U, s.seed),
         mean(s.start) {
     // The distribution begins at the best of the population.
     for (std::size_t i = 0; i < s.population; ++i)
@@ -152,7 +152,7 @@ Result<void> CmaSearch::tell(std::span<const double> values) {
   }
   for (double& u : mean) u /= sum;
   m_state->mean = std::move(mean);
-  ++m_told;
+  ++m_generationsDone;
   return {};
 }
 
@@ -164,7 +164,7 @@ Result<void> CmaSearch::replay(const Generation& generation) {
   };
   if (!std::ranges::equal(points, generation.points, same)) {
     return failure(ErrorCode::Conflict,
-                   "generation " + std::to_string(m_told + 1) +
+                   "generation " + std::to_string(m_generationsDone + 1) +
                        " has other points than this search draws; it was begun by another version "
                        "or with other settings");
   }

@@ -272,8 +272,8 @@ class Learner {
       out.means.push_back(search.mean());
     }
     const std::size_t seeds = m_learning.matches / (m_learning.swapSides ? 2 : 1);
-    while (search.told() < m_learning.generations) {
-      const std::size_t number = search.told() + 1;
+    while (search.generationsDone() < m_learning.generations) {
+      const std::size_t number = search.generationsDone() + 1;
       Generation generation{TRY(search.ask()), {}};
       std::vector<Candidate> candidates;
       for (const auto& point : generation.points) {

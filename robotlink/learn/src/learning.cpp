@@ -255,7 +255,7 @@ class LearnReader {
         return m_root.fail("parameters", "no robot of the team reads " + key);
       }
       if (std::ranges::count(chosen, key) > 1) {
-        return m_root.fail("parameters", key + " stands there twice");
+        return m_root.fail("parameters", key + " is given twice");
       }
       const double usual = row->written(start.*row->member);
       out.parameters.push_back({key, row->unit.symbol, std::max(row->least, usual / usualRange),
@@ -277,7 +277,7 @@ class LearnReader {
         if (!range) continue;
         const BehaviourParameter& row = *findParameter(one.key);
         const JsonObject object(m_report, *range, "ranges." + one.key, {"from", "to"});
-        const NumberRange allowed{row.least, row.most, row.unit.words};
+        const NumberRange allowed{row.least, row.most, row.unit.name};
         one.from = object.number("from", one.from, allowed);
         one.to = object.number("to", one.to, allowed);
       }

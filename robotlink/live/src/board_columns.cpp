@@ -21,7 +21,7 @@ BoardColumns::BoardColumns(std::span<const Variable> variables) {
     column.name = variable.name;
     column.type = isInt ? telemetry::ColumnType::Int32 : telemetry::ColumnType::Float32;
     meanings.describe(column);
-    // A team may keep under the same name what is no code: words belong to whole numbers.
+    // A team may use the same name for a number that is not a code: only whole numbers have labels.
     if (!isInt) {
       column.kind = telemetry::ColumnKind::Number;
       column.labels.clear();

@@ -100,8 +100,8 @@ void LiveEvents::compareRobot(const RobotFrame& received, double time,
   }
   if (link.conflict && !known.conflict) say(Kind::SecondSender, link.sender.text());
   const auto& penalty = received.penalty;
-  if (penalty && (!known.penalty || known.penalty->words != penalty->words)) {
-    say(Kind::Penalised, penalty->words, penalty->secondsLeft);
+  if (penalty && (!known.penalty || known.penalty->text != penalty->text)) {
+    say(Kind::Penalised, penalty->text, penalty->secondsLeft);
   } else if (!penalty && known.penalty) {
     say(Kind::PenaltyOver);
   }

@@ -18,10 +18,10 @@ using telemetry::RobotStatus;
 
 std::vector<ReceivedValue> valuesOf(const RobotStatus& robot) {
   std::vector<ReceivedValue> values;
-  values.reserve(robot.words.size());
+  values.reserve(robot.texts.size());
   const auto& fields = robot.decoder->profile().fields;
-  for (std::size_t i = 0; i < robot.words.size(); ++i) {
-    values.push_back({robot.name(i), telemetry::printable(robot.words[i], 40),
+  for (std::size_t i = 0; i < robot.texts.size(); ++i) {
+    values.push_back({robot.name(i), telemetry::printable(robot.texts[i], 40),
                       i < fields.size() ? fields[i].unit : std::string()});
   }
   return values;

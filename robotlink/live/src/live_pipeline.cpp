@@ -335,15 +335,20 @@ void LivePipeline::reportSent(WallTime now) {
   for (const SentStatus& sent : all) {
     const telemetry::LinkHealth& link = sent.link;
     if (link.age >= m_options.team.timeout) continue;
-    const auto said = [](const std::optional<std::int64_t>& value) {
+    const auto optionalNumber = [](const std::optional<std::int64_t>& value) {
       return value ? static_cast<double>(*value) : std::numeric_limits<double>::quiet_NaN();
     };
     BoardRow row{seconds(now), {}, {}};
-    row.values = {telemetry::secondsOf(link.age), link.rate,
-                  link.jitter * 1000.0,           link.loss.value_or(0.0),
-                  static_cast<double>(link.lost), static_cast<double>(link.duplicates),
-                  static_cast<double>(link.late), sent.clockOffset,
-                  said(sent.refresh_ms),          said(sent.waiting)};
+    row.values = {telemetry::secondsOf(link.age),
+                  link.rate,
+                  link.jitter * 1000.0,
+                  link.loss.value_or(0.0),
+                  static_cast<double>(link.lost),
+                  static_cast<double>(link.duplicates),
+                  static_cast<double>(link.late),
+                  sent.clockOffset,
+                  optionalNumber(sent.refresh_ms),
+                  optionalNumber(sent.waiting)};
     m_sentHealth.take(boardOf(sent), group, names.at(boardOf(sent)), {&row, 1});
   }
 }

@@ -84,16 +84,16 @@ ColumnInfo columnOf(const ProfileField& field) {
   return column;
 }
 
-/// The code of a word: a new one for each word that comes, until there are too many of them.
-double codeOf(ColumnInfo& column, std::string_view word, bool& changed) {
-  const auto known =
-      std::ranges::find_if(column.labels, [&](const auto& label) { return label.second == word; });
+/// Returns the code of a text: a new one for each new text, until there are too many of them.
+double codeOf(ColumnInfo& column, std::string_view sentText, bool& changed) {
+  const auto known = std::ranges::find_if(
+      column.labels, [&](const auto& label) { return label.second == sentText; });
   if (known != column.labels.end()) return known->first;
-  if (column.labels.size() > LiveRows::maxWords) return column.labels.rbegin()->first;
+  if (column.labels.size() > LiveRows::maxTexts) return column.labels.rbegin()->first;
   changed = true;
   const int code = column.labels.empty() ? 0 : column.labels.rbegin()->first + 1;
-  const bool last = column.labels.size() == LiveRows::maxWords;
-  column.labels.emplace(code, last ? std::string("other") : std::string(word));
+  const bool last = column.labels.size() == LiveRows::maxTexts;
+  column.labels.emplace(code, last ? std::string("other") : std::string(sentText));
   return code;
 }
 
@@ -233,14 +233,14 @@ void LiveRows::take(const DatagramView& datagram, const DecodedText& decoded,
   robot->values.assign(maxColumns, nothing);
   m_refused.values += decoded.dropped;
   for (std::size_t i = 0; i < decoded.count; ++i) {
-    const std::string_view word = decoded.words[i];
+    const std::string_view sentText = decoded.texts[i];
     double value = decoded.values[i];
     std::size_t column = noColumn;
     if (i < fields) {
       column = robot->places[i].column;
       if (robot->places[i].absent == value) value = nothing;
     } else if (i < fields + maxExtras) {
-      const bool isText = std::isnan(value) && !word.empty();
+      const bool isText = std::isnan(value) && !sentText.empty();
       ColumnInfo extra{decoder.name(decoded, i),
                        ColumnType::Float64,
                        "",
@@ -258,8 +258,8 @@ void LiveRows::take(const DatagramView& datagram, const DecodedText& decoded,
       continue;
     }
     ColumnInfo& info = robot->columns[column];
-    if (info.kind == ColumnKind::Text && !word.empty() && (std::isnan(value) || i >= fields)) {
-      value = codeOf(info, word, changed);
+    if (info.kind == ColumnKind::Text && !sentText.empty() && (std::isnan(value) || i >= fields)) {
+      value = codeOf(info, sentText, changed);
     }
     robot->values[column] = value;
   }

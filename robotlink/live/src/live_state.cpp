@@ -149,10 +149,10 @@ void LiveState::takeReferee(const telemetry::RefereePacket& packet,
   const auto kept = [&datagram] {
     return Kept{datagram.time, datagram.sender, datagram.localPort, std::string(datagram.payload)};
   };
-  const auto reply = [&](const telemetry::RobotReply& said, telemetry::Address robot) {
-    referee.accept(said, robot, datagram.time);
+  const auto reply = [&](const telemetry::RobotReply& answer, telemetry::Address robot) {
+    referee.accept(answer, robot, datagram.time);
     if (m_replies.size() < telemetry::RefereeTracker::maxReplies) {
-      m_replies.insert_or_assign({said.team, said.player}, kept());
+      m_replies.insert_or_assign({answer.team, answer.player}, kept());
     }
   };
   if (const auto* state = std::get_if<RefereeState>(&packet)) {
@@ -166,8 +166,8 @@ void LiveState::takeReferee(const telemetry::RefereePacket& packet,
     } else if (other) {
       m_other = kept();
     }
-  } else if (const auto* said = std::get_if<telemetry::RobotReply>(&packet)) {
-    reply(*said, datagram.sender.address);
+  } else if (const auto* answer = std::get_if<telemetry::RobotReply>(&packet)) {
+    reply(*answer, datagram.sender.address);
   } else if (const auto* forwarded = std::get_if<telemetry::ForwardedReply>(&packet)) {
     reply(forwarded->reply, {forwarded->robot});
   }

@@ -75,7 +75,7 @@ int ourNumber(const LiveOptions& options, const telemetry::RefereeState* referee
 }
 
 Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee) {
-  const auto toldOf = [referee](int number) -> std::optional<TeamColor> {
+  const auto colourFromReferee = [referee](int number) -> std::optional<TeamColor> {
     const auto* team = referee != nullptr && number > 0 ? referee->team(number) : nullptr;
     return team == nullptr ? std::nullopt : teamColorNamed(telemetry::colourLabel(team->colour));
   };
@@ -90,12 +90,12 @@ Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee
   }
   if (ours == setups.end()) ours = setups.begin();
   Teams teams(1);
-  if (setups.empty()) teams[0] = {chosen, {}, toldOf(chosen), true};
+  if (setups.empty()) teams[0] = {chosen, {}, colourFromReferee(chosen), true};
   for (auto setup = setups.begin(); setup != setups.end(); ++setup) {
     const bool isOurs = setup == ours;
     const int number = setup->number > 0 || !isOurs ? setup->number : chosen;
     const auto colour = teamColorNamed(setup->colour);
-    teams.push_back({number, setup->name, colour ? colour : toldOf(number), isOurs});
+    teams.push_back({number, setup->name, colour ? colour : colourFromReferee(number), isOurs});
   }
   Team& our = *std::ranges::find(teams, true, &Team::ours);
   if (!our.colour) our.colour = options.ourColour;

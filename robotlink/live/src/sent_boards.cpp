@@ -63,7 +63,7 @@ struct SentBoards::Robot {
   std::uint32_t newest = 0;          // sequence
   std::uint64_t newestSent = 0;      // ms
   std::optional<double> sampleTime;  // s, of the newest datagram with values
-  telemetry::Pb2Status said;
+  telemetry::Pb2Status reported;
   Values values;
 
   // Once every variable was received.
@@ -77,7 +77,7 @@ struct SentBoards::Robot {
   std::vector<BoardRow> rows;  // not taken yet
 
   bool isDescribed() const { return columns.has_value(); }
-  bool hasBlackboard() const { return said.blackboard.value_or(true); }
+  bool hasBlackboard() const { return reported.blackboard.value_or(true); }
 
   /// The program that sends, or its computer, was started again: its numbers mean something else.
   void restart(std::uint32_t next) {
@@ -112,13 +112,13 @@ void SentBoards::forget(int number, telemetry::Address address) {
 SentBoards::Robot* SentBoards::robotOf(int number, const telemetry::Sender& sender, WallTime time) {
   Robot *moved = nullptr, *oldest = nullptr;
   for (const auto& robot : m_robots) {
-    const bool isSilent = time - robot->last >= m_timeout;
+    const bool isOffline = time - robot->last >= m_timeout;
     if (robot->number == number) {
       if (robot->sender.address == sender.address) return robot.get();
       // It changed its address now.
-      if (isSilent) moved = robot.get();
+      if (isOffline) moved = robot.get();
     }
-    if (isSilent && (oldest == nullptr || robot->last < oldest->last)) oldest = robot.get();
+    if (isOffline && (oldest == nullptr || robot->last < oldest->last)) oldest = robot.get();
   }
   if (moved == nullptr && m_robots.size() < maxRobots) {
     moved = m_robots.emplace_back(std::make_unique<Robot>()).get();
@@ -225,18 +225,18 @@ SentBoards::Verdict SentBoards::take(const telemetry::Pb2Message& message,
   robot.last = std::max(robot.last, datagram.time);
   robot.arrivals.add(robot.last);
 
-  for (const telemetry::Pb2Value& said : message.values) {
-    auto known = robot.values.find(said.name);
+  for (const telemetry::Pb2Value& sent : message.values) {
+    auto known = robot.values.find(sent.name);
     if (known == robot.values.end()) {
       if (robot.values.size() == maxVariables) {
         ++robot.refused;
         continue;
       }
-      known = robot.values.emplace(said.name, Robot::Value{}).first;
+      known = robot.values.emplace(sent.name, Robot::Value{}).first;
     } else if (isNewer(known->second.sequence, message.sequence)) {
       continue;
     }
-    known->second.value = said.value;
+    known->second.value = sent.value;
     known->second.sequence = message.sequence;
   }
   if (step == SequenceStats::Step::Late) return Verdict::Late;
@@ -245,12 +245,12 @@ SentBoards::Verdict SentBoards::take(const telemetry::Pb2Message& message,
   robot.newestSent = message.milliseconds;
   const double time = robot.clock.map(message.milliseconds, arrival);
   const telemetry::Pb2Status& status = message.status;
-  if (status.refresh_ms) robot.said.refresh_ms = status.refresh_ms;
-  if (status.waiting) robot.said.waiting = status.waiting;
-  if (status.blackboard) robot.said.blackboard = status.blackboard;
+  if (status.refresh_ms) robot.reported.refresh_ms = status.refresh_ms;
+  if (status.waiting) robot.reported.waiting = status.waiting;
+  if (status.blackboard) robot.reported.blackboard = status.blackboard;
   if (message.values.empty()) return Verdict::Used;
   if (!robot.isDescribed()) {
-    const auto refresh = std::clamp<std::int64_t>(robot.said.refresh_ms.value_or(usualRefresh),
+    const auto refresh = std::clamp<std::int64_t>(robot.reported.refresh_ms.value_or(usualRefresh),
                                                   usualRefresh, longestRefresh);
     const bool hasAll = robot.values.size() >= catalogOf(robot).catalog.variables().size();
     if (!hasAll && datagram.time - robot.first < std::chrono::milliseconds(refresh)) {
@@ -320,8 +320,8 @@ std::vector<SentStatus> SentBoards::status(WallTime now) const {
     }
     out.clockOffset = robot->clock.offset();
     out.restarts = robot->restarts;
-    out.refresh_ms = robot->said.refresh_ms;
-    out.waiting = robot->said.waiting;
+    out.refresh_ms = robot->reported.refresh_ms;
+    out.waiting = robot->reported.waiting;
     out.blackboard = robot->hasBlackboard();
     out.refused = robot->refused;
   }

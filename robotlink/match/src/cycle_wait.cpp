@@ -81,7 +81,7 @@ void CycleWait::await() {
       const RestartRule::Seconds patience(RobotSlots::silentAfter(*slot));
       if (mayAnswer(*slot) && now - begin < patience) return false;
       slot->hasMissedCycle = true;
-      m_pace.tellLateCycle(*slot);
+      m_pace.reportLateCycle(*slot);
       return true;
     });
   }

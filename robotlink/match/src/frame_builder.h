@@ -22,7 +22,7 @@ class FrameBuilder {
 
   /// Adds time spent in ticks.
   void addBusy(std::chrono::steady_clock::duration busy, std::uint64_t ticks);
-  /// Standing still or playing at another speed: measure anew.
+  /// Standing still or playing at another speed: measure again.
   void resetSpeed(Time now, std::uint64_t tick);
   /// Everything but serial and dropped counts. `still`: processes are not expected to respond.
   void fill(SimulatedMatch& match, Time now, bool still, MatchFrame& out);

@@ -14,7 +14,7 @@ using SteadyClock = std::chrono::steady_clock;
 using Seconds = RestartRule::Seconds;
 
 constexpr auto glance = 20ms;  // between two looks at the processes while one is waited for
-constexpr auto worthTelling = 250ms;
+constexpr auto worthReporting = 250ms;
 constexpr Seconds leastTimeToStart{10.0};  // of a process on a busy computer
 constexpr auto worthWaiting = 1s;  // for a restart; otherwise the match continues without it
 
@@ -189,8 +189,8 @@ void LockStep::runSeparate(RobotSlot& slot, SlotProcess& process) {
     }
     // This also reads the output of processes, because a full pipe would block them.
     if (waited > glance) m_pace.lookAfterProcesses(SteadyClock::now());
-    if (waited > worthTelling) {
-      m_pace.tellWait({slot.id, process.profile.name, SteadyClock::now()});
+    if (waited > worthReporting) {
+      m_pace.setWait({slot.id, process.profile.name, SteadyClock::now()});
     }
   }
   process.given = false;

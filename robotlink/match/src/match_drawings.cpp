@@ -23,7 +23,7 @@ MatchDrawings::MatchDrawings(int port) {
   }
 }
 
-void MatchDrawings::hear(double time, std::vector<ReceivedDrawing>& out) {
+void MatchDrawings::receive(double time, std::vector<ReceivedDrawing>& out) {
   if (!m_receiver) return;
   if (!m_isBound) lookAtPort();
   if (!m_receiver->take(m_batch)) return;

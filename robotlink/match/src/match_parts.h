@@ -27,7 +27,7 @@ struct SimulatedMatch::Parts {
   void rememberBeliefs();
   Result<void> beginGame();
   void advance(bool again);
-  void hearReferee(bool again = false);
+  void deliverReferee(bool again = false);
   void followSides();
   void followJump();
   void startAnew();

@@ -95,17 +95,17 @@ void MatchPlayer::tick() {
   const auto begin = Clock::now();
   m_match.tick();
   const auto tickTime = Clock::now() - begin;
-  tellEvents();
+  reportEvents();
   for (const auto& observer : m_observers) observer->ticked(m_match, tickTime);
 }
 
 void MatchPlayer::lookAfterProcesses(Clock::time_point now) {
   m_match.pace().lookAfterProcesses(now);
-  tellLines(now);
-  tellEvents();
+  reportLines(now);
+  reportEvents();
 }
 
-void MatchPlayer::tellLines(Clock::time_point now) {
+void MatchPlayer::reportLines(Clock::time_point now) {
   // What our processes say in their first moments is for those who look for it.
   constexpr std::chrono::seconds startingUp{1};
   const auto lines = m_match.robots().processes().takeLines();
@@ -121,13 +121,13 @@ void MatchPlayer::tellLines(Clock::time_point now) {
     const auto index = simulation.indexOf(line.robot);
     const std::string robot = index ? simulation.state().robots[*index].name()
                                     : "robot " + std::to_string(line.robot.value);
-    const LogLine said{simulation.snapshot().time, robot + ' ' + line.process, line.text,
-                       starting ? LogLevel::Debug : LogLevel::Info};
-    for (const auto& observer : m_observers) observer->logged(said);
+    const LogLine entry{simulation.snapshot().time, robot + ' ' + line.process, line.text,
+                        starting ? LogLevel::Debug : LogLevel::Info};
+    for (const auto& observer : m_observers) observer->logged(entry);
   }
 }
 
-void MatchPlayer::tellEvents() {
+void MatchPlayer::reportEvents() {
   m_events.clear();
   m_match.takeEvents(m_events);
   m_drawings.clear();

@@ -64,11 +64,12 @@ std::optional<telemetry::RobotReply> replyOf(const sim::RobotSnapshot& robot, co
   reply.message = alive;
   reply.fallen = robot.fallen ? 1 : 0;
   // In the team's frame: +x towards the opponents' goal.
-  const double way = game.attacksRight(static_cast<std::size_t>(team)) ? 1.0 : -1.0;
+  const double attackSign = game.attacksRight(static_cast<std::size_t>(team)) ? 1.0 : -1.0;
   const Pose& pose = robot.pose;
-  const double yaw = wrapToPi(pose.yaw + (way > 0.0 ? 0.0 : std::numbers::pi));
-  reply.pose = {static_cast<float>(way * pose.position.x * millimetres),
-                static_cast<float>(way * pose.position.y * millimetres), static_cast<float>(yaw)};
+  const double yaw = wrapToPi(pose.yaw + (attackSign > 0.0 ? 0.0 : std::numbers::pi));
+  reply.pose = {static_cast<float>(attackSign * pose.position.x * millimetres),
+                static_cast<float>(attackSign * pose.position.y * millimetres),
+                static_cast<float>(yaw)};
   const double dx = ball.x - pose.position.x, dy = ball.y - pose.position.y;
   const bool sees = std::hypot(dx, dy) < robot.visionRange;
   reply.ballAge = sees ? 0.0F : -1.0F;

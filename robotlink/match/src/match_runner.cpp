@@ -29,7 +29,7 @@ struct MatchRunner::Shared {
   /// The thread looks at what has changed.
   void wake() const { ::eventfd_write(wakeUp.get(), 1); }
   /// Somebody has to be told of something new; needs the lock. Call what it returns without it.
-  std::function<void()> news() { return std::exchange(told, true) ? nullptr : tell; }
+  std::function<void()> news() { return std::exchange(notified, true) ? nullptr : notify; }
 
   UniqueFd wakeUp;
   mutable std::mutex mutex;                      // guards everything below
@@ -53,8 +53,8 @@ struct MatchRunner::Shared {
   std::deque<LogLine> log;
   std::uint64_t droppedEvents = 0;
   std::uint64_t droppedLogLines = 0;
-  std::function<void()> tell;
-  bool told = false;  // the notification was sent, and nothing was taken since
+  std::function<void()> notify;
+  bool notified = false;  // the notification was sent, and nothing was taken since
 
   MatchPlayer* player = nullptr;  // for commands, which run on its thread
 };
@@ -274,7 +274,7 @@ bool MatchLoop::carryOutCommands() {
   bool changed = false;
   for (const auto& command : commands) changed = command(m_match) == Changed::Yes || changed;
   if (changed) m_player.worldChanged();
-  m_player.tellEvents();
+  m_player.reportEvents();
   // Otherwise the next tick shows what they did.
   if (m_still) m_player.showMoment();
   return true;
@@ -338,7 +338,7 @@ MatchPlayer::Played MatchLoop::playUntil(const MatchRunner::Shared::Skip& skip,
     all.ticks += played.ticks;
     all.busy += played.busy;
     all.next = played.next;
-    m_player.tellEvents();
+    m_player.reportEvents();
     const bool found = std::ranges::any_of(m_newEvents->list, skip.wanted);
     const bool over = found || m_player.currentTick() >= m_skipUntil || m_match.finished();
     collectEvents();
@@ -356,7 +356,7 @@ MatchPlayer::Played MatchLoop::playUntil(const MatchRunner::Shared::Skip& skip,
 }
 
 void MatchLoop::collectEvents() {
-  m_player.tellEvents();
+  m_player.reportEvents();
   if (m_newEvents->list.empty() && m_newEvents->lines.empty()) return;
   std::unique_lock lock(m_shared.mutex);
   for (MatchEvent& event : m_newEvents->list) {
@@ -365,9 +365,9 @@ void MatchLoop::collectEvents() {
   for (LogLine& line : m_newEvents->lines) {
     pushBounded(m_shared.log, std::move(line), m_shared.droppedLogLines);
   }
-  const auto tell = m_shared.news();
+  const auto notify = m_shared.news();
   lock.unlock();
-  if (tell) tell();
+  if (notify) notify();
   m_newEvents->list.clear();
   m_newEvents->lines.clear();
 }
@@ -380,7 +380,7 @@ void MatchLoop::publish() {
   m_builder.fill(m_match, now, m_still, *frame);
   frame->serial = ++m_serial;
   std::shared_ptr<const MatchFrame> replaced = frame;
-  std::function<void()> tell;
+  std::function<void()> notify;
   {
     const std::lock_guard lock(m_shared.mutex);
     frame->paused = m_shared.paused && !m_shared.runTo && !m_shared.skip;
@@ -388,9 +388,9 @@ void MatchLoop::publish() {
     frame->droppedLogLines = m_shared.droppedLogLines;
     replaced.swap(m_shared.latest);
     m_shared.settled = m_still && !m_shared.paceChanged && m_shared.singleSteps == 0;
-    tell = m_shared.news();
+    notify = m_shared.news();
   }
-  if (tell) tell();
+  if (notify) notify();
   if (m_still) m_shared.stillNow.notify_all();
 }
 
@@ -519,22 +519,22 @@ void MatchRunner::stopObserving(const std::shared_ptr<TickObserver>& observer) {
   read([this, &observer](const SimulatedMatch&) { m_shared->player->stopObserving(observer); });
 }
 
-void MatchRunner::setNews(std::function<void()> tell) {
+void MatchRunner::setNews(std::function<void()> notify) {
   const std::lock_guard lock(m_shared->mutex);
-  m_shared->tell = std::move(tell);
-  m_shared->told = false;
+  m_shared->notify = std::move(notify);
+  m_shared->notified = false;
 }
 
 std::shared_ptr<const MatchFrame> MatchRunner::latest(std::uint64_t knownSerial) {
   const std::lock_guard lock(m_shared->mutex);
-  m_shared->told = false;
+  m_shared->notified = false;
   const auto& frame = m_shared->latest;
   return frame && frame->serial != knownSerial ? frame : nullptr;
 }
 
 std::vector<MatchEvent> MatchRunner::takeEvents() {
   const std::lock_guard lock(m_shared->mutex);
-  m_shared->told = false;
+  m_shared->notified = false;
   std::vector<MatchEvent> events(std::make_move_iterator(m_shared->events.begin()),
                                  std::make_move_iterator(m_shared->events.end()));
   m_shared->events.clear();
@@ -543,7 +543,7 @@ std::vector<MatchEvent> MatchRunner::takeEvents() {
 
 std::vector<LogLine> MatchRunner::takeLog() {
   const std::lock_guard lock(m_shared->mutex);
-  m_shared->told = false;
+  m_shared->notified = false;
   std::vector<LogLine> log(std::make_move_iterator(m_shared->log.begin()),
                            std::make_move_iterator(m_shared->log.end()));
   m_shared->log.clear();

@@ -25,11 +25,11 @@ void ProcessPace::lookAfterProcesses(Time now) {
   ProcessManager& processes = m_slots.processes();
   (void)processes.step(now);
   m_events.takeNews(m_base.simulation.state(), processes.takeNews());
-  if (!m_still) tellTime(now);
+  if (!m_still) publishTime(now);
 }
 
 /// Clocks and time limits of a team's programs follow what is reached, not what was asked for.
-void ProcessPace::tellTime(Time now) {
+void ProcessPace::publishTime(Time now) {
   using Seconds = RestartRule::Seconds;
   constexpr Seconds window{1.0};
   constexpr double alike = 0.03;
@@ -68,7 +68,7 @@ void ProcessPace::slowTo(double speed, Time now) {
   m_pace = speed;
   if (speed > 0.0) m_reached = speed;
   measureFrom(now);
-  tellTime(now);
+  publishTime(now);
 }
 
 double ProcessPace::teamProgramPace(double wanted, double now) {
@@ -125,7 +125,7 @@ bool ProcessPace::awaitsPrograms(Await whom, Time now) {
     m_awaitedAt = now;
     m_reached = 1.0;
     measureFrom(now);
-    tellTime(now);
+    publishTime(now);
   } else {
     m_awaitedAt.reset();
   }
@@ -161,7 +161,7 @@ bool ProcessPace::cooperates(const ProcessStatus& program) const {
   return slot && slot->cooperates;
 }
 
-void ProcessPace::tellLateCycle(const RobotSlot& slot) {
+void ProcessPace::reportLateCycle(const RobotSlot& slot) {
   m_events.lateCycle(m_base.simulation.state(), slot.id,
                      "no cycle finished for " + inSeconds(Seconds(RobotSlots::silentAfter(slot))));
 }

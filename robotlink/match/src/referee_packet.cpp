@@ -100,7 +100,7 @@ int playersPerTeam(const sim::WorldState& world) {
   return std::max(count[0], count[1]);
 }
 
-/// A game that begins anew has the same teams.
+/// A game that begins again has the same teams.
 void nameTeams(sim::WorldState& world) {
   std::vector<sim::TeamSettings> teams;
   for (const sim::GameTeam& team : world.game->teams) {
@@ -224,13 +224,13 @@ telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNu
 
 void showReferee(const sim::WorldState& world, MatchFrame& frame) {
   frame.referee.reset();
-  frame.desk.reset();
+  frame.refereedGame.reset();
   for (RobotFrame& robot : frame.robots) robot.penalty.reset();
   if (!world.game) return;
   const GameState& game = *world.game;
   const telemetry::RefereeState packet = refereePacket(world, 0, true);
   const sim::RefereeRules& rules = *world.settings.referee;
-  frame.desk = std::make_shared<const RefereeDesk>(RefereeDesk{game, rules});
+  frame.refereedGame = std::make_shared<const RefereedGame>(RefereedGame{game, rules});
   for (const sim::GameTeam& team : game.teams) {
     frame.teams[static_cast<std::size_t>(team.colour) + 1].number = team.number;
   }
@@ -289,13 +289,13 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
     return GameState::nobody;
   };
   game.restart = {};
-  const AnnouncedSetPlay told = setPlayIn(packet);
-  game.restart.kind = told.kind;
-  if (told.kind != SetPlay::None) {
-    const bool says = packet.secStateInfo && packet.size == 688;
-    const int step = says ? (*packet.secStateInfo)[1] : game.stopped ? 0 : 2;
+  const AnnouncedSetPlay announced = setPlayIn(packet);
+  game.restart.kind = announced.kind;
+  if (announced.kind != SetPlay::None) {
+    const bool hasDetails = packet.secStateInfo && packet.size == 688;
+    const int step = hasDetails ? (*packet.secStateInfo)[1] : game.stopped ? 0 : 2;
     game.restart.step = step == 0 ? Step::Placing : step == 1 ? Step::Preparing : Step::Taking;
-    game.restart.team = indexOf(told.team);
+    game.restart.team = indexOf(announced.team);
   }
   game.kickOff = indexOf(packet.kickOffTeam);
   if (game.restart.kind == SetPlay::None && state == PlayState::Playing && game.kickOff >= 0 &&

@@ -37,12 +37,12 @@ using SteadyClock = std::chrono::steady_clock;
 using OnlyFor = ProfileProcess::OnlyFor;
 
 /// Whether the robot's processes were told something else: how it walks, kicks and how wide it is.
-bool isToldOtherwise(const sim::RobotModel& a, const sim::RobotModel& b) {
-  const auto told = [](const sim::RobotModel& m) {
+bool announcedDiffers(const sim::RobotModel& a, const sim::RobotModel& b) {
+  const auto announced = [](const sim::RobotModel& m) {
     return std::array{m.forwardFast, m.forwardSlow,    m.backwardFast, m.backwardSlow, m.sideways,
                       m.turn,        m.aroundSideways, m.aroundTurn,   m.kickReach,    m.radius};
   };
-  return told(a) != told(b) || a.kickLaw != b.kickLaw;
+  return announced(a) != announced(b) || a.kickLaw != b.kickLaw;
 }
 
 tl::unexpected<Error> noSuchRobot(RobotId id) {
@@ -306,7 +306,7 @@ Result<void> RobotSlots::setModel(RobotId id, const sim::RobotModel& model) {
     const sim::RobotModel before = *this->model(id);
     if (before == model) return {};
     TRY(m_base.simulation.setRobotModel(id, model));
-    if (isToldOtherwise(before, model)) slot.processes.clear();
+    if (announcedDiffers(before, model)) slot.processes.clear();
     return {};
   });
 }
@@ -622,7 +622,7 @@ ProcessOptions RobotSlots::inlineOptions(const RobotSlot& slot) {
   options.field = sim::playedField(m_base.scenario.settings);
   options.model = *model(slot.id);
   options.seed = m_base.scenario.settings.seed;
-  if (m_base.options.tellSides) options.facesLeft = identityOf(slot.id).imuStartsAt180;
+  if (m_base.options.announceSides) options.facesLeft = identityOf(slot.id).imuStartsAt180;
   options.teamChannel = teamChannel(slot.id);
   if (const AdvisorOptions* advisor = advisorOf(slot)) {
     options.advisor = *advisor;
@@ -659,7 +659,7 @@ std::vector<std::string> RobotSlots::commandOf(const RobotSlot& slot,
       sim::fieldToText(sim::playedField(m_base.scenario.settings)),
       "--robot-model",
       robotModelToText(*model(slot.id))};
-  if (m_base.options.tellSides) {
+  if (m_base.options.announceSides) {
     command.insert(command.end(), {"--attack", identity.imuStartsAt180 ? "left" : "right"});
   }
   if (const AdvisorOptions* advisor = advisorOf(slot)) {

@@ -130,9 +130,9 @@ void SimulatedMatch::Parts::playThrough(const MomentPast& past) {
       startAnew();
       restore(*past.memory);
     }
-    for (const std::vector<sim::RobotCommand>& told : stretch.commands) {
+    for (const std::vector<sim::RobotCommand>& commands : stretch.commands) {
       base.writes.applyDue(base.tick(), slots);
-      base.commands = told;
+      base.commands = commands;
       advance(true);
     }
   }

@@ -117,19 +117,19 @@ Result<void> SimulatedMatch::Parts::beginGame() {
   } else if (base.options.sendReferee || slots.haveTeamPrograms()) {
     TRY(referee.sendTo(base.options.process.refereePort));
   }
-  hearReferee();
+  deliverReferee();
   return {};
 }
 
 /// Our communication process would receive the packets at its own time, and many programs receive
 /// none: the match writes what they mean.
-void SimulatedMatch::Parts::hearReferee(bool again) {
+void SimulatedMatch::Parts::deliverReferee(bool again) {
   if (!referee.tick(base.simulation, again)) return;
   const sim::WorldState& world = base.simulation.state();
   for (std::size_t i = 0; i < slots.all().size(); ++i) {
     const sim::RobotIdentity& robot = world.robots[i];
     const int team = world.game->teamOf(robot.team);
-    if (team < 0 || slots.all()[i]->runtime.hearsReferee) continue;
+    if (team < 0 || slots.all()[i]->runtime.readsReferee) continue;
     const sim::GameTeam& own = world.game->teams[static_cast<std::size_t>(team)];
     RobotSlot& slot = *slots.all()[i];
     if (const auto order =
@@ -190,7 +190,7 @@ void SimulatedMatch::Parts::advance(bool again) {
   expectedTick = base.simulation.state().tick;
   if (base.simulation.state().game) {
     followSides();
-    hearReferee(again);
+    deliverReferee(again);
   }
   lockStep.run();
 }
@@ -232,7 +232,7 @@ void SimulatedMatch::takeDrawings(std::vector<ReceivedDrawing>& out) {
   auto& drawings = m_parts->drawings;
   if (!drawings) drawings = std::make_unique<MatchDrawings>(claim->number().drawingPort());
   const sim::WorldState& state = simulation().state();
-  drawings->hear(static_cast<double>(state.tick) / state.settings.tickRate, out);
+  drawings->receive(static_cast<double>(state.tick) / state.settings.tickRate, out);
 }
 
 std::vector<CognitionDebug> SimulatedMatch::cognitionDebug() {

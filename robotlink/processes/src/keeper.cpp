@@ -107,7 +107,7 @@ Result<Kept> spawnKept(const SpawnRequest& request, const std::string& robotProg
   return failure(ErrorCode::SystemError, "the keeper of '" + request.command.front() + "' ended");
 }
 
-void keep(const std::vector<std::string>& words) {
+void keep(const std::vector<std::string>& arguments) {
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_IGN);
   sigset_t ended;
@@ -117,12 +117,12 @@ void keep(const std::vector<std::string>& words) {
   const UniqueFd ends(::signalfd(-1, &ended, SFD_CLOEXEC | SFD_NONBLOCK));
 
   SpawnRequest request;
-  request.directory = words.at(0);
+  request.directory = arguments.at(0);
   std::size_t at = 2;
-  for (int left = std::stoi(words.at(1)); left > 0; --left, at += 2) {
-    request.environment.emplace_back(words.at(at), words.at(at + 1));
+  for (int left = std::stoi(arguments.at(1)); left > 0; --left, at += 2) {
+    request.environment.emplace_back(arguments.at(at), arguments.at(at + 1));
   }
-  request.command.assign(words.begin() + static_cast<std::ptrdiff_t>(at), words.end());
+  request.command.assign(arguments.begin() + static_cast<std::ptrdiff_t>(at), arguments.end());
   request.output = STDOUT_FILENO;
   const auto program = spawn(request);
   const std::string answer = program ? std::to_string(program->pid)

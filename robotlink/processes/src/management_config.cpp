@@ -44,23 +44,23 @@ std::vector<std::string> namesIn(std::string_view text) {
 }  // namespace
 
 std::vector<std::string> splitCommand(std::string_view text) {
-  std::vector<std::string> words;
-  std::string word;
+  std::vector<std::string> arguments;
+  std::string argument;
   bool quoted = false, any = false;
   for (const char c : text) {
     if (c == '"') {
       quoted = !quoted;
       any = true;
     } else if (!quoted && std::isspace(static_cast<unsigned char>(c)) != 0) {
-      if (any) words.push_back(std::exchange(word, {}));
+      if (any) arguments.push_back(std::exchange(argument, {}));
       any = false;
     } else {
-      word += c;
+      argument += c;
       any = true;
     }
   }
-  if (any) words.push_back(word);
-  return words;
+  if (any) arguments.push_back(argument);
+  return arguments;
 }
 
 IntVar workingFlagOf(const std::string& process, const VariableCatalog& catalog) {
@@ -98,9 +98,9 @@ Result<ManagementConfig> managementFromIni(const IniFile& file,
       list = &entry;
       if (config.processes.empty()) return refuse("must name at least one process");
     } else if (entry.name.starts_with(commandKey) && entry.name.size() > commandKey.size()) {
-      std::vector<std::string> words = splitCommand(entry.value);
-      if (words.empty()) return refuse("must name a program");
-      config.commands[entry.name.substr(commandKey.size())] = std::move(words);
+      std::vector<std::string> arguments = splitCommand(entry.value);
+      if (arguments.empty()) return refuse("must name a program");
+      config.commands[entry.name.substr(commandKey.size())] = std::move(arguments);
     } else {
       return failure(ErrorCode::ParseError, unknownName("key", entry.name, keys),
                      file.place(entry));

@@ -107,12 +107,12 @@ void ProcessManager::setTime(double matchSeconds, double speed, Time now) {
 /// and then stays until the program is at the match's time: a match is late now and then and never
 /// early, so that half a correction would leave its programs ahead of it for good.
 void ProcessManager::steer(Entry& entry, Time now) const {
-  constexpr double longestWay = 1.0;  // s at ×1: farther off, the match stood or jumped
+  constexpr double longestJump = 1.0;  // s at ×1: farther off, the match stood or jumped
   constexpr double alike = 0.01;
   constexpr double mostKept = 0.1;  // of a correction; more is the rate of another speed
   const double own = entry.clock->seconds(now);
   double behind = m_matchSeconds - entry.matchStart.value_or(m_matchSeconds - own) - own;
-  if (!entry.matchStart || std::abs(behind) > longestWay * std::max(1.0, m_speed)) {
+  if (!entry.matchStart || std::abs(behind) > longestJump * std::max(1.0, m_speed)) {
     entry.matchStart = m_matchSeconds - own;
     behind = 0.0;
   }

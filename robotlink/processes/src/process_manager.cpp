@@ -50,7 +50,7 @@ ProcessManager::ProcessManager(std::string robotProgram)
 ProcessManager::~ProcessManager() {
   stopAll();
   if (!m_guard) return;
-  tellGuard(guardMessages::done);
+  sendToGuard(guardMessages::done);
   // It ends at once; only one that was stopped would keep us.
   const auto last = std::chrono::steady_clock::now() + killPatience;
   while (::waitpid(m_guardPid, nullptr, WNOHANG) == 0 && std::chrono::steady_clock::now() < last) {
@@ -84,11 +84,11 @@ Result<void> ProcessManager::keepGuard() {
 void ProcessManager::guardSegment(const Blackboard& board) {
   if (!m_guard || !board.created()) return;
   if (const auto info = SystemVSegments::info(board.key())) {
-    tellGuard(guardMessages::segment(info->key, info->shmid));
+    sendToGuard(guardMessages::segment(info->key, info->shmid));
   }
 }
 
-void ProcessManager::tellGuard(const std::string& line) {
+void ProcessManager::sendToGuard(const std::string& line) {
   // A guard that is gone is no reason to end: MSG_NOSIGNAL instead of SIGPIPE.
   (void)::send(m_guard.get(), line.data(), line.size(), MSG_NOSIGNAL);
 }
@@ -176,7 +176,7 @@ Result<void> ProcessManager::step(Time now) {
     }
   }
   m_last = now;
-  takeTold();
+  takeEpollEvents();
   for (Entry& entry : m_entries) {
     if (entry.tells && !entry.hasNews && now - entry.sampled < sampleInterval) continue;
     if (const auto end = poll(entry)) ended(entry, now, end->failed, end->detail, false);
@@ -193,12 +193,12 @@ Result<void> ProcessManager::step(Time now) {
 }
 
 /// Marks those that have something to tell, so that the others need not be asked.
-void ProcessManager::takeTold() {
-  epoll_event told[64];
+void ProcessManager::takeEpollEvents() {
+  epoll_event ready[64];
   for (int count = 1; count > 0;) {
-    count = ::epoll_wait(m_epoll.get(), told, static_cast<int>(std::size(told)), 0);
+    count = ::epoll_wait(m_epoll.get(), ready, static_cast<int>(std::size(ready)), 0);
     for (int i = 0; i < count; ++i) {
-      if (Entry* entry = find(static_cast<int>(told[i].data.u64))) entry->hasNews = true;
+      if (Entry* entry = find(static_cast<int>(ready[i].data.u64))) entry->hasNews = true;
     }
   }
 }

@@ -117,10 +117,11 @@ std::vector<pid_t> descendantsOf(pid_t pid) {
 
 std::string programStamp(const ChildSpec& spec) {
   std::string stamp;
-  for (const std::string& word : spec.command) {
-    const bool fromHere = !spec.directory.empty() && !word.starts_with('/');
+  for (const std::string& argument : spec.command) {
+    const bool fromHere = !spec.directory.empty() && !argument.starts_with('/');
     struct stat file {};
-    if (::stat((fromHere ? spec.directory + '/' + word : word).c_str(), &file) != 0) continue;
+    if (::stat((fromHere ? spec.directory + '/' + argument : argument).c_str(), &file) != 0)
+      continue;
     if (!S_ISREG(file.st_mode)) continue;
     for (const long long part :
          {static_cast<long long>(file.st_ino), static_cast<long long>(file.st_size),

@@ -947,7 +947,7 @@ EXPORT int timerfd_gettime(int fd, struct itimerspec* value) {
 }
 
 /* How often it has expired in the program's time since it was read; it waits for the next time. The
- * kernel's own count would begin anew whenever its timer is set. */
+ * kernel's own count would begin again whenever its timer is set. */
 static uint64_t take_expirations(struct timer* t) {
   const nanoseconds now = match_time(CLOCK_MONOTONIC);
   if (t->interval == 0) return 1;

@@ -17,14 +17,14 @@ namespace {
 
 constexpr std::size_t mostProfileBytes = 1024 * 1024;
 constexpr std::size_t mostProcesses = 8;  // of a robot
-constexpr std::size_t mostWords = 100;
+constexpr std::size_t mostArguments = 100;
 constexpr std::size_t longestText = 4096;
 constexpr std::size_t longestProcessName = 32;
 constexpr double longestTime = 3600.0;  // s
 
 constexpr std::array<std::string_view, 3> policies{"never", "on_failure", "always"};
 constexpr std::array<std::string_view, 2> clocks{"match", "real"};
-constexpr std::array<std::string_view, 2> hearers{"match", "own"};
+constexpr std::array<std::string_view, 2> refereeReaders{"match", "own"};
 constexpr std::array<std::string_view, 6> conditions{"everyone", "behaviour", "pose",
                                                      "separate", "target",    "advised"};
 
@@ -60,7 +60,7 @@ class Reader {
     m_profile.title = m_root.text("title", m_profile.name, 200);
     m_profile.description = m_root.text("description", "", 5000);
     for (auto& [name, value] : texts(m_root, "values")) m_profile.values[name] = value;
-    m_profile.hearsReferee = m_root.choice("referee", hearers, "value") == std::size_t{1};
+    m_profile.readsReferee = m_root.choice("referee", refereeReaders, "value") == std::size_t{1};
     m_profile.cycle = m_root.text("cycle", "", 200);
     m_profile.program = m_root.text("program", "", longestText);
     m_root.require("processes");
@@ -128,14 +128,14 @@ class Reader {
   }
 
   void readCommand(const JsonObject& object, ProfileProcess& process) {
-    const auto* words = object.array("command", mostWords);
-    for (std::size_t i = 0; words && i < words->size(); ++i) {
-      const JsonNode& word = (*words)[i];
-      if (word.kind != JsonNode::Kind::Text || word.text.size() > longestText) {
-        m_report.fail(word.line, object.pathOf("command", i), "must be a text in quotes");
+    const auto* arguments = object.array("command", mostArguments);
+    for (std::size_t i = 0; arguments && i < arguments->size(); ++i) {
+      const JsonNode& argument = (*arguments)[i];
+      if (argument.kind != JsonNode::Kind::Text || argument.text.size() > longestText) {
+        m_report.fail(argument.line, object.pathOf("command", i), "must be a text in quotes");
         return;
       }
-      process.command.push_back(word.text);
+      process.command.push_back(argument.text);
     }
     if (process.isReference() == !process.command.empty()) {
       object.fail(process.isReference() ? "command" : "name",

@@ -176,7 +176,7 @@ std::vector<char*> pointersTo(const std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// Refuses what the system would refuse, too, but in other words.
+/// Refuses what the system would refuse, too, but with a better message.
 Result<std::string> pathOf(const SpawnRequest& request) {
   if (request.command.empty() || request.command.front().empty()) {
     return failure(ErrorCode::InvalidArgument, "cannot start a process: no program is given");

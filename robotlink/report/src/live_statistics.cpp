@@ -19,8 +19,8 @@ constexpr double mostMoments = 36'000;
 struct Robot {
   RobotSummary out;
   std::optional<Point> anchor;
-  double way = 0.0;      // m
-  double present = 0.0;  // s since its first message
+  double travelled = 0.0;  // m
+  double present = 0.0;    // s since its first message
   bool wasKicking = false, wasFallen = false;
   std::array<double, telemetry::processCount> worked{}, known{};
 };
@@ -56,7 +56,7 @@ class Walk {
     }
     for (auto& [id, robot] : m_robots) {
       RobotSummary& s = robot.out;
-      if (robot.anchor) s.distance = robot.way;
+      if (robot.anchor) s.distance = robot.travelled;
       for (std::size_t i = 0; i < s.uptime.size(); ++i) {
         if (robot.known[i] > 0.0) s.uptime[i] = robot.worked[i] / robot.known[i];
       }
@@ -120,9 +120,9 @@ class Walk {
     if (!seen.poseKnown()) return;
     const Point here = seen.pose.position;
     if (!robot.anchor) robot.anchor = here;
-    const double way = std::hypot(here.x - robot.anchor->x, here.y - robot.anchor->y);
-    if (way >= leastMove) {
-      robot.way += way;
+    const double travelled = std::hypot(here.x - robot.anchor->x, here.y - robot.anchor->y);
+    if (travelled >= leastMove) {
+      robot.travelled += travelled;
       robot.anchor = here;
     }
     if (seen.ball && seen.ball->distance <= ballReach) {

@@ -21,7 +21,7 @@ using telemetry::FieldMeaning;
 constexpr double longestStep = 2.5;  // s; a longer gap between rows counts as absence
 constexpr double centimetres = 100.0;
 
-/// Grows with a counter that may start anew.
+/// Grows with a counter that may start again.
 struct Counted {
   std::optional<double> last;
   double total = 0.0;

@@ -15,10 +15,10 @@
 namespace pitchboard::rollout {
 
 struct Wander {
-  double gain = 0.0;     ///< per second: share of the error that landmarks take away
-  double resting = 0.0;  ///< its growth at rest, per root of a second
-  double moving = 0.0;   ///< and in motion
-  double told = 0.0;     ///< standard deviation that the filter believes in
+  double gain = 0.0;         ///< per second: share of the error that landmarks take away
+  double resting = 0.0;      ///< its growth at rest, per root of a second
+  double moving = 0.0;       ///< and in motion
+  double filterSigma = 0.0;  ///< standard deviation that the filter believes in
 
   /// The error one step of `dt` later; `normal` is a standard normal draw.
   double step(double error, double dt, bool inMotion, double normal) const {
@@ -37,7 +37,7 @@ inline BeliefNoise beliefNoise(const sim::NoiseParameters& noise) {
   // robots with realistic noise: 0.09 m on an axis and 1.5 degrees, forgotten in 15 s and 2 s, and
   // told as 0.16 m (rollout_agreement prints the errors).
   constexpr double walkSigma = 0.01, turnSigma = 0.013, bearingSigma = 0.105;
-  constexpr double placeFactor = 2.7, yawFactor = 1.2, toldFactor = 4.2;
+  constexpr double placeFactor = 2.7, yawFactor = 1.2, filterFactor = 4.2;
   constexpr double looksPerSecond = 20.0, corner = 4.0;  // m to a corner
   constexpr double cornersOfPlace = 1.0, cornersOfYaw = 2.0;
   constexpr double framesPerSecond = 60.0;
@@ -48,7 +48,7 @@ inline BeliefNoise beliefNoise(const sim::NoiseParameters& noise) {
     const double realR = real * real / (seen * corners);
     Wander out;
     out.gain = assumed / std::sqrt(filterR);
-    out.told = toldFactor * std::sqrt(assumed * std::sqrt(filterR));
+    out.filterSigma = filterFactor * std::sqrt(assumed * std::sqrt(filterR));
     const double measured = out.gain * out.gain * realR;  // of the landmarks' own errors
     out.resting = factor * std::sqrt(measured);
     out.moving = factor * std::sqrt(measured + slip * slip * framesPerSecond);

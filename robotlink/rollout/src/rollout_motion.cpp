@@ -169,11 +169,11 @@ void RolloutWorld::collide() {
       const double dy = one.pose.position.y - other.pose.position.y;
       const double touching = of(i).radius + of(j).radius;
       if (dx * dx + dy * dy >= touching * touching) continue;
-      const double way = approached(dx, dy);
-      const Point away = way > 0.0 ? Point{dx / way, dy / way} : Point{1.0, 0.0};
+      const double gap = approached(dx, dy);
+      const Point away = gap > 0.0 ? Point{dx / gap, dy / gap} : Point{1.0, 0.0};
       const double into = (other.velocity.x - one.velocity.x) * away.x +
                           (other.velocity.y - one.velocity.y) * away.y;
-      const double depth = std::min(touching - way, parting);
+      const double depth = std::min(touching - gap, parting);
       push(i, away, depth, into, of(j).model->mass);
       push(j, {-away.x, -away.y}, depth, into, of(i).model->mass);
     }
@@ -190,9 +190,9 @@ void RolloutWorld::collide() {
       const double y = std::copysign(f.goalWidth / 2.0, at.y);
       const double dx = at.x - x, dy = at.y - y;
       if (dx * dx + dy * dy < touching * touching) {
-        const double way = approached(dx, dy);
-        const Point away = way > 0.0 ? Point{dx / way, dy / way} : Point{-1.0, 0.0};
-        push(i, away, std::min(touching - way, parting),
+        const double gap = approached(dx, dy);
+        const Point away = gap > 0.0 ? Point{dx / gap, dy / gap} : Point{-1.0, 0.0};
+        push(i, away, std::min(touching - gap, parting),
              -(body.velocity.x * away.x + body.velocity.y * away.y), stands);
       }
     }
@@ -203,12 +203,13 @@ void RolloutWorld::collide() {
 }
 
 /// When on its way the ball's centre comes so near to a circle; a ball that lies in it is no hit.
-bool RolloutWorld::ballHits(const Point& at, double radius, const Point& way, double& share) const {
+bool RolloutWorld::ballHits(const Point& at, double radius, const Point& path,
+                            double& share) const {
   const double dx = m_ball.x - at.x, dy = m_ball.y - at.y;
-  const double towards = dx * way.x + dy * way.y;
+  const double towards = dx * path.x + dy * path.y;
   if (towards >= 0.0) return false;
   const double apart = dx * dx + dy * dy - radius * radius;
-  const double length2 = way.x * way.x + way.y * way.y;
+  const double length2 = path.x * path.x + path.y * path.y;
   const double root = towards * towards - length2 * apart;
   if (root < 0.0) return false;
   const double when = apart <= 0.0 ? 0.0 : (-towards - std::sqrt(root)) / length2;
@@ -221,8 +222,8 @@ bool RolloutWorld::ballHits(const Point& at, double radius, const Point& way, do
 void RolloutWorld::bounce(const Point& at, const Velocity& moving, double robotMass,
                           double restitution, Velocity& velocity) {
   const double dx = m_ball.x - at.x, dy = m_ball.y - at.y;
-  const double way = approached(dx, dy);
-  const Point away = way > 0.0 ? Point{dx / way, dy / way} : Point{1.0, 0.0};
+  const double gap = approached(dx, dy);
+  const Point away = gap > 0.0 ? Point{dx / gap, dy / gap} : Point{1.0, 0.0};
   const double into = (moving.x - velocity.x) * away.x + (moving.y - velocity.y) * away.y;  // m/s
   if (into <= 0.0) return;
   const double kept = into > sim::bouncesFrom ? 1.0 + restitution : 1.0;
@@ -247,11 +248,11 @@ void RolloutWorld::rollBall() {
     const double touching = of(i).radius + f.ballRadius;
     const double dx = m_ball.x - body.pose.position.x, dy = m_ball.y - body.pose.position.y;
     if (dx * dx + dy * dy >= touching * touching) continue;
-    const double way = approached(dx, dy);
-    const Point away = way > 0.0 ? Point{dx / way, dy / way} : Point{1.0, 0.0};
+    const double gap = approached(dx, dy);
+    const Point away = gap > 0.0 ? Point{dx / gap, dy / gap} : Point{1.0, 0.0};
     bounce(body.pose.position, body.velocity, of(i).model->mass, restitution, velocity);
-    m_ball.x += away.x * (touching - way);
-    m_ball.y += away.y * (touching - way);
+    m_ball.x += away.x * (touching - gap);
+    m_ball.y += away.y * (touching - gap);
     m_lastTouch = static_cast<int>(i);
     const double walks = body.velocity.x * away.x + body.velocity.y * away.y;
     if (walks <= 0.0) continue;
@@ -267,27 +268,27 @@ void RolloutWorld::rollBall() {
   double rest = 1.0;  // of the tick
   const double nearPosts = f.halfLength() - f.goalPostRadius - f.ballRadius;
   for (int bounces = 0; bounces < 3 && rest > 0.0; ++bounces) {
-    const Point way{velocity.x * dt * rest, velocity.y * dt * rest};
-    if (way.x == 0.0 && way.y == 0.0) break;
+    const Point path{velocity.x * dt * rest, velocity.y * dt * rest};
+    if (path.x == 0.0 && path.y == 0.0) break;
     double share = 1.0;
     std::ptrdiff_t robot = -1;
     for (const std::size_t i : m_here) {
-      if (ballHits(m_bodies[i].pose.position, of(i).radius + f.ballRadius, way, share)) {
+      if (ballHits(m_bodies[i].pose.position, of(i).radius + f.ballRadius, path, share)) {
         robot = static_cast<std::ptrdiff_t>(i);
       }
     }
     Point postAt;
     bool atPost = false;
-    if (std::abs(m_ball.x + way.x) > nearPosts || std::abs(m_ball.x) > nearPosts) {
+    if (std::abs(m_ball.x + path.x) > nearPosts || std::abs(m_ball.x) > nearPosts) {
       for (const double y : {-f.goalWidth / 2.0, f.goalWidth / 2.0}) {
         const Point at{std::copysign(f.halfLength(), m_ball.x), y};
-        if (!ballHits(at, f.goalPostRadius + f.ballRadius, way, share)) continue;
+        if (!ballHits(at, f.goalPostRadius + f.ballRadius, path, share)) continue;
         postAt = at;
         atPost = true;
       }
     }
-    m_ball.x += way.x * share;
-    m_ball.y += way.y * share;
+    m_ball.x += path.x * share;
+    m_ball.y += path.y * share;
     rest *= 1.0 - share;
     if (atPost) {
       bounce(postAt, {}, post, constants.setup.body.postRestitution, velocity);
@@ -308,10 +309,10 @@ void RolloutWorld::rollBall() {
 /// Where the ball comes to rest if nobody touches it, at most at the lines.
 Point RolloutWorld::ballRests() const {
   const double speed = approached(m_ballVelocity.x, m_ballVelocity.y);
-  const double way = speed > 0.0 ? sim::rollingDistance(field().surface, speed) / speed : 0.0;
+  const double seconds = speed > 0.0 ? sim::rollingDistance(field().surface, speed) / speed : 0.0;
   const double x = field().halfLength(), y = field().halfWidth();
-  return {std::clamp(m_ball.x + way * m_ballVelocity.x, -x, x),
-          std::clamp(m_ball.y + way * m_ballVelocity.y, -y, y)};
+  return {std::clamp(m_ball.x + seconds * m_ballVelocity.x, -x, x),
+          std::clamp(m_ball.y + seconds * m_ballVelocity.y, -y, y)};
 }
 
 }  // namespace pitchboard::rollout

@@ -18,13 +18,13 @@ constexpr double pointingTolerance = std::numbers::pi / 180.0;
 
 }  // namespace
 
-void RolloutWorld::drift(std::size_t i, RandomBatch::Draws& draws) {
+void RolloutWorld::drift(std::size_t i, RandomBatch::Sequence& draws) {
   Body& body = m_bodies[i];
   const BeliefNoise& noise = of(i).belief;
   body.error.x = noise.place.step(body.error.x, cycleTime, body.inMotion, draws.normal(0.0, 1.0));
   body.error.y = noise.place.step(body.error.y, cycleTime, body.inMotion, draws.normal(0.0, 1.0));
   body.yawError = noise.yaw.step(body.yawError, cycleTime, body.inMotion, draws.normal(0.0, 1.0));
-  body.sigma += noise.place.gain * cycleTime * (noise.place.told - body.sigma);
+  body.sigma += noise.place.gain * cycleTime * (noise.place.filterSigma - body.sigma);
 }
 
 Pose RolloutWorld::believed(std::size_t i) const {
@@ -43,7 +43,7 @@ void RolloutWorld::searchWithHead(std::size_t i) {
   body.panRight = body.head > 0.0;
 }
 
-void RolloutWorld::look(std::size_t i, RandomBatch::Draws& draws) {
+void RolloutWorld::look(std::size_t i, RandomBatch::Sequence& draws) {
   Body& body = m_bodies[i];
   m_input.ball.reset();
   if (body.looksForOpponents) m_input.robots = {};
@@ -61,7 +61,7 @@ void RolloutWorld::look(std::size_t i, RandomBatch::Draws& draws) {
 }
 
 void RolloutWorld::lookAtBall(std::size_t i, const Seen& image, const Point& lens,
-                              RandomBatch::Draws& draws) {
+                              RandomBatch::Sequence& draws) {
   Body& body = m_bodies[i];
   const sim::RobotModel& model = *of(i).model;
   const sim::NoiseParameters& noise = of(i).noise;
@@ -111,7 +111,7 @@ void RolloutWorld::lookAtOpponents(std::size_t i, const Seen& image, const Point
 }
 
 void RolloutWorld::talk() {
-  for (const std::size_t i : m_here) m_told[i] = m_says[i];
+  for (const std::size_t i : m_here) m_received[i] = m_sent[i];
 }
 
 /// All team-mates; of many those who go for the ball, then those who see it, then the nearest.
@@ -121,13 +121,13 @@ void RolloutWorld::listen(std::size_t i) {
   for (const std::size_t other : m_here) {
     if (other == i || sideOf(other) != sideOf(i)) continue;
     mates.push_back(other);
-    m_input.matePlaces.push_back(m_told[other].place);
+    m_input.matePlaces.push_back(m_received[other].place);
   }
   if (mates.size() > link::mostTeamMates) {
     const auto rank = [&](std::size_t mate) {
-      const Told& told = m_told[mate];
-      return std::tuple(told.intention == link::Intention::Ball ? 0 : 1, told.ball ? 0 : 1,
-                        distance(told.place, m_input.believed.position), mate);
+      const TeamReport& report = m_received[mate];
+      return std::tuple(report.intention == link::Intention::Ball ? 0 : 1, report.ball ? 0 : 1,
+                        distance(report.place, m_input.believed.position), mate);
     };
     std::sort(mates.begin(), mates.end(),
               [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
@@ -137,8 +137,8 @@ void RolloutWorld::listen(std::size_t i) {
   for (std::size_t k = 0; k < m_input.mates.size(); ++k) {
     m_input.mates[k].reset();
     if (k >= mates.size()) continue;
-    const Told& told = m_told[mates[k]];
-    m_input.mates[k] = link::TeamMate{told.place, told.intention, told.upright, told.ball};
+    const TeamReport& report = m_received[mates[k]];
+    m_input.mates[k] = link::TeamMate{report.place, report.intention, report.upright, report.ball};
   }
 }
 

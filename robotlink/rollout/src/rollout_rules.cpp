@@ -7,7 +7,7 @@
 
 namespace pitchboard::rollout {
 
-link::Referee RolloutWorld::wordFor(std::size_t i) const {
+link::Referee RolloutWorld::refereeFor(std::size_t i) const {
   switch (m_game.state) {
     case sim::PlayState::Playing:
       return m_game.setPlay != sim::SetPlay::None && m_game.setPlaySide != sideOf(i)
@@ -35,8 +35,8 @@ void RolloutWorld::judge(const Point& before) {
   const bool overEnd = std::abs(m_ball.x) > endX, overTouch = std::abs(m_ball.y) > endY;
   if (!overEnd && !overTouch) return;
   const auto shareAt = [](double from, double to, double line) {
-    const double way = std::abs(to) - (to > 0.0 ? from : -from);
-    return way > 0.0 ? std::clamp((line - (to > 0.0 ? from : -from)) / way, 0.0, 1.0) : 0.0;
+    const double metres = std::abs(to) - (to > 0.0 ? from : -from);
+    return metres > 0.0 ? std::clamp((line - (to > 0.0 ? from : -from)) / metres, 0.0, 1.0) : 0.0;
   };
   const double atEnd = overEnd ? shareAt(before.x, m_ball.x, endX) : 2.0;
   const double atTouch = overTouch ? shareAt(before.y, m_ball.y, endY) : 2.0;

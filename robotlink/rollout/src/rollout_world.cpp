@@ -22,7 +22,7 @@ using std::numbers::pi;
 constexpr int reminders = 9;  // cycles until a mind has looked for opponents
 constexpr int talkCycles = 2;
 
-link::SoccerPlayerOptions mindOf(const Setup& setup, const Player& player) {
+link::SoccerPlayerOptions soccerPlayerOptions(const Setup& setup, const Player& player) {
   link::SoccerPlayerOptions options;
   options.field = setup.field;
   options.model = player.model;
@@ -65,12 +65,12 @@ Result<std::shared_ptr<const RolloutConstants>> RolloutConstants::create(const S
   const int players = static_cast<int>(setup.players.size());
   double longestDelay = 0.0;
   for (const Player& player : made->setup.players) {
-    link::SoccerPlayerOptions options = mindOf(setup, player);
-    std::vector<SoccerPlayer>& minds = made->fresh.emplace_back();
-    minds.push_back(TRY(SoccerPlayer::create(options)));
+    link::SoccerPlayerOptions options = soccerPlayerOptions(setup, player);
+    std::vector<SoccerPlayer>& soccerPlayers = made->fresh.emplace_back();
+    soccerPlayers.push_back(TRY(SoccerPlayer::create(options)));
     for (const link::BehaviourParameters& variant : player.variants) {
       options.behaviour.parameters = variant;
-      minds.push_back(TRY(SoccerPlayer::create(options)));
+      soccerPlayers.push_back(TRY(SoccerPlayer::create(options)));
     }
     Of of;
     of.model = &player.model;
@@ -91,7 +91,7 @@ Result<RolloutWorld> RolloutWorld::create(std::shared_ptr<const RolloutConstants
   RolloutWorld world;
   const Setup& setup = constants->setup;
   for (const Player& player : setup.players) {
-    world.m_minds.push_back(TRY(SoccerPlayer::create(mindOf(setup, player))));
+    world.m_soccerPlayers.push_back(TRY(SoccerPlayer::create(soccerPlayerOptions(setup, player))));
   }
   world.m_pastBalls.resize(constants->moments);
   world.m_pastBodies.resize(constants->moments * setup.players.size());
@@ -126,7 +126,7 @@ void RolloutWorld::begin(const Belief& belief, std::uint64_t seed, const PlayOpt
   m_traced = 0;
   m_traceTicks = options.traceEvery / m_constants->dt;
   traceUntil(1);
-  remindOf(belief);
+  replayPast(belief);
   for (std::size_t ago = 0; ago < m_constants->moments; ++ago) {
     m_tick = ago;
     remember();
@@ -152,7 +152,7 @@ void RolloutWorld::sample(const Belief& belief) {
     body.error = {known.pose.position.x - body.pose.position.x,
                   known.pose.position.y - body.pose.position.y};
     body.yawError = wrapToPi(known.pose.yaw - body.pose.yaw);
-    body.sigma = std::max(known.sigma, of(i).belief.place.told);
+    body.sigma = std::max(known.sigma, of(i).belief.place.filterSigma);
     body.variant = known.shares.empty() ? 0 : variantOf(known.shares, random.uniform());
     constexpr double slowest = 0.1;
     body.pace = known.paceSigma > 0.0
@@ -183,17 +183,17 @@ void RolloutWorld::sample(const Belief& belief) {
   m_ball.y = std::clamp(m_ball.y, -field().halfWidth(), field().halfWidth());
 }
 
-/// Every mind has seen, in the second before, what was in front of it: the ball where it is
+/// Every player has seen, in the second before, what was in front of it: the ball where it is
 /// believed to have rolled, then opponents.
-void RolloutWorld::remindOf(const Belief& belief) {
+void RolloutWorld::replayPast(const Belief& belief) {
   const BallBelief& ball = belief.ball;
   std::array<std::size_t, 2> first{most, most};  // at the ball
   std::array<double, 2> least{1e9, 1e9};
   for (const std::size_t i : m_here) {
     const auto side = static_cast<std::size_t>(sideOf(i));
-    const double way = distance(belief.robots[i].pose.position, ball.place);
-    if (way >= least[side] || m_constants->setup.players[i].behaviour.name == "keeper") continue;
-    least[side] = way;
+    const double metres = distance(belief.robots[i].pose.position, ball.place);
+    if (metres >= least[side] || m_constants->setup.players[i].behaviour.name == "keeper") continue;
+    least[side] = metres;
     first[side] = i;
   }
   for (const std::size_t i : m_here) {
@@ -210,15 +210,15 @@ void RolloutWorld::remindOf(const Belief& belief) {
     body.head = std::clamp(wrapToPi(direction(pose.position, ball.place) - pose.yaw),
                            -model.panLimit, model.panLimit);
     const bool isKeeper = m_constants->setup.players[i].behaviour.name == "keeper";
-    m_says[i] = {pose.position,
+    m_sent[i] = {pose.position,
                  isKeeper                                          ? link::Intention::Keep
                  : first[static_cast<std::size_t>(sideOf(i))] == i ? link::Intention::Ball
                                                                    : link::Intention::Support,
                  !body.isDown(),
                  {}};
 
-    link::SoccerPlayer& mind = m_minds[i];
-    mind.copyMind(m_constants->fresh[i][body.variant]);
+    link::SoccerPlayer& soccerPlayer = m_soccerPlayers[i];
+    soccerPlayer.copyState(m_constants->fresh[i][body.variant]);
     m_input = {};
     m_input.believed = pose;
     m_input.sigma = body.sigma;
@@ -235,8 +235,8 @@ void RolloutWorld::remindOf(const Belief& belief) {
       const double ago = cycleTime * (reminders - k);
       const Point was{ball.place.x - ball.velocity.x * ago, ball.place.y - ball.velocity.y * ago};
       m_input.ball = seen(was);
-      if (m_input.ball && k == reminders - 1) m_says[i].ball = was;
-      mind.observe(m_input, -ball.age - ago);
+      if (m_input.ball && k == reminders - 1) m_sent[i].ball = was;
+      soccerPlayer.observe(m_input, -ball.age - ago);
     }
   }
 }
@@ -266,9 +266,9 @@ void RolloutWorld::decide() {
   }
   for (const std::size_t i : m_here) {
     Body& body = m_bodies[i];
-    RandomBatch::Draws draws = m_noise.of(players + i);
+    RandomBatch::Sequence draws = m_noise.of(players + i);
     drift(i, draws);
-    m_input.referee = wordFor(i);
+    m_input.referee = refereeFor(i);
     m_input.fallen = body.isDown();
     m_input.setPlay = m_game.setPlay;
     m_input.setPlayIsOurs = m_game.setPlaySide == sideOf(i);
@@ -281,11 +281,11 @@ void RolloutWorld::decide() {
     m_input.adviceStamp = isAdvised ? static_cast<int>(m_cycle) + 1 : 0;
     look(i, draws);
     listen(i);
-    const link::PlayerDecision decision = m_minds[i].step(m_input, now());
+    const link::PlayerDecision decision = m_soccerPlayers[i].step(m_input, now());
     body.command = decision.act;
     body.search = body.search || decision.search;
     body.looksForOpponents = decision.looksForOpponents;
-    m_says[i] = {m_input.believed.position, decision.intention, !body.isDown(), decision.ball};
+    m_sent[i] = {m_input.believed.position, decision.intention, !body.isDown(), decision.ball};
   }
 }
 

@@ -88,7 +88,7 @@ class RolloutWorld {
     double yawError = 0.0, sigma = 0.1;
     bool isDown() const { return posture != sim::Posture::Upright; }
   };
-  struct Told {
+  struct TeamReport {
     Point place;
     link::Intention intention = link::Intention::None;
     bool upright = true;
@@ -106,16 +106,17 @@ class RolloutWorld {
   double now() const { return static_cast<double>(m_tick) * m_constants->dt; }
 
   void sample(const Belief& belief);
-  void remindOf(const Belief& belief);
+  void replayPast(const Belief& belief);
   void decide();
-  void drift(std::size_t i, RandomBatch::Draws& draws);
-  void look(std::size_t i, RandomBatch::Draws& draws);
-  void lookAtBall(std::size_t i, const Seen& image, const Point& lens, RandomBatch::Draws& draws);
+  void drift(std::size_t i, RandomBatch::Sequence& draws);
+  void look(std::size_t i, RandomBatch::Sequence& draws);
+  void lookAtBall(std::size_t i, const Seen& image, const Point& lens,
+                  RandomBatch::Sequence& draws);
   void lookAtOpponents(std::size_t i, const Seen& image, const Point& lens);
   void searchWithHead(std::size_t i);
   void talk();
   void listen(std::size_t i);
-  link::Referee wordFor(std::size_t i) const;
+  link::Referee refereeFor(std::size_t i) const;
   Pose believed(std::size_t i) const;
 
   void tick();
@@ -128,7 +129,7 @@ class RolloutWorld {
   void collide();
   void push(std::size_t i, const Point& away, double depth, double into, double otherMass);
   void rollBall();
-  bool ballHits(const Point& at, double radius, const Point& way, double& share) const;
+  bool ballHits(const Point& at, double radius, const Point& path, double& share) const;
   void bounce(const Point& at, const Velocity& moving, double robotMass, double restitution,
               Velocity& velocity);
   void judge(const Point& before);
@@ -142,14 +143,14 @@ class RolloutWorld {
   Seen bodySeen(double ticksAgo, std::size_t i) const;
 
   std::shared_ptr<const RolloutConstants> m_constants;
-  std::vector<link::SoccerPlayer> m_minds;
+  std::vector<link::SoccerPlayer> m_soccerPlayers;
   InlineVector<std::size_t, most> m_here;  // players that are not absent
   std::array<Body, most> m_bodies;
-  std::array<Told, most> m_told, m_says;
+  std::array<TeamReport, most> m_received, m_sent;
   std::vector<Point> m_pastBalls;
   std::vector<Seen> m_pastBodies;
   RandomBatch m_noise;
-  std::vector<RandomBatch::Draws> m_motionNoise;
+  std::vector<RandomBatch::Sequence> m_motionNoise;
   link::SoccerInput m_input;
   Point m_ball;
   Velocity m_ballVelocity;

@@ -14,7 +14,7 @@
 namespace pitchboard::rollout {
 namespace {
 
-constexpr std::array<ColumnInfo, columnCount> columnInfos{{
+constexpr std::array<OutcomeColumn, columnCount> columnInfos{{
     {"seed", "seed of the rollout"},
     {"ended_by", "0 its time, 1 a goal, 2 the ball left the field"},
     {"time", "s that it lasted"},
@@ -96,7 +96,7 @@ Result<void> check(const Belief& belief, const std::vector<Player>& setup) {
 
 }  // namespace
 
-std::span<const ColumnInfo, columnCount> columns() {
+std::span<const OutcomeColumn, columnCount> columns() {
   return columnInfos;
 }
 

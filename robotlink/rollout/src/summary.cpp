@@ -31,8 +31,8 @@ Share shareOf(double hits, double count) {
   return {p, std::max(0.0, middle - half), std::min(1.0, middle + half)};
 }
 
-Summary summaryOf(std::span<const double> outcomes) {
-  Summary out;
+OutcomeSummary summaryOf(std::span<const double> outcomes) {
+  OutcomeSummary out;
   double n = 0.0, left = 0.0, right = 0.0, difference = 0.0, time = 0.0, timed = 0.0;
   double x = 0.0, y = 0.0, xx = 0.0, yy = 0.0;
   forEachRow(outcomes, [&](std::span<const double> row) {

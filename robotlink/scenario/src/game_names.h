@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What states, phases, set plays and penalties are called in files: the words of the screen in
+// The names of states, phases, set plays and penalties in files: the labels of the screen in
 // small letters, with '_' between them. Private to robotlink/scenario.
 
 #include <array>
@@ -13,22 +13,22 @@
 
 namespace pitchboard::link {
 
-inline std::string keyOf(std::string_view words) {
+inline std::string keyOf(std::string_view label) {
   std::string key;
-  for (const char c : words) {
+  for (const char c : label) {
     key += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c == ' ' || c == '-' ? '_' : c;
   }
   return key;
 }
 
-/// In the order of the values. `none` stands for what has no words.
+/// In the order of the values. `none` stands for a value without a label.
 template <class Enum>
 const std::vector<std::string>& keysOf(std::string_view none = {}) {
   static const std::vector<std::string> all = [none] {
     std::vector<std::string> keys;
     for (int i = 0; i <= static_cast<int>(lastOf(Enum{})); ++i) {
-      const std::string_view words = sim::labelOf(static_cast<Enum>(i));
-      keys.push_back(words.empty() ? std::string(none) : keyOf(words));
+      const std::string_view label = sim::labelOf(static_cast<Enum>(i));
+      keys.push_back(label.empty() ? std::string(none) : keyOf(label));
     }
     return keys;
   }();

@@ -55,9 +55,9 @@ class GameReader {
     m_out.breakLeft = time(game, "break");
     m_out.left = team(game, "left");
     m_out.firstKickOff = team(game, "first_kick_off");
-    if (const JsonNode* said = game.find("kick_off")) {
+    if (const JsonNode* given = game.find("kick_off")) {
       m_out.kickOff = GameStart::KickOff{};
-      if (said->kind != JsonNode::Kind::Null) m_out.kickOff->team = team(game, "kick_off");
+      if (given->kind != JsonNode::Kind::Null) m_out.kickOff->team = team(game, "kick_off");
     }
     eachTeam(game, "score", [](const JsonObject& of, std::string_view key, GameStart::Team& out) {
       out.score = of.integer(key, 0, 0, mostGameGoals);
@@ -73,14 +73,14 @@ class GameReader {
              });
     readSetPlay(game);
     readShootOut(game);
-    if (const JsonNode* said = game.find("drop_in")) {
-      const JsonObject object(m_report, *said, game.pathOf("drop_in"), {"team", "ago"});
+    if (const JsonNode* given = game.find("drop_in")) {
+      const JsonObject object(m_report, *given, game.pathOf("drop_in"), {"team", "ago"});
       object.require("team");
       m_out.dropIn = GameStart::DropIn{team(object, "team").value_or(TeamColor::Blue),
                                        object.number("ago", 0.0, gameTime)};
     }
-    if (const JsonNode* said = game.find("touch")) {
-      const JsonObject object(m_report, *said, game.pathOf("touch"), {"robot", "ago"});
+    if (const JsonNode* given = game.find("touch")) {
+      const JsonObject object(m_report, *given, game.pathOf("touch"), {"robot", "ago"});
       object.require("robot");
       m_out.touch = GameStart::Touch{robot(object, "robot"), object.number("ago", 0.0, gameTime)};
     }
@@ -94,8 +94,8 @@ class GameReader {
   /// What a robot's object says.
   void readRobot(const JsonObject& object, RobotId id) {
     GameStart::Robot out;
-    if (const JsonNode* said = object.find("penalty")) {
-      const JsonObject penalty(m_report, *said, object.pathOf("penalty"),
+    if (const JsonNode* given = object.find("penalty")) {
+      const JsonObject penalty(m_report, *given, object.pathOf("penalty"),
                                {"kind", "left", "since", "outside", "counts"});
       penalty.require("kind");
       choose(penalty, "kind", penaltyKeys(), "penalty", out.penalty);
@@ -104,8 +104,8 @@ class GameReader {
       out.outside = penalty.boolean("outside", false);
       out.counts = flag(penalty, "counts");
     }
-    if (const JsonNode* said = object.find("cards")) {
-      const JsonObject cards(m_report, *said, object.pathOf("cards"),
+    if (const JsonNode* given = object.find("cards")) {
+      const JsonObject cards(m_report, *given, object.pathOf("cards"),
                              {"warnings", "yellow", "red", "cautions"});
       out.warnings = cards.integer("warnings", 0, 0, mostCards);
       out.yellow = cards.integer("yellow", 0, 0, mostCards);
@@ -187,8 +187,8 @@ class GameReader {
     const sim::FieldSpec& field = m_scenario.settings.field;
     const double x = field.halfLength() + field.border + beyondWalls;
     const double y = field.halfWidth() + field.border + beyondWalls;
-    return Point{object.number("x", 0.0, {-x, x, sim::units::metres.words}),
-                 object.number("y", 0.0, {-y, y, sim::units::metres.words})};
+    return Point{object.number("x", 0.0, {-x, x, sim::units::metres.name}),
+                 object.number("y", 0.0, {-y, y, sim::units::metres.name})};
   }
   void readSetPlay(const JsonObject& game) {
     const JsonNode* node = game.find("set_play");
@@ -243,11 +243,11 @@ std::optional<sim::GameStart> readGameStart(JsonReport& report, const JsonObject
                                             const std::vector<JsonObject>& robots,
                                             const Scenario& scenario) {
   const JsonNode* node = root.find("game");
-  bool isSaid = node != nullptr;
+  bool isGiven = node != nullptr;
   for (const JsonObject& robot : robots) {
-    for (const std::string_view key : robotGameKeys) isSaid = isSaid || robot.find(key);
+    for (const std::string_view key : robotGameKeys) isGiven = isGiven || robot.find(key);
   }
-  if (!isSaid || report.failed()) return {};
+  if (!isGiven || report.failed()) return {};
   if (!scenario.settings.referee) {
     root.fail("game",
               "a game, penalties and cards need a referee: set \"referee\", for example to "

@@ -52,11 +52,11 @@ Json takingToJson(const GameStart::Taking& taking, const Scenario& scenario) {
 }
 
 /// Those of all teams in one object, if one of them has something to say.
-template <class Said>
-void addTeams(const GameStart& game, Json& out, const char* key, Said&& said) {
+template <class Getter>
+void addTeams(const GameStart& game, Json& out, const char* key, Getter&& given) {
   Json all = Json::object();
   for (const auto& [colour, team] : game.teams) {
-    if (Json one = said(team); !one.is_null()) all[info(colour).name] = std::move(one);
+    if (Json one = given(team); !one.is_null()) all[info(colour).name] = std::move(one);
   }
   if (!all.empty()) out[key] = std::move(all);
 }
@@ -138,21 +138,21 @@ Json gameStartToJson(const GameStart& game, const Scenario& scenario) {
 void addGameOf(const GameStart& game, RobotId robot, Json& out) {
   const auto found = game.robots.find(robot);
   if (found == game.robots.end()) return;
-  const GameStart::Robot& said = found->second;
-  if (said.penalty != sim::PenaltyKind::None) {
+  const GameStart::Robot& given = found->second;
+  if (given.penalty != sim::PenaltyKind::None) {
     Json& penalty = out["penalty"];
-    penalty["kind"] = keyOfValue(penaltyKeys(), said.penalty);
-    if (said.left) penalty["left"] = jsonNumber(*said.left);
-    if (said.since != 0.0) penalty["since"] = jsonNumber(said.since);
-    if (said.outside) penalty["outside"] = true;
-    if (said.counts) penalty["counts"] = *said.counts;
+    penalty["kind"] = keyOfValue(penaltyKeys(), given.penalty);
+    if (given.left) penalty["left"] = jsonNumber(*given.left);
+    if (given.since != 0.0) penalty["since"] = jsonNumber(given.since);
+    if (given.outside) penalty["outside"] = true;
+    if (given.counts) penalty["counts"] = *given.counts;
   }
   for (const auto& [key, count] :
-       {std::pair("warnings", said.warnings), std::pair("yellow", said.yellow),
-        std::pair("red", said.red), std::pair("cautions", said.cautions)}) {
+       {std::pair("warnings", given.warnings), std::pair("yellow", given.yellow),
+        std::pair("red", given.red), std::pair("cautions", given.cautions)}) {
     if (count != 0) out["cards"][key] = count;
   }
-  if (said.goalkeeper) out["goalkeeper"] = *said.goalkeeper;
+  if (given.goalkeeper) out["goalkeeper"] = *given.goalkeeper;
 }
 
 }  // namespace pitchboard::link

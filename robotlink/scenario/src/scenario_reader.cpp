@@ -188,8 +188,8 @@ class Reader {
     const sim::FieldSpec& field = m_scenario.settings.field;
     const double x = field.halfLength() + field.border;
     const double y = field.halfWidth() + field.border;
-    return {object.number("x", 0.0, {-x, x, sim::units::metres.words}),
-            object.number("y", 0.0, {-y, y, sim::units::metres.words})};
+    return {object.number("x", 0.0, {-x, x, sim::units::metres.name}),
+            object.number("y", 0.0, {-y, y, sim::units::metres.name})};
   }
 
   void readRobots() {
@@ -292,7 +292,7 @@ class Reader {
     robot.identity.imuStartsAt180 = object.boolean("imu_starts_at_180", facesLeft);
     robot.pose.position = readPlace(object);
     robot.pose.yaw = radiansFromDegrees(
-        object.number("heading", facesLeft ? 180.0 : 0.0, {-360, 360, sim::units::degrees.words}));
+        object.number("heading", facesLeft ? 180.0 : 0.0, {-360, 360, sim::units::degrees.name}));
     std::vector<std::string_view> known;
     for (const BehaviourInfo& behaviour : behaviours()) known.push_back(behaviour.name);
     known.push_back(noBehaviour);
@@ -331,8 +331,8 @@ class Reader {
     ScenarioBelief& out = robot.belief.emplace();
     out.pose.position = readPlace(belief);
     out.pose.yaw =
-        radiansFromDegrees(belief.number("heading", 0.0, {-360, 360, sim::units::degrees.words}));
-    out.sigma = belief.number("sigma", 0.0, {0, 10, sim::units::metres.words});
+        radiansFromDegrees(belief.number("heading", 0.0, {-360, 360, sim::units::degrees.name}));
+    out.sigma = belief.number("sigma", 0.0, {0, 10, sim::units::metres.name});
   }
 
   void readBlackboard(const JsonObject& robot, RobotId id) {

@@ -150,8 +150,8 @@ template <class Enum>
 std::map<std::int32_t, std::string> labelsOf() {
   std::map<std::int32_t, std::string> labels;
   for (int i = 0; i <= static_cast<int>(lastOf(Enum{})); ++i) {
-    const std::string_view words = labelOf(static_cast<Enum>(i));
-    labels[i] = words.empty() ? "none" : std::string(words);
+    const std::string_view label = labelOf(static_cast<Enum>(i));
+    labels[i] = label.empty() ? "none" : std::string(label);
   }
   return labels;
 }

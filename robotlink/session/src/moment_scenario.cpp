@@ -325,10 +325,10 @@ class Maker {
       scenario.clock = std::isfinite(clock) ? std::clamp(clock, 0.0, 1e6) : 0.0;
       scenario.clockRunning = snapshot.clockRunning;
     }
-    const bool told = std::any_of(scenario.writes.begin(), scenario.writes.end(),
-                                  [](const auto& w) { return w.variable == refereeVariable; });
+    const bool hasOrder = std::any_of(scenario.writes.begin(), scenario.writes.end(),
+                                      [](const auto& w) { return w.variable == refereeVariable; });
     // Without orders of a referee the robots would never move.
-    if (!told) {
+    if (!hasOrder) {
       scenario.writes.insert(scenario.writes.begin(),
                              {{}, refereeVariable, static_cast<double>(refereePlay), 0.0});
     }

@@ -50,8 +50,9 @@ FrameSettings backdropOf(const telemetry::SessionReader& session) {
   }
   if (const auto text = session.attachment("scenario.json")) {
     if (const auto scenario = scenarioFromJson(*text, "scenario.json")) {
-      const sim::SimulationSettings& said = scenario->settings;
-      out = {said.field, said.noise, said.physics, said.seed, said.tickRate, said.rigidBody};
+      const sim::SimulationSettings& recorded = scenario->settings;
+      out = {recorded.field, recorded.noise,    recorded.physics,
+             recorded.seed,  recorded.tickRate, recorded.rigidBody};
     }
   }
   return out;

@@ -25,7 +25,7 @@ MatchEvent begun(const telemetry::SessionEvent& event) {
 }
 
 /// Of another program: its words are all that there is.
-MatchEvent wordsOnly(const telemetry::SessionEvent& event) {
+MatchEvent textOnlyEvent(const telemetry::SessionEvent& event) {
   MatchEvent out = begun(event);
   if (matchEventKind(event.kind)) out.detail = event.text;
   return out;
@@ -52,7 +52,7 @@ telemetry::SessionEvent sessionEvent(const MatchEvent& event) {
 }
 
 MatchEvent matchEvent(const telemetry::SessionEvent& event) {
-  if (!event.facts) return wordsOnly(event);
+  if (!event.facts) return textOnlyEvent(event);
   const telemetry::EventFacts& facts = *event.facts;
   MatchEvent out = begun(event);
   if (facts.robotTeam) out.robot = {*facts.robotTeam, facts.robot, facts.sender};

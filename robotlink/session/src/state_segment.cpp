@@ -116,9 +116,9 @@ Result<PlayedStretch> StateSegment::playedTo(std::uint64_t tick) const {
   CommandReader reader(commands, state.robots.size());
   PlayedStretch played{std::move(state), {}};
   for (std::uint64_t at = firstTick(); at < tick; ++at) {
-    const auto told = reader.next();
+    const auto ordered = reader.next();
     if (!reader.in().ok()) return tl::unexpected(damaged(reader.in()));
-    played.commands.emplace_back(told.begin(), told.end());
+    played.commands.emplace_back(ordered.begin(), ordered.end());
   }
   return played;
 }
@@ -135,9 +135,9 @@ Result<sim::WorldState> StateSegment::at(std::uint64_t tick) const {
   CommandReader reader(commands, state->robots.size());
   std::vector<sim::Percepts> percepts(state->robots.size());
   while (simulation->state().tick < tick) {
-    const auto told = reader.next();
+    const auto ordered = reader.next();
     if (!reader.in().ok()) return tl::unexpected(damaged(reader.in()));
-    simulation->step(told, percepts);
+    simulation->step(ordered, percepts);
   }
   return simulation->state();
 }

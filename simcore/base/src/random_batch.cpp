@@ -6,12 +6,12 @@
 
 namespace pitchboard {
 
-double RandomBatch::Draws::uniform() {
+double RandomBatch::Sequence::uniform() {
   ++m_normals;
   return *m_wholes++ * 0x1.0p-53;
 }
 
-double RandomBatch::Draws::normal(double mean, double sigma) {
+double RandomBatch::Sequence::normal(double mean, double sigma) {
   if (sigma == 0.0) return mean;
   const double p = draws::inside(*m_wholes++), q = p - 0.5;
   const double middle = *m_normals++;

@@ -253,13 +253,13 @@ void controlRobot(WorldState& world, const PublishedGeometry& geometry, std::siz
 BallSweep moveBall(WorldState& world, const PublishedGeometry& geometry) {
   PublishedBall& ball = stateOf(world).ball;
   const FieldSpec& field = world.settings.field;
-  BallSweep way;
-  way.from = published_frame::studioFromWindow(field, ball.x, ball.y);
+  BallSweep sweep;
+  sweep.from = published_frame::studioFromWindow(field, ball.x, ball.y);
   ball.vx *= ball.friction;
   ball.vy *= ball.friction;
   ball.x += ball.vx;
   ball.y += ball.vy;
-  way.aim = published_frame::studioFromWindow(field, ball.x, ball.y);
+  sweep.aim = published_frame::studioFromWindow(field, ball.x, ball.y);
   for (const PublishedPoint& post : geometry.posts) {
     if (isShorter(ball.x - post.x, ball.y - post.y, geometry.ballRadius + geometry.postRadius)) {
       setInMotion(ball, length(ball.vx, ball.vy),
@@ -273,7 +273,7 @@ BallSweep moveBall(WorldState& world, const PublishedGeometry& geometry) {
     double& across = line.horizontal ? ball.vy : ball.vx;
     across = -across;
   }
-  return way;
+  return sweep;
 }
 
 }  // namespace pitchboard::sim::published

@@ -85,27 +85,27 @@ void Collisions::findNeighbours(const Tick& tick) {
     m_y[i] = tick.state.robots[i].pose.position.y;
     m_radius[i] = robotRadius(tick.world, i);
     const Velocity& v = tick.motions[i].velocity;
-    const double wayX = std::abs(v.x) * tick.dt + std::abs(tick.motions[i].noise.x);
-    const double wayY = std::abs(v.y) * tick.dt + std::abs(tick.motions[i].noise.y);
-    farthest = std::max(farthest, wayX * wayX + wayY * wayY);
+    const double pathX = std::abs(v.x) * tick.dt + std::abs(tick.motions[i].noise.x);
+    const double pathY = std::abs(v.y) * tick.dt + std::abs(tick.motions[i].noise.y);
+    farthest = std::max(farthest, pathX * pathX + pathY * pathY);
   }
   const double reach = std::sqrt(farthest);
   const Point& ball = tick.state.ball.position;
   const double ballReach = length(m_ballVelocity.x, m_ballVelocity.y) * tick.dt;
 
-  const auto addObstacles = [&](std::size_t body, const Point& place, double radius, double way,
+  const auto addObstacles = [&](std::size_t body, const Point& place, double radius, double path,
                                 double restitution) {
     // Everything but the upper and lower wall stands at or behind the posts.
-    const double extent = radius + way + margin;
+    const double extent = radius + path + margin;
     if (std::abs(place.x) + extent < field.halfLength() - field.goalPostRadius &&
         std::abs(place.y) + extent < field.halfWidth() + field.border) {
       return;
     }
     for (std::size_t k = 0; k < obstacleCount; ++k) {
       const double limit = obstacles[k].radius + radius;
-      if (k >= wallCount && isBeside(obstacles[k], place, limit + way + margin)) continue;
+      if (k >= wallCount && isBeside(obstacles[k], place, limit + path + margin)) continue;
       const double distance = clearance(obstacles, k, place).distance;
-      if (distance >= limit + way + margin) continue;
+      if (distance >= limit + path + margin) continue;
       m_pairs.push_back(
           {addBody(tick, body), k, true, restitution, std::max(0.0, limit - distance)});
     }
@@ -186,16 +186,17 @@ void Collisions::addPushes(Tick& tick) const {
     }
     const MovingBody& other = m_bodies[pair.second];
     const Velocity moving{other.velocity.x - one.velocity.x, other.velocity.y - one.velocity.y};
-    const auto way = meeting({other.position.x - one.position.x, other.position.y - one.position.y},
-                             moving, radiusOf(one.body) + radiusOf(other.body), tick.dt);
-    if (!way) continue;
-    const double into = -(moving.x * way->x + moving.y * way->y);
+    const auto path =
+        meeting({other.position.x - one.position.x, other.position.y - one.position.y}, moving,
+                radiusOf(one.body) + radiusOf(other.body), tick.dt);
+    if (!path) continue;
+    const double into = -(moving.x * path->x + moving.y * path->y);
     const double mass =
         massOf(one.body) * massOf(other.body) / (massOf(one.body) + massOf(other.body));
     const double impulse = mass * into * (into > bouncesFrom ? 1.0 + pair.restitution : 1.0);
     const double share = other.body == ball ? 1.0 : tippingShare;
-    push(one.body, {-way->x, -way->y}, impulse, share);
-    push(other.body, *way, impulse, share);
+    push(one.body, {-path->x, -path->y}, impulse, share);
+    push(other.body, *path, impulse, share);
   }
 }
 

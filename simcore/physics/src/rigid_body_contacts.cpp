@@ -11,8 +11,8 @@ namespace {
 
 constexpr double longestStep = 1.0 / 60.0;  // s; slower ticks are divided
 // Box2D caps the way of one step at b2_maxTranslation; stay below.
-constexpr double longestWay = 1.5 / unitsPerMetre;  // m
-constexpr std::size_t mostWorlds = 4;               // kinds of matches in one thread, in turn
+constexpr double longestJump = 1.5 / unitsPerMetre;  // m
+constexpr std::size_t mostWorlds = 4;                // kinds of matches in one thread, in turn
 
 // Of distances in Box2D's units, on the side that asks Box2D: more than its rounding.
 constexpr double doubt = 1e-3;
@@ -26,46 +26,46 @@ double impactDistance(double touching) {
 
 }  // namespace
 
-/// What a step needs beside the world: as scratch, for it is made anew in every step.
+/// What a step needs beside the world: as scratch, for it is made again in every step.
 struct ContactSolver::World : ContactWorld {
   explicit World(const WorldState& state) : ContactWorld(state) {
     chosen.reserve(mostPairs(robots()));
     touches.reserve(mostPairs(robots()));
-    ways.reserve(robots() + 1);
+    paths.reserve(robots() + 1);
     inside.reserve(robots() + 1);
   }
 
   /// In Box2D's units.
-  struct Way {
+  struct Path {
     b2Vec2 from, to;
   };
 
   /// At least how far the way of a body stays away from an obstacle, its radius left out: posts are
   /// points, nets and walls run along an axis, and so each is a box.
-  static double awayFrom(const Obstacle& o, const Way& way) {
+  static double awayFrom(const Obstacle& o, const Path& path) {
     const auto gap = [](float from, float to, double first, double last) {
       const double low = static_cast<double>(std::min(from, to));
       const double high = static_cast<double>(std::max(from, to));
       return std::max(
           {0.0, static_cast<double>(units(first)) - high, low - static_cast<double>(units(last))});
     };
-    return length(gap(way.from.x, way.to.x, o.first.x, o.last.x),
-                  gap(way.from.y, way.to.y, o.first.y, o.last.y));
+    return length(gap(path.from.x, path.to.x, o.first.x, o.last.x),
+                  gap(path.from.y, path.to.y, o.first.y, o.last.y));
   }
 
   /// How near the middles of two bodies come to each other.
-  static double awayFrom(const Way& one, const Way& other) {
-    const b2Vec2 from = other.from - one.from, way = (other.to - one.to) - from;
+  static double awayFrom(const Path& one, const Path& other) {
+    const b2Vec2 from = other.from - one.from, path = (other.to - one.to) - from;
     const double x = static_cast<double>(from.x), y = static_cast<double>(from.y);
-    const double dx = static_cast<double>(way.x), dy = static_cast<double>(way.y);
+    const double dx = static_cast<double>(path.x), dy = static_cast<double>(path.y);
     const double length2 = dx * dx + dy * dy;
     const double along = length2 > 0.0 ? std::clamp(-(x * dx + y * dy) / length2, 0.0, 1.0) : 0.0;
     return length(x + along * dx, y + along * dy);
   }
 
   double apart(const NearPair& pair) const {
-    return pair.obstacle ? awayFrom(obstacles()[pair.second], ways[pair.first])
-                         : awayFrom(ways[pair.first], ways[pair.second]);
+    return pair.obstacle ? awayFrom(obstacles()[pair.second], paths[pair.first])
+                         : awayFrom(paths[pair.first], paths[pair.second]);
   }
 
   bool isBall(const MovingBody& moving) const { return moving.body == robots(); }
@@ -113,11 +113,11 @@ struct ContactSolver::World : ContactWorld {
   /// possible. A ball among many is nearly always pressed into one of them.
   void stepOnce(std::span<const MovingBody> moving, std::span<const NearPair> pairs, float dt) {
     constexpr int many = 3;
-    ways.resize(moving.size());
+    paths.resize(moving.size());
     touches.resize(pairs.size());
     for (std::size_t i = 0; i < moving.size(); ++i) {
       const b2Vec2 from = units(moving[i].position.x, moving[i].position.y);
-      ways[i] = {from, from};
+      paths[i] = {from, from};
     }
     const auto touch = [&](const NearPair& pair) {
       return apart(pair) <= touchingOf(moving, pair) + doubt;
@@ -131,8 +131,8 @@ struct ContactSolver::World : ContactWorld {
     stepChosen(moving, pairs, dt, 1, false);
     for (std::size_t i = 0; i < moving.size(); ++i) {
       const MovingBody& one = moving[i];
-      ways[i].to = inside[i] ? body(one).GetPosition()
-                             : ways[i].from + dt * units(one.velocity.x, one.velocity.y);
+      paths[i].to = inside[i] ? body(one).GetPosition()
+                              : paths[i].from + dt * units(one.velocity.x, one.velocity.y);
     }
     const bool hits = std::ranges::any_of(pairs, [&](const NearPair& pair) {
       return looksForImpacts(moving, pair) &&
@@ -153,7 +153,7 @@ struct ContactSolver::World : ContactWorld {
 
   std::vector<std::size_t> chosen;  // of the pairs
   std::vector<char> touches;        // of the pairs, as the step begins
-  std::vector<Way> ways;            // of the bodies
+  std::vector<Path> paths;          // of the bodies
   std::vector<char> inside;         // of the bodies: whether Box2D moves them
 };
 
@@ -181,7 +181,7 @@ void ContactSolver::solve(std::span<MovingBody> bodies, std::span<const NearPair
   World& w = *m_worlds.front();
   double longest = 0.0;
   for (const MovingBody& moving : bodies) longest = std::max(longest, moving.reach);
-  const double steps = std::ceil(std::max({1.0, dt / longestStep - 1e-6, longest / longestWay}));
+  const double steps = std::ceil(std::max({1.0, dt / longestStep - 1e-6, longest / longestJump}));
   const auto step = static_cast<float>(dt / steps);
   if (steps > 1.0) {
     w.stepAll(bodies, pairs, step, static_cast<int>(steps));
@@ -199,9 +199,9 @@ void ContactSolver::solve(std::span<MovingBody> bodies, std::span<const NearPair
     const b2Vec2 after = body.GetLinearVelocity();
     moving.deflected = w.inside[i] && (!(after == before) || !(body.GetPosition() == expected));
     if (moving.deflected) {
-      const b2Vec2 way = body.GetPosition() - start;
-      moving.position.x += static_cast<double>(way.x) / unitsPerMetre;
-      moving.position.y += static_cast<double>(way.y) / unitsPerMetre;
+      const b2Vec2 path = body.GetPosition() - start;
+      moving.position.x += static_cast<double>(path.x) / unitsPerMetre;
+      moving.position.y += static_cast<double>(path.y) / unitsPerMetre;
       moving.velocity = {static_cast<double>(after.x) / unitsPerMetre,
                          static_cast<double>(after.y) / unitsPerMetre};
     } else {

@@ -38,8 +38,8 @@ void kick(Tick& tick, std::size_t index, const Action& action) {
   const double speed = std::max(0.0, random.normal(hit, noise.kickSpeed));
   const double direction =
       random.normal(robot.pose.yaw + radiansFromDegrees(action.kick.direction), noise.kickAngle);
-  const repeatable::SinCos way = repeatable::sinCos(direction);
-  ball.velocity = {speed * way.cos, speed * way.sin};
+  const repeatable::SinCos unit = repeatable::sinCos(direction);
+  ball.velocity = {speed * unit.cos, speed * unit.sin};
   ++tick.world.statistics[index].kicks;
   tick.report(EventKind::Kick, index, action.code);
 }
@@ -132,7 +132,7 @@ bool motionIsNoisy(const NoiseParameters& noise) {
 MotionNoise drawNoise(const Tick& tick, std::size_t index) {
   const NoiseParameters& noise = tick.noise(index);
   if (!tick.state.robots[index].inMotion || !motionIsNoisy(noise)) return {};
-  RandomBatch::Draws random = tick.draws.motion.of(index);
+  RandomBatch::Sequence random = tick.draws.motion.of(index);
   // One statement each: the published order is rotation, forward, sideways.
   MotionNoise drawn;
   drawn.turn = random.normal(0.0, noise.rotation * tick.sqrtFrames);

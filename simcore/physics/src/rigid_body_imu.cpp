@@ -20,7 +20,7 @@ bool imuIsNoisy(const NoiseParameters& noise) {
 YawErrors drawErrors(const Tick& tick, std::size_t index) {
   const NoiseParameters& noise = tick.noise(index);
   if (!imuIsNoisy(noise)) return {};
-  RandomBatch::Draws random = tick.draws.imu.of(index);
+  RandomBatch::Sequence random = tick.draws.imu.of(index);
   YawErrors errors;
   errors.drift = random.normal(0.0, noise.imuDrift * tick.sqrtFrames);
   errors.white = random.normal(0.0, noise.imuWhite);

@@ -108,7 +108,7 @@ class RigidBodyModel final : public PhysicsModel {
   void placeRobot(WorldState& world, std::size_t index, const Pose& pose) const override {
     RigidRobot& robot = bodiesOf(world).robots[index];
     robot.pose = {pose.position, rigid::wrapped(pose.yaw)};
-    // Taken up and put down: it stands, and starts its gait anew.
+    // Taken up and put down: it stands, and starts its gait again.
     robot.forwardSpeed = robot.sidewaysSpeed = robot.yawRate = 0.0;
     robot.velocity = {};
   }

@@ -32,11 +32,11 @@ inline bool push(const Separation::Pair& pair, Point& a, Point& b) {
   // Exactly on each other: part along x, whichever came first to the left.
   const double nx = distance > 0.0 ? dx / distance : 1.0;
   const double ny = distance > 0.0 ? dy / distance : 0.0;
-  const double wayX = nx * push, wayY = ny * push;
-  a.x -= wayX * pair.firstsShare;
-  a.y -= wayY * pair.firstsShare;
-  b.x += wayX * pair.secondsShare;
-  b.y += wayY * pair.secondsShare;
+  const double pathX = nx * push, pathY = ny * push;
+  a.x -= pathX * pair.firstsShare;
+  a.y -= pathY * pair.firstsShare;
+  b.x += pathX * pair.secondsShare;
+  b.y += pathY * pair.secondsShare;
   return true;
 }
 

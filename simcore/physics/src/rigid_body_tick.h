@@ -22,7 +22,7 @@
 
 namespace pitchboard::sim::rigid {
 
-/// Cosine and sine of the last yaw asked for; computed anew only when its bits change.
+/// Cosine and sine of the last yaw asked for; computed again only when its bits change.
 class Heading {
  public:
   void set(double yaw) {

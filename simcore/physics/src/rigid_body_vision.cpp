@@ -65,7 +65,7 @@ class Image {
     return *m_ball;
   }
   /// As vision tells it, of something whose middle is `height` above the ground.
-  Polar told(const Point& place, const Polar& seen, double height) const {
+  Polar reported(const Point& place, const Polar& seen, double height) const {
     const RobotModel& model = m_tick.model(m_index);
     if (!model.fromCamera) {
       return model.cameraForward == 0.0 ? seen : polar(m_self.pose.position, place);
@@ -103,11 +103,11 @@ class Image {
     if (!inRange(place)) return {};
     const Polar seen = fromLens(place);
     if (!inField(seen)) return {};
-    return told(place, seen, height);
+    return reported(place, seen, height);
   }
   std::optional<Polar> ballInView(double height) {
     if (!inRange(ball()) || !inField(ballFromLens())) return {};
-    return told(ball(), ballFromLens(), height);
+    return reported(ball(), ballFromLens(), height);
   }
 };
 
@@ -137,7 +137,7 @@ std::optional<Polar> lookAtBall(const Tick& tick, std::size_t index, Image& imag
     tick.draw(tick.draws.ball, NoiseStream::BallVision, 3, ballVisionIsNoisy);
     tick.draws.ballDrawn = true;
   }
-  RandomBatch::Draws random = tick.draws.ball.of(index);
+  RandomBatch::Sequence random = tick.draws.ball.of(index);
   if (random.uniform() < noise.missedDetection) return {};
   const double distance =
       std::max(0.0, random.normal(seen->distance, noise.visionDistance * seen->distance));
@@ -199,7 +199,7 @@ void lookAtCorners(const Tick& tick, std::size_t index, const Image& image,
     if (noise.landmarkProbability < 1.0 && random.uniform() >= noise.landmarkProbability) continue;
     const Polar seen = image.fromLens(corners[i]);
     if (std::abs(seen.bearing) >= landmarkHalfView) continue;
-    const Polar corner = image.told(corners[i], seen, 0.0);
+    const Polar corner = image.reported(corners[i], seen, 0.0);
     bearings[i] = degreesFromRadians(random.normal(corner.bearing, noise.landmarkBearing));
   }
   percept.bearingsDeg = bearings;
@@ -225,7 +225,7 @@ void lookAtBallAsLandmark(const Tick& tick, std::size_t index, Image& image,
     percept.ballPanDeg = unseenBall;
     return;
   }
-  const Polar ball = image.told(image.ball(), seen, tick.settings().field.ballRadius);
+  const Polar ball = image.reported(image.ball(), seen, tick.settings().field.ballRadius);
   CounterRandom random = randomOf(tick, index, NoiseStream::Landmarks);
   const double distance =
       std::max(0.0, random.normal(ball.distance, noise.visionDistance * ball.distance));

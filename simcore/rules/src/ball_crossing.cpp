@@ -29,7 +29,7 @@ double crossedAt(double from, double to, double at) {
 }
 
 /// The first line on the straight way from inside to a place that is not.
-Crossing onTheWay(const FieldSpec& field, const Point& from, const Point& to) {
+Crossing crossingBetween(const FieldSpec& field, const Point& from, const Point& to) {
   const double end = crossedAt(from.x, to.x, field.halfLength() + field.ballRadius);
   const double touch = crossedAt(from.y, to.y, field.halfWidth() + field.ballRadius);
   const double t = std::min(end, touch);
@@ -88,12 +88,12 @@ Crossing crossingOf(const FieldSpec& field, const BallSweep& sweep, const Point&
   if (isOut) {
     // The nets hold the ball, so its centre between the posts means that it came in that way.
     if (isInGoal(field, now)) return {Crossing::Line::Goal, now, now.x > 0.0};
-    Crossing crossing = onTheWay(field, sweep.from, now);
+    Crossing crossing = crossingBetween(field, sweep.from, now);
     if (crossing.line == Crossing::Line::Goal) crossing.line = Crossing::Line::End;
     return crossing;
   }
   // It is back already: it was out unless something stopped it before the line.
-  const Crossing crossing = onTheWay(field, sweep.from, aim);
+  const Crossing crossing = crossingBetween(field, sweep.from, aim);
   if (crossing.line == Crossing::Line::None || !isFree(field, sweep.from, crossing.where, robots)) {
     return {};
   }

@@ -52,15 +52,15 @@ Result<void> RefereeTable::start(const GameStart& start) {
                                                          : m_rules.halfTime);
   g.clock = start.clock ? ticks(*start.clock) : full;
 
-  for (const auto& [colour, said] : start.teams) {
+  for (const auto& [colour, given] : start.teams) {
     GameTeam& team = g.teams[static_cast<std::size_t>(TRY(indexOf(colour)))];
-    team.score = said.score;
-    team.penaltyShots = said.shots;
-    team.singleShots = said.scored;
-    team.timeouts = said.timeouts;
-    team.penalties = said.removals;
-    team.byHalf = said.byHalf.value_or(std::array<int, 4>{});
-    if (const auto period = g.period(); period && !said.byHalf) team.byHalf[*period] = said.score;
+    team.score = given.score;
+    team.penaltyShots = given.shots;
+    team.singleShots = given.scored;
+    team.timeouts = given.timeouts;
+    team.penalties = given.removals;
+    team.byHalf = given.byHalf.value_or(std::array<int, 4>{});
+    if (const auto period = g.period(); period && !given.byHalf) team.byHalf[*period] = given.score;
   }
 
   // The beginning of the state; what is said of it follows.
@@ -88,14 +88,14 @@ Result<void> RefereeTable::start(const GameStart& start) {
     if (isOutside && state != PlayState::Initial) comesBack(i);
   }
 
-  for (const auto& [id, said] : start.robots) {
+  for (const auto& [id, given] : start.robots) {
     const std::size_t robot = TRY(robotOf(id));
     GamePlayer& one = *player(robot);
-    one.warnings = said.warnings;
-    one.yellow = said.yellow;
-    one.red = said.red;
-    one.cautions = said.cautions;
-    if (said.goalkeeper) {
+    one.warnings = given.warnings;
+    one.yellow = given.yellow;
+    one.red = given.red;
+    one.cautions = given.cautions;
+    if (given.goalkeeper) {
       // Who keeps a goal is said for the whole team then.
       for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
         if (teamOf(i) != teamOf(robot)) continue;
@@ -104,27 +104,27 @@ Result<void> RefereeTable::start(const GameStart& start) {
             other != start.robots.end() && other->second.goalkeeper.value_or(false);
       }
     }
-    if (said.penalty == PenaltyKind::None) continue;
-    one.penalty = said.penalty;
-    one.sinceTicks = ticks(said.since);
-    one.outside = said.outside;
-    one.ticksLeft = said.left ? ticks(*said.left) : removalTicks(robot, said.penalty);
-    one.counting = said.counts
-                       ? *said.counts
-                       : said.outside || m_rules.countsFromCall || staysOnField(one.penalty);
+    if (given.penalty == PenaltyKind::None) continue;
+    one.penalty = given.penalty;
+    one.sinceTicks = ticks(given.since);
+    one.outside = given.outside;
+    one.ticksLeft = given.left ? ticks(*given.left) : removalTicks(robot, given.penalty);
+    one.counting = given.counts
+                       ? *given.counts
+                       : given.outside || m_rules.countsFromCall || staysOnField(one.penalty);
   }
 
-  if (const auto& said = start.setPlay) {
-    const int team = TRY(indexOf(said->team));
-    const Point where = said->place.value_or(m_now.ball);
-    if (said->step) {
-      g.restart = {*said->step,        said->kind,   team,           where,
-                   said->kicker.value, said->passed, said->onlyTaker};
+  if (const auto& given = start.setPlay) {
+    const int team = TRY(indexOf(given->team));
+    const Point where = given->place.value_or(m_now.ball);
+    if (given->step) {
+      g.restart = {*given->step,  given->kind,     team, where, given->kicker.value,
+                   given->passed, given->onlyTaker};
     } else {
-      if (said->kind == SetPlay::None || team < 0 || state != PlayState::Playing) {
+      if (given->kind == SetPlay::None || team < 0 || state != PlayState::Playing) {
         return wrong("A set play begins while the game is PLAYING, and needs its kind and team.");
       }
-      beginSetPlay(said->kind, team, where);
+      beginSetPlay(given->kind, team, where);
     }
   } else if (state == PlayState::Playing && g.phase == GamePhase::ShootOut && g.shooter >= 0) {
     g.restart = {
@@ -141,9 +141,9 @@ Result<void> RefereeTable::start(const GameStart& start) {
     const std::size_t robot = TRY(robotOf(start.touch->robot));
     g.touch = {start.touch->robot.value, teamOf(robot), ticks(start.touch->ago)};
   }
-  for (const auto& [said, rest] :
+  for (const auto& [given, rest] :
        {std::pair(&start.ballStill, &g.still), std::pair(&start.ballNear, &g.near)}) {
-    if (*said) *rest = {(*said)->place.value_or(m_now.ball), ticks((*said)->time)};
+    if (*given) *rest = {(*given)->place.value_or(m_now.ball), ticks((*given)->time)};
   }
   g.aloneTicks = ticks(start.ballAlone);
   g.stopped = g.stopped || start.stopped;
@@ -211,23 +211,23 @@ GameStart gameStartOf(const WorldState& world) {
   for (const RobotIdentity& robot : world.robots) {
     const GamePlayer* one = g.player(robot.team, robot.number);
     if (!one) continue;
-    GameStart::Robot said;
-    said.penalty = one->penalty;
+    GameStart::Robot given;
+    given.penalty = one->penalty;
     if (one->penalty != PenaltyKind::None) {
-      said.left = seconds(one->ticksLeft);
-      said.since = seconds(one->sinceTicks);
-      said.outside = one->outside;
-      said.counts = one->counting;
+      given.left = seconds(one->ticksLeft);
+      given.since = seconds(one->sinceTicks);
+      given.outside = one->outside;
+      given.counts = one->counting;
     }
-    said.warnings = one->warnings;
-    said.yellow = one->yellow;
-    said.red = one->red;
-    said.cautions = one->cautions;
+    given.warnings = one->warnings;
+    given.yellow = one->yellow;
+    given.red = one->red;
+    given.cautions = one->cautions;
     const auto& team = g.teams[static_cast<std::size_t>(g.teamOf(robot.team))];
     const bool anyKeeper =
         std::ranges::any_of(team.players, [](const GamePlayer& p) { return p.goalkeeper; });
-    if (one->goalkeeper || !anyKeeper) said.goalkeeper = one->goalkeeper;
-    if (said != GameStart::Robot{}) out.robots[robot.id] = said;
+    if (one->goalkeeper || !anyKeeper) given.goalkeeper = one->goalkeeper;
+    if (given != GameStart::Robot{}) out.robots[robot.id] = given;
   }
   return out;
 }

@@ -267,7 +267,7 @@ void RefereeTable::judgeRobots() {
 
 bool RefereeTable::isInOwnGoalArea(std::size_t robot) const {
   const Point& at = m_now.robots[robot].pose.position;
-  return -way(teamOf(robot)) * at.x > m_field.halfLength() - m_field.goalAreaLength &&
+  return -attackSign(teamOf(robot)) * at.x > m_field.halfLength() - m_field.goalAreaLength &&
          std::abs(at.y) < m_field.goalAreaWidth / 2.0;
 }
 
@@ -331,7 +331,7 @@ void RefereeTable::foul(std::size_t robot, PenaltyKind penalty) {
     return;
   }
   const double depth = m_field.penaltyAreaLength > 0.0 ? m_field.penaltyAreaLength : 0.0;
-  const bool before = -way(team) * at.x > m_field.halfLength() - depth &&
+  const bool before = -attackSign(team) * at.x > m_field.halfLength() - depth &&
                       std::abs(at.y) < m_field.penaltyAreaWidth / 2.0;
   beginSetPlay(before ? SetPlay::PenaltyKick : SetPlay::DirectFreeKick, 1 - team, m_now.ball);
 }
@@ -345,7 +345,7 @@ bool RefereeTable::mayStandThere(std::size_t robot) {
   }
   const double circle = m_field.centreCircleDiameter / 2.0;
   const double radius = radiusOf(robot);
-  const double forward = way(team) * at.x;
+  const double forward = attackSign(team) * at.x;
   const bool inCircle = within(at, {}, circle + radius);
   const bool kicks = m_game.kickOff == team;
   const bool beyond = forward > -radius && !(kicks && inCircle);
@@ -400,7 +400,7 @@ void RefereeTable::judgeSetPlay() {
       const int team = teamOf(i);
       if (!plays(i) || team == m_game.restart.team || isReturning(i)) continue;
       const bool keeper =
-          player(i)->goalkeeper && -way(team) * m_now.robots[i].pose.position.x >
+          player(i)->goalkeeper && -attackSign(team) * m_now.robots[i].pose.position.x >
                                        m_field.halfLength() - std::max(0.5, m_field.goalAreaLength);
       if (keeper || !within(m_now.robots[i].pose.position, m_now.ball, m_rules.distanceToBall)) {
         continue;

@@ -88,7 +88,7 @@ void RefereeTable::pardonAll(int sinceTicks) {
 void RefereeTable::putOutside(std::size_t robot) {
   GamePlayer& one = *player(robot);
   one.outside = true;
-  const double own = -way(teamOf(robot));
+  const double own = -attackSign(teamOf(robot));
   const double x = m_conduct.waitsAtHalfway
                        ? own * 0.5
                        : own * std::max(0.5, m_field.halfLength() - m_field.penaltyMarkDistance);

@@ -58,24 +58,25 @@ Point RefereeTable::placeOf(SetPlay play, int team, const Point& where) const {
       double at = std::clamp(where.x, -x, x);
       if (replaced) {
         const double most = std::max(0.0, x - m_field.goalAreaLength);
-        at = std::clamp(at + way(team), -most, most);
+        at = std::clamp(at + attackSign(team), -most, most);
       }
       return {at, side * (y - inside)};
     }
     case SetPlay::GoalKick:
       if (m_conduct.goalKickAtArea) {
-        return {-way(team) * (x - m_field.goalAreaLength), side * m_field.goalAreaWidth / 2.0};
+        return {-attackSign(team) * (x - m_field.goalAreaLength),
+                side * m_field.goalAreaWidth / 2.0};
       }
       return {0.0, side * (y - inside)};
     case SetPlay::CornerKick:
-      return {way(team) * (replaced ? x - m_field.goalAreaLength : x), side * (y - inside)};
+      return {attackSign(team) * (replaced ? x - m_field.goalAreaLength : x), side * (y - inside)};
     case SetPlay::PenaltyKick:
-      return {way(team) * (x - m_field.penaltyMarkDistance), 0.0};
+      return {attackSign(team) * (x - m_field.penaltyMarkDistance), 0.0};
     case SetPlay::IndirectFreeKick: {
       const double front = x - m_field.goalAreaLength;
       const bool inArea =
-          where.x * way(team) > front && std::abs(where.y) < m_field.goalAreaWidth / 2.0;
-      return clamped(inArea ? Point{way(team) * front, where.y} : where, 0.0);
+          where.x * attackSign(team) > front && std::abs(where.y) < m_field.goalAreaWidth / 2.0;
+      return clamped(inArea ? Point{attackSign(team) * front, where.y} : where, 0.0);
     }
     default:
       return clamped(where, 0.0);
@@ -122,7 +123,7 @@ void RefereeTable::ballPlaced() {
     const double dx = at.x - where.x, dy = at.y - where.y;
     const double d = std::sqrt(dx * dx + dy * dy);
     // A robot exactly on the place goes towards its own goal.
-    const double nx = d > 1e-6 ? dx / d : (teamOf(i) >= 0 ? -way(teamOf(i)) : 1.0);
+    const double nx = d > 1e-6 ? dx / d : (teamOf(i) >= 0 ? -attackSign(teamOf(i)) : 1.0);
     const double ny = d > 1e-6 ? dy / d : 0.0;
     putRobot(i, {{where.x + nx * room, where.y + ny * room}, m_now.robots[i].pose.yaw});
   }
@@ -166,9 +167,9 @@ void RefereeTable::inPlay() {
       m_game.state == PlayState::Playing && m_game.hidden > 0) {
     return;  // robots do not know that it has begun
   }
-  const bool told = m_game.restart.isAnnounced();
+  const bool announced = m_game.restart.isAnnounced();
   m_game.restart.step = Restart::Step::Free;
-  if (!told) return;
+  if (!announced) return;
   m_game.stopped = false;
   m_game.countdown = {};
   report(EventKind::SetPlayOver);
@@ -195,7 +196,7 @@ void RefereeTable::beginShot() {
   m_game.clock = ticks(m_rules.shotTime);
   m_game.clockUse = ClockUse::Full;
   enter(PlayState::Set);
-  const double mark = way(team) * (m_field.halfLength() - m_field.penaltyMarkDistance);
+  const double mark = attackSign(team) * (m_field.halfLength() - m_field.penaltyMarkDistance);
   freeBall({mark, 0.0});
   bool kicks = false, keeps = false;
   for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
@@ -212,8 +213,9 @@ void RefereeTable::beginShot() {
     (own ? kicks : keeps) = true;
     freeOfPenalty(*one);
     m_game.watches[i] = {};
-    const double yaw = way(teamOf(i)) > 0.0 ? 0.0 : 3.141592653589793;
-    const double x = own ? mark - way(team) * 0.6 : way(team) * (m_field.halfLength() - 0.05);
+    const double yaw = attackSign(teamOf(i)) > 0.0 ? 0.0 : 3.141592653589793;
+    const double x =
+        own ? mark - attackSign(team) * 0.6 : attackSign(team) * (m_field.halfLength() - 0.05);
     putRobot(i, {{x, 0.0}, yaw});
   }
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 // The referee at work on one tick or one call: the state of the game and everything its parts need.
-// Made anew each time; keeps nothing. referee_calls.cpp has the calls, referee_states.cpp the
+// Made again each time; keeps nothing. referee_calls.cpp has the calls, referee_states.cpp the
 // machine of states, referee_restarts.cpp goals and set plays, referee_penalties.cpp penalties,
 // referee_judge.cpp what the automatic referee sees, game_start.cpp how a game goes on. Metres,
 // radians, ticks.
@@ -113,7 +113,7 @@ class RefereeTable {
   GamePlayer* player(std::size_t robot);
   const GamePlayer* player(std::size_t robot) const;
   /// +1: this team attacks towards +x.
-  double way(int team) const {
+  double attackSign(int team) const {
     return m_game.attacksRight(static_cast<std::size_t>(team)) ? 1.0 : -1.0;
   }
   Point place(std::size_t robot) const;  ///< where it is after what was placed in this tick

@@ -93,14 +93,14 @@ void Simulation::step(std::span<const RobotCommand> commands, std::span<Percepts
   assert(commands.size() == robotCount() && percepts.size() == robotCount());
   m_events.clear();
   m_events.swap(m_called);
-  const BallSweep way = m_model->move(m_state, commands, percepts, m_events);
+  const BallSweep sweep = m_model->move(m_state, commands, percepts, m_events);
   if (m_state.game) {
     snapshot(m_seen);
     m_placements.clear();
-    stepReferee(m_state, m_seen, way, m_placements, m_events);
+    stepReferee(m_state, m_seen, sweep, m_placements, m_events);
     carryOut();
   } else {
-    applyPublishedRules(m_state, way, m_events);
+    applyPublishedRules(m_state, sweep, m_events);
   }
   m_model->sense(m_state, commands, percepts);
   ++m_state.tick;

@@ -5,34 +5,34 @@ namespace pitchboard::sim {
 namespace {
 
 template <class Enum, std::size_t N>
-std::string_view at(const std::array<std::string_view, N>& words, Enum value) {
+std::string_view at(const std::array<std::string_view, N>& label, Enum value) {
   static_assert(static_cast<std::size_t>(lastOf(Enum{})) + 1 == N);
-  return words[static_cast<std::size_t>(value)];
+  return label[static_cast<std::size_t>(value)];
 }
 
 }  // namespace
 
 std::string_view labelOf(PlayState state) {
-  static constexpr std::array<std::string_view, 5> words{"INITIAL", "READY", "SET", "PLAYING",
+  static constexpr std::array<std::string_view, 5> label{"INITIAL", "READY", "SET", "PLAYING",
                                                          "FINISHED"};
-  return at(words, state);
+  return at(label, state);
 }
 
 std::string_view labelOf(GamePhase phase) {
-  static constexpr std::array<std::string_view, 4> words{"normal time", "penalty shoot-out",
+  static constexpr std::array<std::string_view, 4> label{"normal time", "penalty shoot-out",
                                                          "overtime", "timeout"};
-  return at(words, phase);
+  return at(label, phase);
 }
 
 std::string_view labelOf(SetPlay play) {
-  static constexpr std::array<std::string_view, 7> words{
+  static constexpr std::array<std::string_view, 7> label{
       "",         "direct free kick", "indirect free kick", "penalty kick",
       "throw-in", "goal kick",        "corner kick"};
-  return at(words, play);
+  return at(label, play);
 }
 
 std::string_view labelOf(PenaltyKind penalty) {
-  static constexpr std::array<std::string_view, 18> words{"",
+  static constexpr std::array<std::string_view, 18> label{"",
                                                           "ball manipulation",
                                                           "pushing",
                                                           "illegal attack",
@@ -50,7 +50,7 @@ std::string_view labelOf(PenaltyKind penalty) {
                                                           "sent off",
                                                           "substitute",
                                                           "manual penalty"};
-  return at(words, penalty);
+  return at(label, penalty);
 }
 
 }  // namespace pitchboard::sim

@@ -22,7 +22,7 @@ BadParameter firstBad(const Values& values, std::span<const Parameter<Values>> p
   for (const Parameter<Values>& p : parameters) {
     const double value = values.*p.member;
     if (value >= p.stored(p.least) && value <= p.stored(p.most)) continue;  // not so for NaN
-    const std::string unit = *p.unit.words ? std::string(" ") + p.unit.words : std::string();
+    const std::string unit = *p.unit.name ? std::string(" ") + p.unit.name : std::string();
     return {p.key, "must lie between " + shortest(p.least) + " and " + shortest(p.most) + unit +
                        ", and is " + shortest(p.written(value))};
   }

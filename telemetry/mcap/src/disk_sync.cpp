@@ -50,7 +50,7 @@ Result<void> DiskSync::finish() {
   return {};
 }
 
-double DiskSync::owedSeconds() const {
+double DiskSync::syncLatency() const {
   const std::lock_guard lock(m_mutex);
   const auto since = m_running ? m_running : m_asked;
   return since ? std::chrono::duration<double>(Clock::now() - *since).count() : 0.0;

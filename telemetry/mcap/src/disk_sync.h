@@ -30,7 +30,7 @@ class DiskSync {
   /// A last request, and waits until the disk has everything.
   Result<void> finish();
   /// How long the disk has been owing an answer, s; 0: it has everything.
-  double owedSeconds() const;
+  double syncLatency() const;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -307,8 +307,8 @@ Result<void> McapWriter::finish() {
 std::uint64_t McapWriter::bytes() const {
   return m_impl->file.size();
 }
-double McapWriter::owedSeconds() const {
-  return m_impl->disk ? m_impl->disk->owedSeconds() : 0.0;
+double McapWriter::syncLatency() const {
+  return m_impl->disk ? m_impl->disk->syncLatency() : 0.0;
 }
 const McapStatistics& McapWriter::statistics() const {
   return m_impl->summary.statistics;

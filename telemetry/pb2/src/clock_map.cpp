@@ -8,7 +8,7 @@ namespace pitchboard::telemetry {
 namespace {
 
 constexpr double milliseconds = 0.001;
-constexpr double mostBack = 1.0;  // s; a clock that goes back by more has begun anew
+constexpr double mostBack = 1.0;  // s; a clock that goes back by more has begun again
 constexpr double farDelay = 2.0;  // s above the least one
 constexpr int mostFar = 10;       // in a row: no network, the sender's clock stood still
 constexpr double jitterShare = 1.0 / 16.0;

@@ -94,43 +94,43 @@ bool isPb2Name(std::string_view name) {
 
 Result<Pb2Message> parsePb2(std::string_view datagram) {
   if (datagram.ends_with('\n')) datagram.remove_suffix(1);
-  Words words(datagram);
+  Words tokens(datagram);
   if (datagram.size() > Pb2Limits::bytes) {
-    return words.refuse("the datagram has " + std::to_string(datagram.size()) +
-                        " bytes; at most 1400 are read");
+    return tokens.refuse("the datagram has " + std::to_string(datagram.size()) +
+                         " bytes; at most 1400 are read");
   }
-  if (words.next() != "PB2") return words.refuse("the datagram must begin with PB2");
+  if (tokens.next() != "PB2") return tokens.refuse("the datagram must begin with PB2");
   Pb2Message message;
-  std::string_view word = words.next();
-  if (!readWhole(word, message.robot) || message.robot < 1 || message.robot > Pb2Limits::robots) {
-    return words.refuse("the robot's number must be 1 to 64, not " + inQuotes(word));
+  std::string_view token = tokens.next();
+  if (!readWhole(token, message.robot) || message.robot < 1 || message.robot > Pb2Limits::robots) {
+    return tokens.refuse("the robot's number must be 1 to 64, not " + inQuotes(token));
   }
-  word = words.next();
-  if (!readWhole(word, message.sequence)) {
-    return words.refuse("the sequence number must be 0 to 4294967295, not " + inQuotes(word));
+  token = tokens.next();
+  if (!readWhole(token, message.sequence)) {
+    return tokens.refuse("the sequence number must be 0 to 4294967295, not " + inQuotes(token));
   }
-  word = words.next();
-  if (!readWhole(word, message.milliseconds)) {
-    return words.refuse("the time must be a whole number of milliseconds, not " + inQuotes(word));
+  token = tokens.next();
+  if (!readWhole(token, message.milliseconds)) {
+    return tokens.refuse("the time must be a whole number of milliseconds, not " + inQuotes(token));
   }
   constexpr std::size_t shortestField = 4;  // " A=1"
   message.values.reserve(datagram.size() / shortestField);
-  for (word = words.next(); word != "OUT"; word = words.next()) {
-    if (word.empty()) return words.refuse("OUT is missing at the end");
-    const std::size_t equals = word.find('=');
+  for (token = tokens.next(); token != "OUT"; token = tokens.next()) {
+    if (token.empty()) return tokens.refuse("OUT is missing at the end");
+    const std::size_t equals = token.find('=');
     if (equals == std::string_view::npos) {
-      return words.refuse("expected NAME=VALUE or OUT, not " + inQuotes(word));
+      return tokens.refuse("expected NAME=VALUE or OUT, not " + inQuotes(token));
     }
-    const std::string_view name = word.substr(0, equals), text = word.substr(equals + 1);
+    const std::string_view name = token.substr(0, equals), text = token.substr(equals + 1);
     const bool isStatus = name.starts_with('@');
     if (!isPb2Name(isStatus ? name.substr(1) : name)) {
-      return words.refuse(inQuotes(name) +
-                          " is not a name: use at most 64 letters, digits and _, no digit first");
+      return tokens.refuse(inQuotes(name) +
+                           " is not a name: use at most 64 letters, digits and _, no digit first");
     }
     Pb2Value value{.name = name};
     if (!readNumber(text, value.value, value.whole)) {
-      return words.refuse("the value of " + inQuotes(name) +
-                          " is not a number that fits: " + inQuotes(text));
+      return tokens.refuse("the value of " + inQuotes(name) +
+                           " is not a number that fits: " + inQuotes(text));
     }
     if (isStatus) {
       readStatus(name, value.value, value.whole, message.status);
@@ -138,7 +138,7 @@ Result<Pb2Message> parsePb2(std::string_view datagram) {
       message.values.push_back(value);
     }
   }
-  if (!words.next().empty()) return words.refuse("there is text after OUT");
+  if (!tokens.next().empty()) return tokens.refuse("there is text after OUT");
   return message;
 }
 

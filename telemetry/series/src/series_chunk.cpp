@@ -66,7 +66,7 @@ std::shared_ptr<const Chunk> Chunk::ofStaging(const Staging& full, const Layout&
   return chunk;
 }
 
-std::shared_ptr<const Chunk> Chunk::join(std::span<const Unit> blocks, const Layout& layout) {
+std::shared_ptr<const Chunk> Chunk::join(std::span<const ChunkView> blocks, const Layout& layout) {
   auto chunk = std::make_shared<Chunk>();
   chunk->m_times.reserve(chunkRows);
   for (const auto& block : blocks) {

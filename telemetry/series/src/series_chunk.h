@@ -27,13 +27,13 @@ struct Staging {
   std::size_t bytes = 0;
 };
 
-struct Unit;
+struct ChunkView;
 
 /// 64 rows (one block) or 4096 rows (64 blocks); immutable.
 class Chunk {
  public:
   static std::shared_ptr<const Chunk> ofStaging(const Staging& full, const Layout& layout);
-  static std::shared_ptr<const Chunk> join(std::span<const Unit> blocks, const Layout& layout);
+  static std::shared_ptr<const Chunk> join(std::span<const ChunkView> blocks, const Layout& layout);
 
   /// The same rows, until now of `narrow`, with the further columns of `wide`, which are holes.
   std::shared_ptr<const Chunk> widened(const Layout& narrow, const Layout& wide) const;
@@ -53,9 +53,9 @@ class Chunk {
 
 /// A chunk, or the published part of the staging block, with what a query needs of it in one cache
 /// line: a query over millions of rows waits for memory and for nothing else.
-struct Unit {
-  Unit() = default;
-  explicit Unit(std::shared_ptr<const Chunk> of)
+struct ChunkView {
+  ChunkView() = default;
+  explicit ChunkView(std::shared_ptr<const Chunk> of)
       : times(of->times()),
         columns(of->columns()),
         first(times[0]),
@@ -69,6 +69,6 @@ struct Unit {
   std::uint32_t rows = 0, blocks = 0;
   std::shared_ptr<const Chunk> chunk;
 };
-using Units = std::vector<Unit>;
+using Units = std::vector<ChunkView>;
 
 }  // namespace pitchboard::telemetry::series

@@ -46,7 +46,7 @@ void Group::addBlock() {
   full->reserve(m_next.full->size() + 1);
   *full = *m_next.full;
   full->emplace_back(Chunk::join(m_next.blocks, *m_next.layout));
-  for (const Unit& block : m_next.blocks) m_bytes -= block.chunk->bytes();
+  for (const ChunkView& block : m_next.blocks) m_bytes -= block.chunk->bytes();
   m_bytes += full->back().chunk->bytes();
   m_next.full = std::move(full);
   m_next.blocks.clear();
@@ -54,8 +54,8 @@ void Group::addBlock() {
 
 void Group::countBytes() {
   m_bytes = m_next.staging->bytes;
-  for (const Unit& unit : *m_next.full) m_bytes += unit.chunk->bytes();
-  for (const Unit& unit : m_next.blocks) m_bytes += unit.chunk->bytes();
+  for (const ChunkView& unit : *m_next.full) m_bytes += unit.chunk->bytes();
+  for (const ChunkView& unit : m_next.blocks) m_bytes += unit.chunk->bytes();
 }
 
 void Group::publish() {
@@ -127,14 +127,14 @@ void Group::widen(std::shared_ptr<const Layout> layout) {
   const std::lock_guard lock(m_write);
   const auto now = view();
   const std::size_t staged = m_staging->rows.load(std::memory_order_relaxed);
-  const auto widened = [&](const Unit& unit) {
-    return Unit(unit.chunk->widened(*m_next.layout, *layout));
+  const auto widened = [&](const ChunkView& unit) {
+    return ChunkView(unit.chunk->widened(*m_next.layout, *layout));
   };
   auto full = std::make_shared<Units>();
   full->reserve(m_next.full->size());
-  for (const Unit& unit : *m_next.full) full->push_back(widened(unit));
+  for (const ChunkView& unit : *m_next.full) full->push_back(widened(unit));
   m_next.full = std::move(full);
-  for (Unit& unit : m_next.blocks) unit = widened(unit);
+  for (ChunkView& unit : m_next.blocks) unit = widened(unit);
   m_next.layout = std::move(layout);
   newStaging();
   countBytes();

@@ -17,7 +17,7 @@ View::View(std::shared_ptr<const State> state)
   m_rows = m_fullUnits * chunkRows + m_state->blocks.size() * blockRows + m_tail.rows;
 }
 
-const Unit& View::unit(std::size_t number) const {
+const ChunkView& View::unit(std::size_t number) const {
   if (number < m_fullUnits) return (*m_state->full)[number];
   number -= m_fullUnits;
   return number < m_state->blocks.size() ? m_state->blocks[number] : m_tail;

@@ -43,7 +43,7 @@ class View final : public GroupView {
 
  private:
   struct Place {
-    const Unit* unit = nullptr;
+    const ChunkView* unit = nullptr;
     std::uint32_t row = 0;
   };
   struct Ahead;  // prefetches
@@ -54,7 +54,7 @@ class View final : public GroupView {
   std::size_t units() const {
     return m_fullUnits + m_state->blocks.size() + (m_tail.rows > 0 ? 1 : 0);
   }
-  const Unit& unit(std::size_t number) const;
+  const ChunkView& unit(std::size_t number) const;
   std::size_t firstRow(std::size_t unit) const;
   Place place(std::size_t row) const;
   double timeOf(std::size_t row) const;
@@ -78,7 +78,7 @@ class View final : public GroupView {
 
   std::shared_ptr<const State> m_state;
   std::size_t m_fullUnits = 0;
-  Unit m_tail;  // the staging block
+  ChunkView m_tail;  // the staging block
   std::size_t m_rows = 0;
 };
 

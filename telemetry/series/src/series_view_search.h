@@ -30,7 +30,7 @@ struct View::Search {
   std::size_t operator()(double time) {
     if (end == 0) return 0;
     while (unit + 1 < end && before(view.unit(unit + 1).first, time)) ++unit;
-    const Unit& in = view.unit(unit);
+    const ChunkView& in = view.unit(unit);
     const double* times = in.times;
     if (!before(in.first, time)) return view.firstRow(unit);
     if (before(in.last, time)) return view.firstRow(unit) + in.rows;
@@ -88,20 +88,20 @@ struct View::Ahead {
   Place guess(double time, const Pass& pass) {
     const std::size_t end = view.units();
     while (number + 1 < end && view.unit(number + 1).first < time) pass(view.unit(++number));
-    const Unit& in = view.unit(number);
+    const ChunkView& in = view.unit(number);
     const double share = (time - in.first) / (in.last - in.first);
     if (!in.columns || !(share > 0.0)) return {&in, 0};
     return {&in, static_cast<std::uint32_t>(std::min(share, 1.0) * (in.rows - 1))};
   }
   void wantTimes(double time) {
-    const Place at = guess(time, [&](const Unit& unit) {
+    const Place at = guess(time, [&](const ChunkView& unit) {
       if (unit.columns) __builtin_prefetch(unit.columns + column);
     });
     __builtin_prefetch(at.unit->times + at.row);
   }
   template <class T>
   void wantValues(double time) {
-    const Place at = guess(time, [&](const Unit& unit) {
+    const Place at = guess(time, [&](const ChunkView& unit) {
       if (unit.columns) unit.columns[column].want();
     });
     if (at.unit->columns) at.unit->columns[column].want<T>(at.row, at.unit->blocks);

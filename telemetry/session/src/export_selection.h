@@ -14,11 +14,11 @@ struct SelectedColumn {
   std::size_t column = 0;  ///< in GroupInfo
   ColumnType type = ColumnType::Float64;
   std::size_t index = 0;  ///< in the words or the values of a row
-  /// Of a text: its words; owned by the session.
+  /// Labels of a text column; owned by the session.
   const std::map<std::int32_t, std::string>* labels = nullptr;
 
-  /// The word of a value of a text; nothing for a number and for a hole.
-  const std::string* wordOf(double value) const {
+  /// Returns the label of a value of a text column; null for a number and for a hole.
+  const std::string* labelOf(double value) const {
     if (labels == nullptr || !std::isfinite(value)) return nullptr;
     const auto found = labels->find(static_cast<std::int32_t>(value));
     return found == labels->end() ? nullptr : &found->second;

@@ -43,7 +43,7 @@ struct Cell {
     }
     length = static_cast<std::uint32_t>(done.ptr - text.data());
   }
-  /// Not a number or infinite: JSON has no word for them.
+  /// Not a number or infinite: JSON cannot express them.
   bool isNumber() const {
     const char last = length > 0 ? text[length - 1] : 'n';
     return last >= '0' && last <= '9';

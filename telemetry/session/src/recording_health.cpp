@@ -45,7 +45,7 @@ std::optional<double> secondsLeft(const SessionStatus& status) {
 }
 
 RecordingTrouble troubleOf(const SessionStatus& status) {
-  if (status.owedSeconds > longestAnswer) return RecordingTrouble::DiskBehind;
+  if (status.syncLatency > longestAnswer) return RecordingTrouble::DiskBehind;
   const auto left = secondsLeft(status);
   if ((left && *left < littleTime) ||
       (!left && status.freeBytes.value_or(littleSpace) < littleSpace))
@@ -63,7 +63,7 @@ std::string troubleText(const SessionStatus& status) {
       std::snprintf(text, sizeof text,
                     "The disk cannot keep up: no write has finished for %.0f s. A power failure "
                     "now would lose everything recorded since then.",
-                    status.owedSeconds);
+                    status.syncLatency);
       return text + missing;
     }
     case RecordingTrouble::LittleSpace: {

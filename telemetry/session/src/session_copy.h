@@ -2,7 +2,7 @@
 #pragma once
 
 // A session, or part of it, as a new file: clips and repaired files are written here. Messages keep
-// their bytes and times, also those of channels that nobody here knows; summaries are made anew.
+// their bytes and times, also those of channels that nobody here knows; summaries are made again.
 // Private to the library. One thread, beside that of the SessionWriter.
 
 #include <map>

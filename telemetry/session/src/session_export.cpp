@@ -83,9 +83,9 @@ class LineWriter {
     }
     return columns;
   }
-  /// A value; `room` is what the line needs behind it. False: it has no word, nothing was put.
-  bool putWord(const SelectedColumn& column, double value, std::size_t room, bool json) {
-    const std::string* word = column.wordOf(value);
+  /// A value; `room` is what the line needs behind it. False: it has no label, nothing was put.
+  bool putLabel(const SelectedColumn& column, double value, std::size_t room, bool json) {
+    const std::string* word = column.labelOf(value);
     if (word == nullptr) return false;
     m_out.putSafely(json ? quoted(*word) : csvField(*word));
     m_out.reserve(room);
@@ -154,7 +154,7 @@ class WideWriter : public LineWriter {
     if (column.labels == nullptr) {
       if (!m_holesAreEmpty || cell.isNumber()) m_out.put(cell);
     } else {
-      putWord(column, std::bit_cast<double>(cell.bits), m_longestLine, false);
+      putLabel(column, std::bit_cast<double>(cell.bits), m_longestLine, false);
     }
   }
 
@@ -208,7 +208,7 @@ class LongWriter : public NamedWriter {
       if (columns[i].labels == nullptr) {
         m_out.put(cell);
       } else {
-        putWord(columns[i], std::bit_cast<double>(cell.bits), 1, false);
+        putLabel(columns[i], std::bit_cast<double>(cell.bits), 1, false);
       }
       if (!m_out.endLine()) return false;
     }
@@ -271,7 +271,7 @@ class JsonWriter : public NamedWriter {
       m_out.reserve(Cell::room + prefix.size() + 8);
       if (i > 0) m_out.put(',');
       m_out.put(prefix);
-      const bool isWord = putWord(columns[i], std::bit_cast<double>(cell.bits), 8, true);
+      const bool isWord = putLabel(columns[i], std::bit_cast<double>(cell.bits), 8, true);
       if (isWord) continue;
       if (columns[i].labels == nullptr && cell.isNumber())
         m_out.put(cell);

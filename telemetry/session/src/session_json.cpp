@@ -178,7 +178,7 @@ std::string groupToJson(const GroupInfo& group) {
       json["lost_by"] = column.lostBy;
       json["lost_when"] = column.lostWhen;
     }
-    for (const auto& [code, word] : column.labels) json["labels"][std::to_string(code)] = word;
+    for (const auto& [code, label] : column.labels) json["labels"][std::to_string(code)] = label;
     columns.push_back(std::move(json));
   }
   return dump(Json{{"name", group.name}, {"attributes", group.attributes}, {"columns", columns}});
@@ -229,9 +229,9 @@ std::optional<GroupInfo> groupFromJson(std::string_view text_) {
       column.name = presentName(column.name);
     column.kind = static_cast<ColumnKind>(place(kindNames, entry, "kind").value_or(0));
     if (const auto labels = entry.find("labels"); labels != entry.end() && labels->is_object()) {
-      for (const auto& [code, word] : labels->items()) {
+      for (const auto& [code, label] : labels->items()) {
         const auto value = whole<std::int32_t>(code);
-        if (value && word.is_string()) column.labels[*value] = word.get<std::string>();
+        if (value && label.is_string()) column.labels[*value] = label.get<std::string>();
       }
     }
     group.columns.push_back(std::move(column));

@@ -61,38 +61,38 @@ struct Moment {
 
 std::optional<Moment> parsed(std::string_view text) {
   Moment moment;
-  Words words(text);
+  Words tokens(text);
   if (text.size() > 10 && text[4] == '-') {
-    const auto year = words.number(4);
-    if (!year || !words.take('-')) return std::nullopt;
-    const auto month = words.number(2);
-    if (!month || !words.take('-')) return std::nullopt;
-    const auto day = words.number(2);
-    if (!day || (!words.take('T') && !words.take(' '))) return std::nullopt;
+    const auto year = tokens.number(4);
+    if (!year || !tokens.take('-')) return std::nullopt;
+    const auto month = tokens.number(2);
+    if (!month || !tokens.take('-')) return std::nullopt;
+    const auto day = tokens.number(2);
+    if (!day || (!tokens.take('T') && !tokens.take(' '))) return std::nullopt;
     const std::chrono::year_month_day date{std::chrono::year(*year),
                                            std::chrono::month(static_cast<unsigned>(*month)),
                                            std::chrono::day(static_cast<unsigned>(*day))};
     if (!date.ok()) return std::nullopt;
     moment.day = {*year, *month, *day};
   }
-  const auto hour = words.number(2);
-  if (!hour || *hour > 23 || !words.take(':')) return std::nullopt;
-  const auto minute = words.number(2);
+  const auto hour = tokens.number(2);
+  if (!hour || *hour > 23 || !tokens.take(':')) return std::nullopt;
+  const auto minute = tokens.number(2);
   if (!minute || *minute > 59) return std::nullopt;
   moment.hour = *hour;
   moment.minute = *minute;
-  if (words.take(':')) {
-    const auto second = words.number(2);
+  if (tokens.take(':')) {
+    const auto second = tokens.number(2);
     if (!second || *second > 59) return std::nullopt;
     moment.second = *second;
-    if (words.take('.')) {
-      const auto fraction = words.fraction();
+    if (tokens.take('.')) {
+      const auto fraction = tokens.fraction();
       if (!fraction) return std::nullopt;
       moment.fraction = *fraction;
     }
   }
-  moment.utc = words.take('Z');
-  return words.atEnd() ? std::optional(moment) : std::nullopt;
+  moment.utc = tokens.take('Z');
+  return tokens.atEnd() ? std::optional(moment) : std::nullopt;
 }
 
 /// Seconds since 1970.
@@ -185,14 +185,14 @@ Result<double> sessionTime(std::string_view text, WallTime start, TimeRange rang
   if (*time >= range.begin - edge && *time <= range.end + edge) {
     return std::clamp(*time, range.begin, range.end);
   }
-  std::string words = quoted(text) + " is outside the session, which goes from " +
-                      secondsToText(range.begin) + " to " + secondsToText(range.end);
+  std::string tokens = quoted(text) + " is outside the session, which goes from " +
+                       secondsToText(range.begin) + " to " + secondsToText(range.end);
   if (ofDay) {
-    words += " (" + localTime(start, range.begin) + " to " + localTime(start, range.end) + ')';
+    tokens += " (" + localTime(start, range.begin) + " to " + localTime(start, range.end) + ')';
   } else if (text.find(':') != std::string_view::npos) {
-    words += "; for a time of day add its date or --clock";
+    tokens += "; for a time of day add its date or --clock";
   }
-  return failure(ErrorCode::InvalidArgument, words + '.');
+  return failure(ErrorCode::InvalidArgument, tokens + '.');
 }
 
 }  // namespace pitchboard::telemetry

@@ -289,10 +289,10 @@ SessionStatus SessionWriter::status() const {
   const std::lock_guard lock(m_impl->mutex);
   SessionStatus status = m_impl->state;
   if (m_impl->ended) return status;
-  status.owedSeconds = m_impl->file->owedSeconds();
+  status.syncLatency = m_impl->file->syncLatency();
   if (m_impl->writingSince) {
     const std::chrono::duration<double> writing = Impl::Clock::now() - *m_impl->writingSince;
-    status.owedSeconds = std::max(status.owedSeconds, writing.count());
+    status.syncLatency = std::max(status.syncLatency, writing.count());
   }
   return status;
 }

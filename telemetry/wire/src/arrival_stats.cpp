@@ -15,9 +15,9 @@ double ArrivalStats::rate(WallTime now) const {
   if (m_count < 2) return 0.0;
   const double span = secondsOf(at(m_count - 1) - at(0));
   const double intervals = static_cast<double>(m_count - 1);
-  const double silence = secondsOf(now - at(m_count - 1));
+  const double gap = secondsOf(now - at(m_count - 1));
   // While the next message is not yet due the silence says nothing; after that it counts.
-  const double overdue = std::max(0.0, silence - span / intervals);
+  const double overdue = std::max(0.0, gap - span / intervals);
   return span + overdue > 0.0 ? intervals / (span + overdue) : 0.0;
 }
 

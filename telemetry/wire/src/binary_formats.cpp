@@ -76,7 +76,7 @@ bool readBinary(const Profile& profile, std::string_view bytes, DecodedText& out
         field.as == WireType::Text ? field.length : profile_names::bytesOf(field.as));
     if (bytes.size() < at + length && !field.optional) out.errors.add(TextError::Truncated);
     if (field.as == WireType::Text) {
-      if (at < bytes.size()) setWord(field, i, textAt(bytes, at, length), out);
+      if (at < bytes.size()) setText(field, i, textAt(bytes, at, length), out);
       continue;
     }
     auto value = numberAt(bytes, at, field.as);
@@ -176,8 +176,8 @@ bool readCitBrains(std::string_view bytes, FieldSink& sink) {
   sink.number("fps", byte(32));
   sink.number("voltage", byte(33));
   sink.number("temperature", byte(34));
-  sink.word("role", textAt(bytes, 36, 42));
-  sink.word("text", textAt(bytes, 78, 32));
+  sink.addText("role", textAt(bytes, 36, 42));
+  sink.addText("text", textAt(bytes, 78, 32));
   return true;
 }
 

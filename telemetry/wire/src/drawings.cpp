@@ -18,7 +18,7 @@ constexpr std::string_view magic = "PBD1 ";
 constexpr std::string_view blanks = " \t\r";
 
 struct ShapeName {
-  std::string_view word;
+  std::string_view token;
   ShapeKind kind;
   std::string_view needs;
 };
@@ -34,7 +34,7 @@ constexpr std::array<ShapeName, 8> shapeNames{{
 }};
 
 struct ColourName {
-  std::string_view word;
+  std::string_view token;
   std::uint32_t value;
 };
 constexpr std::array<ColourName, 14> colourNames{{{"white", 0xffffffff},
@@ -52,19 +52,19 @@ constexpr std::array<ColourName, 14> colourNames{{{"white", 0xffffffff},
                                                   {"pink", 0xffff9ec7},
                                                   {"brown", 0xffa9754f}}};
 
-constexpr std::array<std::string_view, 3> frameWords{"field", "robot", "belief"};
+constexpr std::array<std::string_view, 3> frameNames{"field", "robot", "belief"};
 
-/// The words of one line.
-class LineWords {
+/// The tokens of one line.
+class LineTokens {
  public:
-  explicit LineWords(std::string_view line) : m_rest(line) {}
+  explicit LineTokens(std::string_view line) : m_rest(line) {}
   /// Empty at the end.
   std::string_view next() {
     skip();
     const std::size_t end = std::min(m_rest.find_first_of(blanks), m_rest.size());
-    const std::string_view word = m_rest.substr(0, end);
+    const std::string_view token = m_rest.substr(0, end);
     m_rest.remove_prefix(end);
-    return word;
+    return token;
   }
   /// What is left, without blanks round it.
   std::string_view rest() {
@@ -78,36 +78,37 @@ class LineWords {
   std::string_view m_rest;
 };
 
-std::optional<double> number(std::string_view word, double most) {
-  if (word.starts_with('+')) word.remove_prefix(1);
+std::optional<double> number(std::string_view token, double most) {
+  if (token.starts_with('+')) token.remove_prefix(1);
   double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size() || !(std::abs(value) <= most)) {
+  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+  if (error != std::errc{} || end != token.data() + token.size() || !(std::abs(value) <= most)) {
     return std::nullopt;
   }
   return value;
 }
 
-std::optional<int> whole(std::string_view word, int most) {
+std::optional<int> whole(std::string_view token, int most) {
   int value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size() || value < 1 || value > most) {
+  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+  if (error != std::errc{} || end != token.data() + token.size() || value < 1 || value > most) {
     return std::nullopt;
   }
   return value;
 }
 
-std::optional<std::uint32_t> hexColour(std::string_view word) {
-  if (!word.starts_with('#') || (word.size() != 7 && word.size() != 9)) return std::nullopt;
+std::optional<std::uint32_t> hexColour(std::string_view token) {
+  if (!token.starts_with('#') || (token.size() != 7 && token.size() != 9)) return std::nullopt;
   std::uint32_t value = 0;
-  const auto [end, error] = std::from_chars(word.data() + 1, word.data() + word.size(), value, 16);
-  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  const auto [end, error] =
+      std::from_chars(token.data() + 1, token.data() + token.size(), value, 16);
+  if (error != std::errc{} || end != token.data() + token.size()) return std::nullopt;
   // Written #rrggbbaa, kept 0xAARRGGBB.
-  return word.size() == 7 ? 0xff000000U | value : (value >> 8U) | (value << 24U);
+  return token.size() == 7 ? 0xff000000U | value : (value >> 8U) | (value << 24U);
 }
 
-std::string shownWord(std::string_view word) {
-  return "\"" + printable(word, 40) + "\"";
+std::string quotedToken(std::string_view token) {
+  return "\"" + printable(token, 40) + "\"";
 }
 
 class DrawingReader {
@@ -117,9 +118,9 @@ class DrawingReader {
   Result<Drawing> read() {
     std::string_view line;
     nextLine(line);
-    if (auto good = readHead(line); !good) return told(good.error());
+    if (auto good = readHead(line); !good) return atLine(good.error());
     while (nextLine(line)) {
-      if (auto good = readLine(line); !good) return told(good.error());
+      if (auto good = readLine(line); !good) return atLine(good.error());
     }
     return std::move(m_drawing);
   }
@@ -128,7 +129,7 @@ class DrawingReader {
   static tl::unexpected<Error> refuse(std::string sentence) {
     return failure(ErrorCode::ParseError, std::move(sentence));
   }
-  tl::unexpected<Error> told(Error error) const {
+  tl::unexpected<Error> atLine(Error error) const {
     error.context = "drawing, line " + std::to_string(m_line);
     return tl::unexpected(std::move(error));
   }
@@ -145,64 +146,64 @@ class DrawingReader {
     if (!line.starts_with(magic)) {
       return refuse("a drawing begins with PBD1 and the robot's number, for example \"PBD1 3\"");
     }
-    LineWords words(line.substr(magic.size()));
-    const auto robot = whole(words.next(), TextDecoder::maxRobot);
+    LineTokens tokens(line.substr(magic.size()));
+    const auto robot = whole(tokens.next(), TextDecoder::maxRobot);
     if (!robot) {
       return refuse("PBD1 must be followed by the robot's number, from 1 to " +
                     std::to_string(TextDecoder::maxRobot));
     }
     m_drawing.robot = *robot;
-    const std::string_view team = words.next();
+    const std::string_view team = tokens.next();
     if (team.empty()) return {};
     constexpr int highestTeam = 65535;
     m_drawing.team = whole(team, highestTeam);
-    if (!m_drawing.team || !words.rest().empty()) {
+    if (!m_drawing.team || !tokens.rest().empty()) {
       return refuse("only the team's number may follow the robot's number");
     }
     return {};
   }
 
   Result<void> readLine(std::string_view line) {
-    LineWords words(line);
-    const std::string_view word = words.next();
-    if (word.empty()) return {};
-    if (word == "layer" || word == "more") return readLayer(words, word == "more");
-    if (word == "colour" || word == "color") return readColour(words);
-    if (word == "width") return readWidth(words);
-    const auto shape = std::ranges::find(shapeNames, word, &ShapeName::word);
+    LineTokens tokens(line);
+    const std::string_view token = tokens.next();
+    if (token.empty()) return {};
+    if (token == "layer" || token == "more") return readLayer(tokens, token == "more");
+    if (token == "colour" || token == "color") return readColour(tokens);
+    if (token == "width") return readWidth(tokens);
+    const auto shape = std::ranges::find(shapeNames, token, &ShapeName::token);
     if (shape == shapeNames.end()) {
-      return refuse(shownWord(word) +
+      return refuse(quotedToken(token) +
                     " is not one of layer, more, colour, width, line, arrow, circle, disc, "
                     "polygon, area, point, text");
     }
     if (m_drawing.layers.empty()) {
       return refuse("there is no layer yet: begin with \"layer NAME\"");
     }
-    return readShape(*shape, words);
+    return readShape(*shape, tokens);
   }
 
-  Result<void> readLayer(LineWords& words, bool adds) {
+  Result<void> readLayer(LineTokens& tokens, bool adds) {
     if (m_drawing.layers.size() == Limits::layers) {
       return refuse("a datagram has at most " + std::to_string(Limits::layers) + " layers");
     }
     DrawingLayer layer;
     layer.adds = adds;
-    const std::string_view name = words.next();
+    const std::string_view name = tokens.next();
     if (name.empty() || name.size() > Limits::nameBytes || printable(name, name.size()) != name) {
       return refuse("a layer's name must be one word of 1 to " + std::to_string(Limits::nameBytes) +
                     " printable characters, for example \"decision/target\"");
     }
     layer.name = name;
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-      const auto frame = std::ranges::find(frameWords, word);
-      if (frame != frameWords.end()) {
-        layer.frame = static_cast<DrawingFrame>(frame - frameWords.begin());
+    for (std::string_view token = tokens.next(); !token.empty(); token = tokens.next()) {
+      const auto frame = std::ranges::find(frameNames, token);
+      if (frame != frameNames.end()) {
+        layer.frame = static_cast<DrawingFrame>(frame - frameNames.begin());
         continue;
       }
-      const auto life = number(word, Limits::longestLife);
+      const auto life = number(token, Limits::longestLife);
       if (!life || *life <= 0.0) {
         return refuse(
-            shownWord(word) +
+            quotedToken(token) +
             " must be field, robot or belief, or the lifetime of the layer, up to 10 seconds");
       }
       layer.life = *life;
@@ -213,34 +214,34 @@ class DrawingReader {
     return {};
   }
 
-  Result<void> readColour(LineWords& words) {
-    const std::string_view word = words.next();
-    const auto known = std::ranges::find(colourNames, word, &ColourName::word);
-    if (word == "team") {
+  Result<void> readColour(LineTokens& tokens) {
+    const std::string_view token = tokens.next();
+    const auto known = std::ranges::find(colourNames, token, &ColourName::token);
+    if (token == "team") {
       m_colour.reset();
     } else if (known != colourNames.end()) {
       m_colour = known->value;
-    } else if (const auto hex = hexColour(word)) {
+    } else if (const auto hex = hexColour(token)) {
       m_colour = hex;
     } else {
-      return refuse(shownWord(word) +
+      return refuse(quotedToken(token) +
                     " is not a colour: use team, white, black, grey, red, orange, yellow, green, "
                     "cyan, blue, violet, magenta, pink, brown, #rrggbb or #rrggbbaa");
     }
     return {};
   }
 
-  Result<void> readWidth(LineWords& words) {
-    const auto width = number(words.next(), Limits::widest);
+  Result<void> readWidth(LineTokens& tokens) {
+    const auto width = number(tokens.next(), Limits::widest);
     if (!width || *width < 0.5) return refuse("the width must be 0.5 to 20 pixels");
     m_width = *width;
     return {};
   }
 
-  Result<void> readShape(const ShapeName& what, LineWords& words) {
+  Result<void> readShape(const ShapeName& what, LineTokens& tokens) {
     DrawingLayer& layer = m_drawing.layers.back();
     const auto wrong = [&what] {
-      return refuse(std::string(what.word) + " needs " + std::string(what.needs) +
+      return refuse(std::string(what.token) + " needs " + std::string(what.needs) +
                     " in metres, none beyond 1000");
     };
     DrawingShape shape;
@@ -250,7 +251,7 @@ class DrawingReader {
     const bool many = what.kind == ShapeKind::Line || what.kind == ShapeKind::Arrow ||
                       what.kind == ShapeKind::Polygon || what.kind == ShapeKind::Area;
     do {
-      const std::string_view x = words.next(), y = words.next();
+      const std::string_view x = tokens.next(), y = tokens.next();
       if (x.empty() && shape.points.size() > 1) break;
       const auto px = number(x, Limits::farthest), py = number(y, Limits::farthest);
       if (!px || !py) return wrong();
@@ -259,25 +260,25 @@ class DrawingReader {
     const bool closed = what.kind == ShapeKind::Polygon || what.kind == ShapeKind::Area;
     if (closed && shape.points.size() < 3) return wrong();
     if (what.kind == ShapeKind::Circle || what.kind == ShapeKind::Disc) {
-      const auto radius = number(words.next(), Limits::farthest);
+      const auto radius = number(tokens.next(), Limits::farthest);
       if (!radius || *radius < 0.0) return wrong();
       shape.radius = *radius;
     }
     if (what.kind == ShapeKind::Text) {
-      const std::string_view text = words.rest();
+      const std::string_view text = tokens.rest();
       if (text.empty()) return wrong();
       if (text.size() > Limits::textBytes || printable(text, text.size()) != text) {
         return refuse("a text is printable UTF-8 of at most " + std::to_string(Limits::textBytes) +
                       " bytes");
       }
       shape.text = text;
-    } else if (!many && !words.rest().empty()) {
+    } else if (!many && !tokens.rest().empty()) {
       return wrong();
     }
     if (layer.shapes.size() == Limits::shapes ||
         m_points + shape.points.size() > Limits::robotPoints ||
         layer.points() + shape.points.size() > Limits::points) {
-      return refuse("layer " + shownWord(layer.name) + " has more than " +
+      return refuse("layer " + quotedToken(layer.name) + " has more than " +
                     std::to_string(Limits::shapes) + " shapes or " +
                     std::to_string(Limits::points) + " points; draw less, or on several layers");
     }
@@ -330,7 +331,7 @@ std::string drawingText(const Drawing& drawing) {
     out += layer.adds ? "\nmore " : "\nlayer ";
     out += layer.name;
     out += ' ';
-    out += frameWords[static_cast<std::size_t>(layer.frame)];
+    out += frameNames[static_cast<std::size_t>(layer.frame)];
     append(out, layer.life);
     DrawingShape before;
     for (const DrawingShape& shape : layer.shapes) {
@@ -342,7 +343,7 @@ std::string drawingText(const Drawing& drawing) {
       before.colour = shape.colour;
       before.width = shape.width;
       out += '\n';
-      out += shapeNames[static_cast<std::size_t>(shape.kind)].word;
+      out += shapeNames[static_cast<std::size_t>(shape.kind)].token;
       for (const Point& point : shape.points) {
         append(out, point.x);
         append(out, point.y);

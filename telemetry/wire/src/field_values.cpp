@@ -10,18 +10,18 @@
 namespace pitchboard::telemetry {
 namespace {
 
-// So that `made` never grows: words point into it.
+// So that `made` never grows: texts point into it.
 constexpr std::size_t madeBytes = 16 * 1024;
-constexpr std::size_t longestWord = ErrorTally::sampleBytes;
+constexpr std::size_t longestText = ErrorTally::sampleBytes;
 
-ReadNumber readInt(std::string_view word) {
+ReadNumber readInt(std::string_view token) {
   std::int32_t value = 0;
-  const char* end = word.data() + word.size();
-  const auto [stop, code] = std::from_chars(word.data(), end, value);
+  const char* end = token.data() + token.size();
+  const auto [stop, code] = std::from_chars(token.data(), end, value);
   if (code == std::errc{} && stop == end) return {static_cast<double>(value), {}};
   if (code == std::errc::result_out_of_range && stop == end) return {missing, TextError::TooLarge};
   // A whole number may be written as 258.0 where a team computes it as a float.
-  ReadNumber number = readFloat(word);
+  ReadNumber number = readFloat(token);
   if (number.error) return number;
   if (number.value != std::floor(number.value)) return {missing, TextError::NotANumber};
   if (std::abs(number.value) > std::numeric_limits<std::int32_t>::max()) {
@@ -31,25 +31,25 @@ ReadNumber readInt(std::string_view word) {
 }
 
 /// A counter of 32 bits may be written without a sign.
-ReadNumber readCounter(std::string_view word) {
+ReadNumber readCounter(std::string_view token) {
   std::uint32_t value = 0;
-  const char* end = word.data() + word.size();
-  const auto [stop, code] = std::from_chars(word.data(), end, value);
+  const char* end = token.data() + token.size();
+  const auto [stop, code] = std::from_chars(token.data(), end, value);
   if (code == std::errc{} && stop == end) return {static_cast<double>(value), {}};
-  return readInt(word);
+  return readInt(token);
 }
 
-ReadNumber readFlag(std::string_view word) {
-  if (word.size() == 1 && (word[0] == '0' || word[0] == '1')) return {word[0] - '0' + 0.0, {}};
-  const ReadNumber number = readInt(word);
+ReadNumber readFlag(std::string_view token) {
+  if (token.size() == 1 && (token[0] == '0' || token[0] == '1')) return {token[0] - '0' + 0.0, {}};
+  const ReadNumber number = readInt(token);
   if (number.error || number.value == 0.0 || number.value == 1.0) return number;
   return {missing, TextError::BadFlag};
 }
 
-/// The code whose word this is.
-ReadNumber readLabel(const ProfileField& field, std::string_view word) {
+/// Returns the code with this label.
+ReadNumber readLabel(const ProfileField& field, std::string_view token) {
   for (const auto& [code, label] : field.labels) {
-    if (label == word) return {static_cast<double>(code), {}};
+    if (label == token) return {static_cast<double>(code), {}};
   }
   return {missing, {}};
 }
@@ -78,19 +78,19 @@ void put(const ProfileField& field, std::size_t index, double value, DecodedText
 void clearFields(std::size_t count, DecodedText& out) {
   out.count = count;
   out.values.fill(missing);
-  out.words.fill({});
+  out.texts.fill({});
   out.made.clear();
   out.made.reserve(madeBytes);
 }
 
-ReadNumber readFloat(std::string_view word) {
+ReadNumber readFloat(std::string_view token) {
   double value = 0.0;
-  const char* end = word.data() + word.size();
-  const auto [stop, code] = std::from_chars(word.data(), end, value);
+  const char* end = token.data() + token.size();
+  const auto [stop, code] = std::from_chars(token.data(), end, value);
   if (code == std::errc::invalid_argument || stop != end) return {missing, TextError::NotANumber};
   if (code == std::errc::result_out_of_range) {
     // Too small is as good as zero, too large is not a value of a robot.
-    const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
+    const bool tiny = token.find("e-") != token.npos || token.find("E-") != token.npos;
     return tiny ? ReadNumber{0.0, {}} : ReadNumber{missing, TextError::TooLarge};
   }
   if (!std::isfinite(value)) return {missing, TextError::NotFinite};
@@ -100,32 +100,32 @@ ReadNumber readFloat(std::string_view word) {
   return {value, {}};
 }
 
-ReadNumber readNumber(const ProfileField& field, std::string_view word) {
-  if (field.meaning == FieldMeaning::Sequence) return readCounter(word);
+ReadNumber readNumber(const ProfileField& field, std::string_view token) {
+  if (field.meaning == FieldMeaning::Sequence) return readCounter(token);
   switch (field.type) {
     case FieldType::Int:
-      return readInt(word);
+      return readInt(token);
     case FieldType::Float:
-      return readFloat(word);
+      return readFloat(token);
     case FieldType::Flag:
-      return readFlag(word);
+      return readFlag(token);
     case FieldType::Text:
-      return readLabel(field, word);
+      return readLabel(field, token);
   }
   return {missing, TextError::NotANumber};
 }
 
-void setWord(const ProfileField& field, std::size_t index, std::string_view word,
+void setText(const ProfileField& field, std::size_t index, std::string_view token,
              DecodedText& out) {
-  out.words[index] = word;
-  const ReadNumber number = readNumber(field, word);
+  out.texts[index] = token;
+  const ReadNumber number = readNumber(field, token);
   out.values[index] = missing;
   if (number.error) return addError(*number.error, index, out);
   put(field, index, number.value, out);
 }
 
 void setNumber(const ProfileField& field, std::size_t index, double value, DecodedText& out) {
-  out.words[index] = wordOf(value, out);
+  out.texts[index] = numberText(value, out);
   out.values[index] = missing;
   if (!std::isfinite(value)) return addError(TextError::NotFinite, index, out);
   const bool counter = field.meaning == FieldMeaning::Sequence;
@@ -149,7 +149,7 @@ void setNumber(const ProfileField& field, std::size_t index, double value, Decod
   put(field, index, value, out);
 }
 
-std::string_view wordOf(double value, DecodedText& out) {
+std::string_view numberText(double value, DecodedText& out) {
   char text[40];
   // The shortest text of a float that was widened is that of the float.
   const auto narrow = static_cast<float>(std::clamp(value, -3e38, 3e38));
@@ -160,7 +160,7 @@ std::string_view wordOf(double value, DecodedText& out) {
 }
 
 std::string_view keep(std::string_view text, DecodedText& out) {
-  text = text.substr(0, longestWord);
+  text = text.substr(0, longestText);
   if (out.made.size() + text.size() > out.made.capacity()) return {};
   const std::size_t begin = out.made.size();
   out.made += text;

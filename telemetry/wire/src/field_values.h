@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One value of a message at its place: read as its field's type, scaled, its word kept. Private to
+// One value of a message at its place: read as its field's type, scaled, its text kept. Private to
 // wire. Any thread, with a DecodedText of its own.
 
 #include <cstddef>
@@ -20,11 +20,13 @@ inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 void clearFields(std::size_t count, DecodedText& out);
 
 /// A value that was sent as text.
-void setWord(const ProfileField& field, std::size_t index, std::string_view word, DecodedText& out);
+void setText(const ProfileField& field, std::size_t index, std::string_view token,
+             DecodedText& out);
 /// A value that was sent as a number.
 void setNumber(const ProfileField& field, std::size_t index, double value, DecodedText& out);
-/// The word of a number that the message does not have as text; "" when there is no more room.
-std::string_view wordOf(double value, DecodedText& out);
+/// Returns the text of a number that the message does not have as text; "" if there is no more
+/// room.
+std::string_view numberText(double value, DecodedText& out);
 /// A text that ends with the call is kept.
 std::string_view keep(std::string_view text, DecodedText& out);
 
@@ -33,8 +35,8 @@ struct ReadNumber {
   double value;
   std::optional<TextError> error;
 };
-ReadNumber readNumber(const ProfileField& field, std::string_view word);
-ReadNumber readFloat(std::string_view word);
+ReadNumber readNumber(const ProfileField& field, std::string_view token);
+ReadNumber readFloat(std::string_view token);
 
 constexpr bool isSpace(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n';

@@ -10,8 +10,8 @@ namespace {
 
 struct Code {
   int code;
-  std::string_view name;   ///< as the controllers' sources call it
-  std::string_view words;  ///< for the screen
+  std::string_view name;  ///< as the controllers' sources call it
+  std::string_view text;  ///< for the screen
 };
 
 constexpr Code hl2013[] = {{0, "NONE", ""},
@@ -180,7 +180,7 @@ std::string_view penaltyName(const RefereeState& state, int penalty) {
 std::string_view penaltyLabel(const RefereeState& state, const RefereePlayer& player) {
   if (player.penalty != 0 && player.red.value_or(0) > 0) return "sent off";
   const Code* code = find(codesOf(state), player.penalty);
-  return code == nullptr ? "unknown penalty" : code->words;
+  return code == nullptr ? "unknown penalty" : code->text;
 }
 
 bool isSubstitute(const RefereeState& state, const RefereePlayer& player) {

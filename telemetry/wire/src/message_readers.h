@@ -37,10 +37,10 @@ class FieldSink {
         m_keepsExtras(format == MessageFormat::KeyValue || format == MessageFormat::Json ||
                       format == MessageFormat::Lua || format == MessageFormat::Mitecom) {}
   void number(std::string_view key, double value);
-  /// A word that stands in the datagram.
-  void word(std::string_view key, std::string_view text);
-  /// A word that ends with the call.
-  void passingWord(std::string_view key, std::string_view text);
+  /// Adds a text that lies in the datagram.
+  void addText(std::string_view key, std::string_view text);
+  /// Adds a text that is valid only during the call.
+  void addTemporaryText(std::string_view key, std::string_view text);
 
  private:
   bool extra(std::string_view key, std::size_t& index);

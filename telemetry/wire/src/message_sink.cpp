@@ -55,24 +55,24 @@ void FieldSink::number(std::string_view key, double value) {
   if (const ProfileField* field = m_map->find(key, index)) {
     setNumber(*field, index, value, *m_out);
   } else if (extra(key, index)) {
-    m_out->words[index] = wordOf(value, *m_out);
+    m_out->texts[index] = numberText(value, *m_out);
     m_out->values[index] = value;
   }
 }
 
-void FieldSink::word(std::string_view key, std::string_view text) {
+void FieldSink::addText(std::string_view key, std::string_view text) {
   std::size_t index = 0;
   if (const ProfileField* field = m_map->find(key, index)) {
-    setWord(*field, index, text, *m_out);
+    setText(*field, index, text, *m_out);
   } else if (extra(key, index)) {
-    // It may be anything until the team gives it a type: text is kept as a word.
-    m_out->words[index] = text;
+    // It may be anything until the team gives it a type: it is kept as text.
+    m_out->texts[index] = text;
     m_out->values[index] = readFloat(text).value;
   }
 }
 
-void FieldSink::passingWord(std::string_view key, std::string_view text) {
-  word(key, keep(text, *m_out));
+void FieldSink::addTemporaryText(std::string_view key, std::string_view text) {
+  addText(key, keep(text, *m_out));
 }
 
 }  // namespace pitchboard::telemetry

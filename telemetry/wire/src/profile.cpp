@@ -23,7 +23,7 @@ bool isPath(std::string_view text) {
 }  // namespace
 
 std::string_view meaningName(FieldMeaning meaning) {
-  return info(meaning).word;
+  return info(meaning).profileKey;
 }
 
 std::string_view formatName(MessageFormat format) {

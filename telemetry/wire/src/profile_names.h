@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The words of profile files, in the order of the enumerations of profile.h. Private to wire. Any
+// The names in profile files, in the order of the enumerations of profile.h. Private to wire. Any
 // thread.
 
 #include <array>
@@ -12,9 +12,9 @@
 namespace pitchboard::telemetry::profile_names {
 
 inline constexpr auto meaningNames = [] {
-  std::array<std::string_view, fieldMeaningCount> words;
-  for (std::size_t i = 0; i < words.size(); ++i) words[i] = meaningTable[i].word;
-  return words;
+  std::array<std::string_view, fieldMeaningCount> keys;
+  for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = meaningTable[i].profileKey;
+  return keys;
 }();
 inline constexpr std::array<std::string_view, 4> types{"int", "float", "flag", "text"};
 inline constexpr std::array<std::string_view, messageFormatCount> formats{

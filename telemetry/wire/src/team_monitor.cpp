@@ -165,18 +165,18 @@ void TeamMonitor::giveBack(Robot& robot, const Sender& sender, WallTime time) {
   other->highestVolts = moved.highestVolts;
   other->decoder = moved.decoder;
   other->values = moved.values;
-  other->words = moved.words;
+  other->texts = moved.texts;
   other->extras = moved.extras;
 }
 
 /// What was decoded last says what this robot said, its counter apart.
-bool TeamMonitor::saysTheSame(const Robot& robot) const {
-  if (!robot.decoder || robot.words.size() != m_decoded.count) return false;
+bool TeamMonitor::sendsTheSame(const Robot& robot) const {
+  if (!robot.decoder || robot.texts.size() != m_decoded.count) return false;
   if (!(robot.decoder->profile() == m_decoder->profile())) return false;
   const auto counter = m_decoder->profile().indexOf(FieldMeaning::Sequence);
   for (std::size_t i = 0; i < m_decoded.count; ++i) {
     if (i == counter) continue;
-    if (robot.words[i] != m_decoded.words[i].substr(0, ErrorTally::sampleBytes)) return false;
+    if (robot.texts[i] != m_decoded.texts[i].substr(0, ErrorTally::sampleBytes)) return false;
   }
   return true;
 }
@@ -225,7 +225,7 @@ TeamMonitor::Robot* TeamMonitor::findRobot(int team, int number, const Sender& s
     same->moved = true;
     return same;
   }
-  if (first != nullptr && saysTheSame(*first)) {
+  if (first != nullptr && sendsTheSame(*first)) {
     std::erase_if(first->others, [&](const Robot::Other& other) {
       return other.sender == sender || since(time, other.last) >= m_options.timeout;
     });
@@ -389,10 +389,10 @@ void TeamMonitor::use(Robot& robot, const DatagramView& datagram) {
   robot.decoder = m_decoder;
   robot.values.assign(m_decoded.values.begin(),
                       m_decoded.values.begin() + static_cast<std::ptrdiff_t>(m_decoded.count));
-  robot.words.resize(m_decoded.count);
+  robot.texts.resize(m_decoded.count);
   for (std::size_t i = 0; i < m_decoded.count; ++i) {
     // A field of a sane message has few characters; a hostile one keeps its memory bounded.
-    robot.words[i].assign(m_decoded.words[i].substr(0, ErrorTally::sampleBytes));
+    robot.texts[i].assign(m_decoded.texts[i].substr(0, ErrorTally::sampleBytes));
   }
   const auto keys = m_decoded.extraKeys.begin();
   robot.extras.assign(keys, keys + static_cast<std::ptrdiff_t>(m_decoded.namedExtras));
@@ -438,7 +438,7 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
   }
   status.decoder = robot.decoder;
   status.values = robot.values;
-  status.words = robot.words;
+  status.texts = robot.texts;
   status.extras = robot.extras;
   return status;
 }

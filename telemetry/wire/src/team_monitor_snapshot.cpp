@@ -20,7 +20,7 @@ using lenient::member;
 using lenient::number;
 using lenient::whole;
 
-constexpr std::size_t mostWords = DecodedText::maxValues;
+constexpr std::size_t mostTexts = DecodedText::maxValues;
 
 std::int64_t fromZero(WallTime time, WallTime zero) {
   return (time - zero).count();
@@ -147,7 +147,7 @@ struct MonitorSnapshot {
     }
     // NaN becomes null.
     json["values"] = robot.values;
-    json["words"] = robot.words;
+    json["words"] = robot.texts;
     if (!robot.extras.empty()) json["extras"] = robot.extras;
     // It may have said nothing since the profile was changed.
     if (robot.decoder && !(robot.decoder->profile() == usual.of(robot.key.team))) {
@@ -167,7 +167,7 @@ struct MonitorSnapshot {
     robot.bytes = whole<std::uint64_t>(json, "bytes");
     robot.recoveries = whole<std::uint64_t>(json, "recoveries");
     robot.duplicates = whole<std::uint64_t>(json, "duplicates");
-    each(json, "others", mostWords, [&](std::size_t, const MonitorJson& other) {
+    each(json, "others", mostTexts, [&](std::size_t, const MonitorJson& other) {
       if (!other.is_object()) return;
       robot.others.push_back({senderFrom(other), timeAt(other, "last", zero)});
     });
@@ -176,7 +176,7 @@ struct MonitorSnapshot {
     robot.charge = number(json, "charge");
     robot.lastHash = whole<std::size_t>(json, "hash");
     robot.lastHashTime = timeAt(json, "hashTime", zero);
-    each(json, "arrivals", mostWords, [&](std::size_t, const MonitorJson& time) {
+    each(json, "arrivals", mostTexts, [&](std::size_t, const MonitorJson& time) {
       if (time.is_number_integer()) robot.arrivals.add(timeOf(time.get<std::int64_t>(), zero));
     });
     robot.sequence = sequenceFrom(member(json, "sequence"));
@@ -194,13 +194,13 @@ struct MonitorSnapshot {
       robot.processes[i] = {ProcessFilter(number(process, "p").value_or(0.5)),
                             lenient::flag(process, "known"), timeAt(process, "since", zero)};
     });
-    each(json, "values", mostWords, [&](std::size_t, const MonitorJson& value) {
+    each(json, "values", mostTexts, [&](std::size_t, const MonitorJson& value) {
       robot.values.push_back(value.is_number() ? value.get<double>()
                                                : std::numeric_limits<double>::quiet_NaN());
     });
-    each(json, "words", mostWords, [&](std::size_t, const MonitorJson& word) {
-      robot.words.push_back(word.is_string()
-                                ? word.get<std::string>().substr(0, ErrorTally::sampleBytes)
+    each(json, "words", mostTexts, [&](std::size_t, const MonitorJson& entry) {
+      robot.texts.push_back(entry.is_string()
+                                ? entry.get<std::string>().substr(0, ErrorTally::sampleBytes)
                                 : std::string());
     });
     each(json, "extras", DecodedText::maxExtras, [&](std::size_t, const MonitorJson& key) {

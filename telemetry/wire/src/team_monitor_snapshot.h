@@ -42,7 +42,7 @@ struct TeamMonitor::Robot {
   WallTime lastHashTime{};
   std::shared_ptr<const TextDecoder> decoder;
   std::vector<double> values;
-  std::vector<std::string> words;
+  std::vector<std::string> texts;
   std::vector<std::string> extras;
 };
 

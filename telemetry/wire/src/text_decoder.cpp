@@ -14,25 +14,25 @@ namespace pitchboard::telemetry {
 namespace {
 
 /// Splits the text at white space, or at another character, while it looks at every byte once.
-class SplitWords {
+class TokenSplitter {
  public:
-  SplitWords(std::string_view text, char separator)
+  TokenSplitter(std::string_view text, char separator)
       : m_at(text.data()), m_end(text.data() + text.size()), m_separator(separator) {}
 
-  /// The next word; false at the end of the text. Between two semicolons a word may be empty.
-  bool next(std::string_view& word) {
+  /// Returns the next token; false at the end of the text. Between two semicolons it may be empty.
+  bool next(std::string_view& token) {
     while (m_at != m_end && isSpace(*m_at)) ++m_at;
     if (m_at == m_end) return false;
     const char* begin = m_at;
     if (m_separator == ' ') {
       while (m_at != m_end && !isSpace(*m_at)) ++m_at;
-      word = {begin, static_cast<std::size_t>(m_at - begin)};
+      token = {begin, static_cast<std::size_t>(m_at - begin)};
       return true;
     }
     while (m_at != m_end && *m_at != m_separator) ++m_at;
     const char* end = m_at;
     while (end != begin && isSpace(*(end - 1))) --end;
-    word = {begin, static_cast<std::size_t>(end - begin)};
+    token = {begin, static_cast<std::size_t>(end - begin)};
     if (m_at != m_end) ++m_at;
     return true;
   }
@@ -113,25 +113,25 @@ void TextDecoder::decodeWords(std::string_view datagram, DecodedText& out) const
   const std::size_t shown = profile().fields.size();
   const std::string_view end = sent.end;
   out.made.clear();
-  SplitWords words(datagram, sent.separator);
-  std::string_view word;
+  TokenSplitter tokens(datagram, sent.separator);
+  std::string_view token;
   std::size_t read = 0;
   bool more = false, ended = false;
-  while ((more = words.next(word))) {
-    ended = !end.empty() && word == end;
+  while ((more = tokens.next(token))) {
+    ended = !end.empty() && token == end;
     if (ended) break;
     const std::size_t index = read < fields ? read : read + shown - fields;
     if (index >= DecodedText::maxValues) {
       out.errors.add(TextError::TooManyFields);
-      while (!ended && words.next(word)) ended = !end.empty() && word == end;
+      while (!ended && tokens.next(token)) ended = !end.empty() && token == end;
       break;
     }
     if (read < fields) {
-      setWord(sent.fields[read], index, word, out);
+      setText(sent.fields[read], index, token, out);
     } else {
-      // It may be anything until the team gives it a type: text is kept as a word.
-      out.words[index] = word;
-      out.values[index] = readFloat(word).value;
+      // It may be anything until the team gives it a type: it is kept as text.
+      out.texts[index] = token;
+      out.values[index] = readFloat(token).value;
     }
     ++read;
   }
@@ -146,7 +146,7 @@ void TextDecoder::decodeWords(std::string_view datagram, DecodedText& out) const
   if (end.empty()) return;
   if (!ended) {
     out.errors.add(TextError::MissingEnd);
-  } else if (words.next(word)) {
+  } else if (tokens.next(token)) {
     out.errors.add(TextError::TrailingText);
   }
 }
@@ -207,11 +207,11 @@ void TextDecoder::publish(DecodedText& out) const {
   const std::size_t shown = profile().fields.size();
   for (std::size_t i = fields; i < shown; ++i) {
     out.values[i] = std::numeric_limits<double>::quiet_NaN();
-    out.words[i] = {};
+    out.texts[i] = {};
   }
   for (const std::size_t index : m_plan->published.convert(out.values)) {
-    out.words[index] =
-        std::isnan(out.values[index]) ? std::string_view() : wordOf(out.values[index], out);
+    out.texts[index] =
+        std::isnan(out.values[index]) ? std::string_view() : numberText(out.values[index], out);
   }
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 struct Text {
   std::string_view name;
-  std::string_view words;
+  std::string_view text;
 };
 
 constexpr std::array<Text, textErrorCount> texts{{
@@ -36,7 +36,7 @@ std::string_view errorName(TextError error) {
   return texts[static_cast<std::size_t>(error)].name;
 }
 std::string_view errorText(TextError error) {
-  return texts[static_cast<std::size_t>(error)].words;
+  return texts[static_cast<std::size_t>(error)].text;
 }
 
 void ErrorTally::add(TextErrors errors, std::string_view datagram) {

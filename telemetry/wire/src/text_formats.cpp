@@ -78,7 +78,7 @@ class JsonEvents : public nlohmann::json_sax<nlohmann::json> {
   }
   bool number_float(number_float_t value, const string_t&) override { return number(value); }
   bool string(string_t& value) override {
-    m_sink->passingWord(m_path.text(), value);
+    m_sink->addTemporaryText(m_path.text(), value);
     return done();
   }
   bool binary(binary_t&) override { return false; }
@@ -180,14 +180,14 @@ class LuaReader {
     std::string_view text;
     if (c == '"' || c == '\'') {
       if (!quoted(text)) return false;
-      m_sink->word(m_path.text(), text);
+      m_sink->addText(m_path.text(), text);
     } else {
       text = bare();
       if (text.empty()) return false;
       if (text == "true" || text == "false") {
         m_sink->number(m_path.text(), text == "true" ? 1.0 : 0.0);
       } else if (text != "nil") {
-        m_sink->word(m_path.text(), text);
+        m_sink->addText(m_path.text(), text);
       }
     }
     m_path.next();
@@ -235,7 +235,7 @@ bool readKeyValue(std::string_view text, char separator, FieldSink& sink) {
     if (pair.empty()) continue;
     const std::size_t equals = pair.find('=');
     if (equals == pair.npos || equals == 0) return false;
-    sink.word(trimmed(pair.substr(0, equals)), trimmed(pair.substr(equals + 1)));
+    sink.addText(trimmed(pair.substr(0, equals)), trimmed(pair.substr(equals + 1)));
     ++pairs;
   }
   return pairs > 0;

@@ -5,7 +5,7 @@
 #ifndef BLACKBOARD_H
 #define BLACKBOARD_H
 
-#define KEY 10345678   // key of the shared memory
+#define KEY 10345678  // key of the shared memory
 #define SIZE_MEM 2048
 #define ROBOT_FILE "config.ini"
 #define SLOT(x) (*((mem) + (x)))
@@ -220,11 +220,11 @@
 #define VISION_PURPLE_LANDMARK_DEG 122
 
 //---- Global variables ---------------------------------------------
-extern int *mem;    // the ints
-extern float *memf; // the floats, 125 words on
+extern int* mem;     // the ints
+extern float* memf;  // the floats, 125 words on
 
-int *using_shared_memory(int);
-void write_int(int *, int, int);
-void write_float(int *, int, float);
+int* using_shared_memory(int);
+void write_int(int*, int, int);
+void write_float(int*, int, float);
 
 #endif

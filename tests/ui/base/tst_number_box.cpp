@@ -71,7 +71,7 @@ class TestNumberBox : public QObject {
     QCOMPARE(box.value(), 7.5);
   }
 
-  void tooMuchIsSaid_data() {
+  void tooMuchIsReported_data() {
     QTest::addColumn<QString>("typed");
     QTest::addColumn<double>("value");
     QTest::addColumn<QString>("said");
@@ -79,7 +79,7 @@ class TestNumberBox : public QObject {
     QTest::newRow("too small") << "1" << 2.0 << "2.0 cm is the smallest value.";
     QTest::newRow("within") << "7,5" << 7.5 << QString();
   }
-  void tooMuchIsSaid() {
+  void tooMuchIsReported() {
     QFETCH(QString, typed);
     QFETCH(double, value);
     QFETCH(QString, said);

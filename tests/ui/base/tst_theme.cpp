@@ -7,9 +7,9 @@
 #include <QtTest>
 #include <cmath>
 
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 #include <ui/base/quick_painting.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 
@@ -61,7 +61,7 @@ class TestTheme : public QObject {
  private slots:
   void aNumberIsNeverCut_data() {
     QTest::addColumn<QString>("text");
-    for (const char* text : {"TIMEOUT 4 min 20 s", "D silent 4 min 20 s", "−1200.00 mm",
+    for (const char* text : {"TIMEOUT 4 min 20 s", "D no response 4 min 20 s", "−1200.00 mm",
                              "penalised 45 s", "Memory holds the last 13:29 (128 MB)",
                              "goal B4 12.5 m/s", "3 of 12 sensors", "×0.12", "waiting for words"}) {
       QTest::newRow(text) << QString::fromUtf8(text);
@@ -73,7 +73,7 @@ class TestTheme : public QObject {
     const QString dots = QStringLiteral("…");
     const QStringList words = text.split(QLatin1Char(' '));
     for (double width = 0.0; width <= metrics.horizontalAdvance(text) + 1; width += 1.0) {
-      const QString shown = elidedWords(metrics, text, width);
+      const QString shown = elideText(metrics, text, width);
       const QByteArray told = (QString::number(width) + QLatin1Char(' ') + shown).toUtf8();
       QVERIFY2(shown == dots || metrics.horizontalAdvance(shown) <= width || shown.isEmpty(),
                told.constData());
@@ -83,13 +83,13 @@ class TestTheme : public QObject {
         QVERIFY2(!digits || words.contains(word), told.constData());
       }
     }
-    QCOMPARE(elidedWords(metrics, text, metrics.horizontalAdvance(text) + 1), text);
+    QCOMPARE(elideText(metrics, text, metrics.horizontalAdvance(text) + 1), text);
   }
 
   void wordsMakeRoomForNumbers() {
     const QFontMetricsF metrics(themeFont(TypeRole::Body));
     const double room = metrics.horizontalAdvance(QStringLiteral("TIM… 4 min 20 s"));
-    const QString shown = elidedWords(metrics, QStringLiteral("TIMEOUT 4 min 20 s"), room);
+    const QString shown = elideText(metrics, QStringLiteral("TIMEOUT 4 min 20 s"), room);
     QVERIFY2(shown.endsWith(QStringLiteral("… 4 min 20 s")), qPrintable(shown));
     // The painter cuts in the same way.
     const auto painted = [room](const QString& text) {
@@ -97,7 +97,7 @@ class TestTheme : public QObject {
       image.fill(Qt::white);
       QPainter painter(&image);
       painter.setFont(themeFont(TypeRole::Body));
-      drawWords(painter, QRectF(0, 0, room, 30), Qt::AlignLeft, text, Qt::ElideRight);
+      drawTextLine(painter, QRectF(0, 0, room, 30), Qt::AlignLeft, text, Qt::ElideRight);
       return image;
     };
     QVERIFY(painted(QStringLiteral("TIMEOUT 4 min 20 s")) !=
@@ -107,8 +107,8 @@ class TestTheme : public QObject {
   void wordsEndWhole() {
     const QFontMetricsF metrics(themeFont(TypeRole::Body));
     const auto shown = [&metrics](const char* room) {
-      return elidedWords(metrics, QStringLiteral("walk forward, fast"),
-                         metrics.horizontalAdvance(QString::fromUtf8(room)));
+      return elideText(metrics, QStringLiteral("walk forward, fast"),
+                       metrics.horizontalAdvance(QString::fromUtf8(room)));
     };
     QCOMPARE(shown("walk forward, f…"), QStringLiteral("walk forward…"));
     QVERIFY(shown("walk forwa…").startsWith(QStringLiteral("walk for")));
@@ -197,7 +197,7 @@ class TestTheme : public QObject {
     const QString words = QStringLiteral("12.4 V");
     for (int round = 0; round < 2; ++round) {  // the second is from what was kept
       const QRect ours =
-          ink(painted([&](QPainter& p) { drawWords(p, box, Qt::Alignment(alignment), words); }));
+          ink(painted([&](QPainter& p) { drawTextLine(p, box, Qt::Alignment(alignment), words); }));
       const QRect qts = ink(painted([&](QPainter& p) { p.drawText(box, alignment, words); }));
       QVERIFY(qts.width() > 10);
       for (const int off : {ours.left() - qts.left(), ours.right() - qts.right(),
@@ -213,7 +213,7 @@ class TestTheme : public QObject {
     const auto draw = [&](const QFont& font, Qt::TextElideMode elide) {
       return ink(painted([&](QPainter& p) {
         p.setFont(font);
-        drawWords(p, narrow, Qt::AlignLeft | Qt::AlignVCenter, words, elide);
+        drawTextLine(p, narrow, Qt::AlignLeft | Qt::AlignVCenter, words, elide);
       }));
     };
     const QFont small = themeFont(TypeRole::Small);
@@ -223,8 +223,8 @@ class TestTheme : public QObject {
     QVERIFY(draw(small, Qt::ElideRight).right() <= 70);
     // Of another font other words are kept.
     QVERIFY(draw(large, Qt::ElideRight).height() > draw(small, Qt::ElideRight).height());
-    QVERIFY(wordsWidth(large, words) > 1.3 * wordsWidth(small, words));
-    QCOMPARE(wordsWidth(small, {}), 0.0);
+    QVERIFY(textLineWidth(large, words) > 1.3 * textLineWidth(small, words));
+    QCOMPARE(textLineWidth(small, {}), 0.0);
   }
 
   void words() {
@@ -280,7 +280,7 @@ class TestTheme : public QObject {
 
   void cellsAndBoxesKeepTheirNumbers() {
     setTheme(*qApp, ThemeChoice::Dark);
-    const QString text = QStringLiteral("D silent 4 min 20 s");
+    const QString text = QStringLiteral("D no response 4 min 20 s");
     const auto drawn = [](QWidget& widget, int wide) {
       widget.ensurePolished();
       widget.resize(wide, 24);
@@ -304,7 +304,7 @@ class TestTheme : public QObject {
     // What does not fit looks like a shorter text that ends in the whole number.
     const auto endsInTheNumber = [&](const auto& picture) {
       for (double fits = wide - 1.0; fits > 0.0; fits -= 1.0) {
-        const QString shorter = elidedWords(QFontMetricsF(qApp->font()), text, fits);
+        const QString shorter = elideText(QFontMetricsF(qApp->font()), text, fits);
         if (!shorter.endsWith(QStringLiteral("4 min 20 s"))) return false;
         if (picture(text) == picture(shorter)) return true;
       }

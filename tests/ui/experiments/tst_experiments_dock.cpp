@@ -52,7 +52,7 @@ class Dock {
   }
   void press() const { QTest::mouseClick(find<QPushButton>("experimentStart"), Qt::LeftButton); }
   QString start() const { return find<QPushButton>("experimentStart")->text(); }
-  QString words() const { return find<QLabel>("experimentWords")->text(); }
+  QString message() const { return find<QLabel>("experimentMessage")->text(); }
   QAbstractItemModel* table(const char* name) const { return find<QTableView>(name)->model(); }
   ReplayController& replay() { return m_replay; }
 
@@ -72,7 +72,7 @@ class TestExperimentsDock : public QObject {
     QDir(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)).removeRecursively();
   }
   void playsAndShowsResults();
-  void errorIsSaidWhereTheFileIs();
+  void errorIsReportedWhereTheFileIs();
   void cancelKeepsWhatIsThere();
   void opensOnAForm();
   void theFormEditsTheFile();
@@ -117,14 +117,14 @@ void TestExperimentsDock::theFormEditsTheFile() {
   QTRY_COMPARE(conditions->item(1, 1)->text(), QStringLiteral("noise = none, physics = published"));
   // What cannot be played is said, and neither the form nor the file loses anything.
   type(1, 1, "noise = thunder");
-  QTRY_VERIFY2(dock.words().contains(QStringLiteral("thunder")), qPrintable(dock.words()));
+  QTRY_VERIFY2(dock.message().contains(QStringLiteral("thunder")), qPrintable(dock.message()));
   QCOMPARE(conditions->item(1, 1)->text(), QStringLiteral("noise = thunder"));
   QCOMPARE(setOf(1, "noise"), QStringLiteral("none"));
   type(1, 1, "noise");
-  QTRY_VERIFY2(dock.words().contains(QStringLiteral("key = value")), qPrintable(dock.words()));
+  QTRY_VERIFY2(dock.message().contains(QStringLiteral("key = value")), qPrintable(dock.message()));
   type(1, 1, "");
   QTRY_VERIFY(!conditionIn(1).contains(QStringLiteral("set")));
-  QVERIFY(dock.words().isEmpty());
+  QVERIFY(dock.message().isEmpty());
   QTest::mouseClick(dock.find<QPushButton>("addCondition"), Qt::LeftButton);
   QTRY_COMPARE(listed().size(), 3);
   QCOMPARE(dock.find<QLabel>("experimentAllRuns")->text(),
@@ -180,8 +180,8 @@ void TestExperimentsDock::playsAndShowsResults() {
   QTRY_COMPARE_WITH_TIMEOUT(dock.start(), QStringLiteral("Start"), 60000);
   QVERIFY(noRuns->isHidden());
   QVERIFY(dock.find<QLabel>("experimentDistributionEmpty")->isHidden());
-  QVERIFY2(dock.words().startsWith(QStringLiteral("6 runs; 2 of 4 assertions fail")),
-           qPrintable(dock.words()));
+  QVERIFY2(dock.message().startsWith(QStringLiteral("6 runs; 2 of 4 assertions fail")),
+           qPrintable(dock.message()));
   QAbstractItemModel* runs = dock.table("experimentTable");
   QCOMPARE(runs->rowCount(), 6);
   QCOMPARE(runs->index(4, 1).data().toString(), QStringLiteral("noisy"));
@@ -202,30 +202,31 @@ void TestExperimentsDock::playsAndShowsResults() {
   QTest::mouseDClick(table->viewport(), Qt::LeftButton, {}, at);
   QTRY_VERIFY_WITH_TIMEOUT(dock.replay().isOpen(), 60000);
   QVERIFY(dock.replay().path().endsWith(QStringLiteral("/sessions/run-000005.mcap")));
-  QTRY_VERIFY_WITH_TIMEOUT(dock.words().contains(QStringLiteral("open in Replay")), 60000);
+  QTRY_VERIFY_WITH_TIMEOUT(dock.message().contains(QStringLiteral("open in Replay")), 60000);
 }
 
-void TestExperimentsDock::errorIsSaidWhereTheFileIs() {
+void TestExperimentsDock::errorIsReportedWhereTheFileIs() {
   Dock dock;
   dock.find<QPlainTextEdit>("experimentText")
       ->setPlainText(QStringLiteral("{\n\"version\": 1,\n\"scenari\": 2}"));
   dock.press();
   QCOMPARE(dock.start(), QStringLiteral("Start"));
-  QVERIFY2(dock.words().startsWith(QStringLiteral("File:3: scenari")), qPrintable(dock.words()));
+  QVERIFY2(dock.message().startsWith(QStringLiteral("File:3: scenari")),
+           qPrintable(dock.message()));
 }
 
 void TestExperimentsDock::cancelKeepsWhatIsThere() {
   Dock dock;
   dock.write("20", 100000);
   dock.press();
-  QTRY_VERIFY_WITH_TIMEOUT(dock.words().contains(QStringLiteral("runs/s")), 60000);
+  QTRY_VERIFY_WITH_TIMEOUT(dock.message().contains(QStringLiteral("runs/s")), 60000);
   dock.press();
   QTRY_COMPARE_WITH_TIMEOUT(dock.start(), QStringLiteral("Start"), 60000);
-  QVERIFY2(dock.words().startsWith(QStringLiteral("Cancelled: ")), qPrintable(dock.words()));
+  QVERIFY2(dock.message().startsWith(QStringLiteral("Cancelled: ")), qPrintable(dock.message()));
   const int runs = dock.table("experimentTable")->rowCount();
   QVERIFY(runs > 0 && runs < 200000);
   // Conditions take turns.
-  if (runs > 20) QVERIFY(!dock.words().contains(QStringLiteral("Not played")));
+  if (runs > 20) QVERIFY(!dock.message().contains(QStringLiteral("Not played")));
 }
 
 PITCHBOARD_GUI_TEST(TestExperimentsDock)

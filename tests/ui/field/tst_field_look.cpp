@@ -240,7 +240,7 @@ class TestFieldLook : public QObject {
     }
     const QRectF area(-200, -200, 460, 246);
     std::map<RobotKey, int> before;
-    const auto placed = placeWords(crowd, area, before);
+    const auto placed = placeTags(crowd, area, before);
     QCOMPARE(placed.size(), crowd.size());
     std::vector<QRectF> boxes;
     for (const PlacedName& word : placed) {
@@ -270,7 +270,7 @@ class TestFieldLook : public QObject {
     }
     const QRectF area(-100, -300, 700, 340);
     std::map<RobotKey, int> before;
-    const auto placed = placeWords(all, area, before);
+    const auto placed = placeTags(all, area, before);
     QCOMPARE(placed.size(), std::size_t{2});
     QCOMPARE(placed[0].id, blue(1));
     QCOMPARE(placed[0].centre.x(), 54.0);
@@ -281,9 +281,9 @@ class TestFieldLook : public QObject {
       QVERIFY(!box.intersects(QRectF(robot.at - QPointF(12, 12), QSizeF(24, 24))));
     }
     // What differs is said of each.
-    for (std::size_t i = 0; i < all.size(); ++i) all[i].said = QString("timeout %1 s").arg(i);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].tagText = QString("timeout %1 s").arg(i);
     before.clear();
-    QCOMPARE(placeWords(all, area, before).size(), all.size());
+    QCOMPARE(placeTags(all, area, before).size(), all.size());
   }
 
   void aNumberThatCanBeReadNeedsNoName() {
@@ -457,14 +457,14 @@ class TestFieldLook : public QObject {
       centre = {0, -(std::max(0.2, style.ballDrawRadius() + style.metres(5.0)) * scale) - 12};
     } else {
       RobotLook look;
-      look.word = QStringLiteral("timeout 37 s");
+      look.tag = QStringLiteral("timeout 37 s");
       look.opacity = 0.45;
       auto* robot = new RobotItem(&style, blue(1));
       robot->setLook(look);
       centre = {0, 40};
-      robot->setWordPlace(centre);
+      robot->setTagPosition(centre);
       scene.addItem(robot);
-      plate = plateSize(look.word);
+      plate = plateSize(look.tag);
     }
     QImage image(300, 200, QImage::Format_RGB32);
     image.fill(theme().grass);

@@ -69,11 +69,11 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
   void theRefereeIsInTheMenus() {
     const auto penalty = [this](std::size_t robot) {
       const auto& is = m_controller->frame()->robots[robot].penalty;
-      return is ? QString::fromStdString(is->words) : QString();
+      return is ? QString::fromStdString(is->text) : QString();
     };
     QVERIFY(!trigger(pose(1).position, "Pardon"));  // this match has no referee
     chooseReferee(m_controller->edits(), "humanoid-2021", "rules");
-    QTRY_VERIFY(m_controller->frame()->desk);
+    QTRY_VERIFY(m_controller->frame()->refereedGame);
     // What is not allowed is grey and says why.
     const auto why = [this](const Point& place, const char* text) {
       auto* menu = menuAt(place);
@@ -124,7 +124,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     QCOMPARE(identity(1).number, 4);      // 1 to 3 are worn
     QVERIFY(identity(1).imuStartsAt180);  // it attacks to the left now
     QVERIFY(near(pose(1), before));
-    QCOMPARE(m_controller->edits()->undoStack()->undoText(), QString("Put B1 in team red"));
+    QCOMPARE(m_controller->edits()->undoStack()->undoText(), QString("Move B1 to team red"));
     QVERIFY(trigger(before.position, "Red"));  // is there already
     QCOMPARE(m_controller->edits()->undoStack()->count(), 1);
     m_controller->edits()->undoStack()->undo();

@@ -266,7 +266,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     QVERIFY(((after - middle) + (before - middle)).manhattanLength() <= 4);
   }
 
-  void cursorIsToldInMetres() {
+  void cursorIsReportedInMetres() {
     const QSignalSpy moved(m_view.get(), &FieldView::cursorMoved);
     moveTo(at({2.0, -1.0}));
     QVERIFY(!moved.isEmpty());

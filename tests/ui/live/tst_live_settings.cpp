@@ -135,7 +135,7 @@ class TestLiveSettings : public QObject {
     QCOMPARE(d.live.options().bind.text(), std::string("192.0.2.77"));
   }
 
-  void mistakesAreSaidInTheDialog_data() {
+  void mistakesAreReportedInTheDialog_data() {
     QTest::addColumn<QString>("box");
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("said");
@@ -155,7 +155,7 @@ class TestLiveSettings : public QObject {
                                << "1245"
                                << "robots'";
   }
-  void mistakesAreSaidInTheDialog() {
+  void mistakesAreReportedInTheDialog() {
     QFETCH(QString, box);
     QFETCH(QString, text);
     QFETCH(QString, said);

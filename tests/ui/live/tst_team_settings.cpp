@@ -87,7 +87,7 @@ class TestTeamSettings : public QObject {
     QVERIFY(!page->load(QStringLiteral("/nonexistent.json")));
   }
 
-  void mistakesInTeamsAreSaid() {
+  void mistakesInTeamsAreReported() {
     Dialog d;
     d.box<QToolButton>("addTeam")->click();
     const std::tuple<const char*, const char*, const char*> mistakes[] = {

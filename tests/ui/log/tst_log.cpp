@@ -12,8 +12,8 @@
 #include <QToolButton>
 #include <QtTest>
 
+#include <ui/base/text_filter.h>
 #include <ui/base/time_axis.h>
-#include <ui/base/words_filter.h>
 #include <ui/log/log_dock.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/source_switch.h>
@@ -207,15 +207,15 @@ class TestLog : public QObject {
 
   void theFilterWantsEveryWord() {
     LogModel model;
-    WordsFilter filter;
+    TextFilter filter;
     filter.setSourceModel(&model);
     const QAbstractItemModelTester tester(&filter, Mode::QtTest);
     model.append({{0, "B1 decision", "kicks"}, {1, "R1 decision", "kicks"}});
-    filter.setWords(QStringLiteral("KICK b1"));
+    filter.setFilterText(QStringLiteral("KICK b1"));
     QCOMPARE(filter.rowCount(), 1);
-    filter.setWords(QStringLiteral("nothing"));
+    filter.setFilterText(QStringLiteral("nothing"));
     QCOMPARE(filter.rowCount(), 0);
-    filter.setWords(QString());
+    filter.setFilterText(QString());
     QCOMPARE(filter.rowCount(), 2);
   }
 

@@ -100,7 +100,7 @@ class TestPlotCurves : public QObject {
     const auto more = allOf(curve, feed, 241);
     QCOMPARE(more.size(), std::size_t(241));
     QCOMPARE(more[120].value, samples[120].value);
-    // A source that was put back: computed anew, no rows of the future stay.
+    // A source that was put back: computed again, no rows of the future stay.
     bench.source.append(group, 1.0, 0, 0.0, 0.0);
     const auto endIsOne = [&] {
       feed.refresh();
@@ -160,7 +160,7 @@ class TestPlotCurves : public QObject {
   void expressionsThatCannotWorkSaySo() {
     QFETCH(QString, text);
     QFETCH(QString, says);
-    const auto parsed = Expression::parse(text);
+    const auto parsed = PlotExpression::parse(text);
     QVERIFY(!parsed);
     QVERIFY2(QString::fromStdString(parsed.error().message).contains(says, Qt::CaseInsensitive),
              parsed.error().message.c_str());
@@ -192,7 +192,7 @@ class TestPlotCurves : public QObject {
   void expressionsCompute() {
     QFETCH(QString, text);
     QFETCH(double, value);
-    auto expression = Expression::parse(text);
+    auto expression = PlotExpression::parse(text);
     QVERIFY2(expression.has_value(), expression ? "" : expression.error().message.c_str());
     std::vector<double> values;
     for (const QString& name : expression->variables()) values.push_back(name == "B1/A" ? 3 : 4);

@@ -84,15 +84,15 @@ class TestPlotUnits : public QObject {
   void theAxesArePlanned() {
     QFETCH(QStringList, units);
     QFETCH(QString, plan);
-    std::vector<UnitWish> wishes;
+    std::vector<AxisRequest> requests;
     for (QString unit : units) {
       const Side side = unit.endsWith('>')   ? Side::Right
                         : unit.endsWith('<') ? Side::Left
                                              : Side::ByUnit;
       if (side != Side::ByUnit) unit.chop(1);
-      wishes.push_back({unit, side});
+      requests.push_back({unit, side});
     }
-    const AxisPlan made = planAxes(wishes);
+    const AxisPlan made = planAxes(requests);
     QString text = made.left + QLatin1Char('|') + made.right + QLatin1Char(':');
     for (const AxisPlan::Place& place : made.places) {
       text += QStringLiteral(" %1%2%3")

@@ -97,7 +97,7 @@ class TestPlotVariables : public QObject {
   void onlyWhatIsNewIsComputed() {
     PlotSource first, other;
     first.fill("B1", 10.0);
-    // The same near 10 s and behind it, another one before: who computes that anew gives it away.
+    // The same near 10 s and behind it, another one before: who computes that again gives it away.
     constexpr double changed = 8.0, elsewhere = -1e6;
     const auto group = other.addRobot("B1");
     for (int i = 0; i <= 900; ++i) {

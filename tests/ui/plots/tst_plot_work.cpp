@@ -153,7 +153,7 @@ class TestPlotWork : public QObject {
     QCOMPARE(b.dock->currentPage()->panes().size(), 2);
   }
 
-  void eightCurvesAreToldApart() {
+  void eightCurvesAreReportedApart() {
     for (const ThemeChoice choice : {ThemeChoice::Dark, ThemeChoice::Light}) {
       setTheme(*qApp, choice);
       const auto back = qScopeGuard([] { setTheme(*qApp, ThemeChoice::Dark); });
@@ -169,7 +169,7 @@ class TestPlotWork : public QObject {
     }
   }
 
-  void sixteenCurvesAreToldApart() {
+  void sixteenCurvesAreReportedApart() {
     Bench b;
     PlotPane* pane = b.show(variableCurve(QStringLiteral("B1/DIST")));
     for (int i = 1; i < 32; ++i) {

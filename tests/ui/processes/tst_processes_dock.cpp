@@ -220,7 +220,8 @@ class TestProcessesDock : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(runs("thinks"), 30'000);
     const pid_t pid = process("thinks").pid;
     QCOMPARE(::kill(pid, SIGSTOP), 0);
-    QTRY_VERIFY_WITH_TIMEOUT(text("thinks", ProcessesModel::State).startsWith(u"silent"), 30'000);
+    QTRY_VERIFY_WITH_TIMEOUT(text("thinks", ProcessesModel::State).startsWith(u"not responding"),
+                             30'000);
     QCOMPARE(process("thinks").pid, pid);
     QCOMPARE(::kill(pid, SIGCONT), 0);
     QTRY_COMPARE_WITH_TIMEOUT(text("thinks", ProcessesModel::State), QStringLiteral("running"),
@@ -334,7 +335,7 @@ class TestProcessesDock : public QObject {
   }
 
   // Once, where the user looks: at the first pause or other speed.
-  void whoGoesOnWhileTheMatchStandsIsToldOnce() {
+  void whoGoesOnWhileTheMatchStandsIsReportedOnce() {
     open(oneRobot(QStringLiteral("own")));
     QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame() && m_controller->frame()->robots.size() == 1,
                              30'000);
@@ -356,7 +357,7 @@ class TestProcessesDock : public QObject {
   }
 
   // At another speed than ×1 its clock is not the match's.
-  void whoKeepsRealTimeIsToldWhenTheSpeedChanges() {
+  void whoKeepsRealTimeIsReportedWhenTheSpeedChanges() {
     const QTemporaryDir folder;
     open(oneRobot(realTimeProfile(folder)));
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);

@@ -4,7 +4,7 @@
 #include <QAbstractItemModelTester>
 #include <QtTest>
 
-#include <ui/base/referee_words.h>
+#include <ui/base/referee_text.h>
 
 #include "referee_model.h"
 

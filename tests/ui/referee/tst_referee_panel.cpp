@@ -187,7 +187,7 @@ class TestRefereePanel : public QObject {
     is("Penalise",
        {.kind = CallKind::Penalise, .robot = robot, .penalty = sim::PenaltyKind::Incapable});
     is("Pardon", {.kind = CallKind::Pardon, .robot = robot});
-    const auto offered = nextSteps(*desk.frame().desk);
+    const auto offered = nextSteps(*desk.frame().refereedGame);
     QVERIFY(!offered.empty() && offered.size() <= 3);
     for (const NextStep& step : offered) {
       QPushButton* one = desk.dock->findChild<QPushButton*>("referee " + step.text);
@@ -260,11 +260,11 @@ class TestRefereePanel : public QObject {
     QTRY_COMPARE(desk.state(), QString("INITIAL"));
     link::MatchFrame frame = desk.frame();
     QVERIFY(!scoreboardOf(frame).tip.contains("By half"));
-    const auto later = std::make_shared<link::RefereeDesk>(*frame.desk);
+    const auto later = std::make_shared<link::RefereedGame>(*frame.refereedGame);
     later->game.half = 2;
     later->game.teams[0].byHalf = {1, 2, 0, 0};
     later->game.teams[1].byHalf = {0, 1, 0, 0};
-    frame.desk = later;
+    frame.refereedGame = later;
     QVERIFY(scoreboardOf(frame).tip.endsWith("By half: 1 : 0, 2 : 1"));
   }
 

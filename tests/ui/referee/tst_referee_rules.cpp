@@ -180,10 +180,10 @@ class TestRefereeRules : public QObject {
     QVERIFY(!automatic->isChecked());
     QTRY_VERIFY(automatic->isEnabled());
     automatic->click();
-    QTRY_VERIFY(desk.frame().desk->rules.automatic);
+    QTRY_VERIFY(desk.frame().refereedGame->rules.automatic);
     QTRY_COMPARE(desk.undo()->count(), 1);
     desk.undo()->undo();
-    QTRY_VERIFY(!desk.frame().desk->rules.automatic);
+    QTRY_VERIFY(!desk.frame().refereedGame->rules.automatic);
     QTRY_VERIFY(!automatic->isChecked());
   }
 };

@@ -71,7 +71,7 @@ class TestCardState : public QObject {
     frame.robots[0].lamps[3] = {LampState::NotResponding, 0.0, std::chrono::milliseconds(8900)};
     const auto cards = tracker.update(frame, 0);
     QCOMPARE(cards[0].lamps[3].state, LampState::NotResponding);
-    QCOMPARE(cards[0].tag, QStringLiteral("D silent 8 s"));
+    QCOMPARE(cards[0].tag, QStringLiteral("D no response 8 s"));
     QCOMPARE(cards[0].tagKind, TagKind::Error);
     // Nobody wonders for how long what somebody has stopped is silent.
     link::ProcessSummary decision;
@@ -84,7 +84,7 @@ class TestCardState : public QObject {
     QCOMPARE(stopped.tagKind, TagKind::Warning);
   }
 
-  void aPenaltyIsSaidInTheSameWordsEverywhere() {
+  void aPenaltyIsReportedInTheSameWordsEverywhere() {
     link::MatchFrame frame = frameOf(1);
     frame.robots[0].penalty = link::Penalty{"pickup or incapable", 20};
     QCOMPARE(CardTracker().update(frame, 0)[0].tag, QStringLiteral("pickup 20 s"));
@@ -250,11 +250,11 @@ class TestCardState : public QObject {
       return card.grab().toImage();
     };
     const int usual = RobotCard().sizeHint().width();
-    QVERIFY(picture("communication silent 4 min 20 s", usual) !=
-            picture("communication silent 4 min 50 s", usual));
+    QVERIFY(picture("communication not responding 4 min 20 s", usual) !=
+            picture("communication not responding 4 min 50 s", usual));
     // Where there is no room for all of it, the minutes stay.
-    QVERIFY(picture("communication silent 4 min 20 s", usual * 3 / 4) !=
-            picture("communication silent 5 min 20 s", usual * 3 / 4));
+    QVERIFY(picture("communication not responding 4 min 20 s", usual * 3 / 4) !=
+            picture("communication not responding 5 min 20 s", usual * 3 / 4));
   }
 
   void clicksSelectAndCollapse() {

@@ -179,7 +179,7 @@ class TestCalibrateDialog : public QObject {
     QVERIFY(s.find<QPushButton>("calibrateStart")->isEnabled());
   }
 
-  void whatCannotBeUsedIsSaid() {
+  void whatCannotBeUsedIsReported() {
     Studio s;
     QVERIFY(s.dialog);
     s.add(QStringLiteral(PITCHBOARD_SOURCE_DIR "/README.md"));

@@ -179,7 +179,7 @@ class TestLive : public QObject {
     QCOMPARE(s.live()->frame()->robots[0].pose.position, at);
     QVERIFY(s.controller.isPaused());
     s.window.showSource(SourceKind::Simulate);
-    // It may have been published anew, with all that stood in it.
+    // It may have been published again, with all that stood in it.
     const FramePtr after = s.controller.frame();
     QCOMPARE(after->snapshot.tick, before->snapshot.tick);
     QCOMPARE(after->snapshot.ball, before->snapshot.ball);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cards of robots that are heard: silence, second senders, batteries, what robots agree on, and the
-// order that people give them.
+// Cards of robots that are received: silence, second senders, batteries, what robots agree on, and
+// the order that people give them.
 
 #include <QDockWidget>
 #include <QtTest>
@@ -104,7 +104,7 @@ class TestLiveCards : public QObject {
       m.x += 1;
       QVERIFY(robot.say(m));
     }
-    QTRY_VERIFY(s.cards()[0]->state().tag.startsWith(QStringLiteral("D silent")));
+    QTRY_VERIFY(s.cards()[0]->state().tag.startsWith(QStringLiteral("D no response")));
   }
 
   void robotsAgreeOnTheBall() {

@@ -298,7 +298,7 @@ class TestSessionExportDialog : public QObject {
              qPrintable(message(dialog)));
   }
 
-  void aRangeTheWrongWayRoundIsSaid() {
+  void aRangeTheWrongWayRoundIsReported() {
     Studio s(60);
     QTRY_VERIFY_WITH_TIMEOUT(s.played(60), 20'000);
     ExportDialog* dialog = openExport(s);

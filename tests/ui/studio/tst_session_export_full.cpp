@@ -76,7 +76,7 @@ class TestSessionExportFull : public QObject {
   }
 
   /// What is exported from memory is a session first, which finds no room either.
-  void memoryThatDoesNotFitIsSaid() {
+  void memoryThatDoesNotFitIsReported() {
     Studio s(120);
     QTRY_VERIFY_WITH_TIMEOUT(s.played(120), 20'000);
     ExportDialog* dialog = openExport(s);

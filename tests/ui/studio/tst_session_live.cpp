@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is heard live is recorded and saved from memory, through the window; real sockets. The
+// What is received live is recorded and saved from memory, through the window; real sockets. The
 // computer's clock is one that can be set: the function that reads it is replaced in the whole
 // program, Qt included.
 #include <sys/syscall.h>
@@ -45,7 +45,7 @@ extern "C" int clock_gettime(clockid_t clock, timespec* time) noexcept {
 class TestSessionLive : public QObject {
   Q_OBJECT
 
-  /// Two robots are heard for a while.
+  /// Two robots are received for a while.
   static bool hear(Studio& s, const link::LiveOptions& options) {
     s.window.live()->setOptions(options);
     s.window.showSource(SourceKind::Live);
@@ -228,7 +228,7 @@ class TestSessionLive : public QObject {
     for (std::size_t i = 0; i < noted.size(); ++i) {
       QVERIFY(times[i] <= noted[i] && noted[i] <= times[i + 1]);
     }
-    // Timeline: as long as the robots were heard, at the time of day when it began.
+    // Timeline: as long as the robots were received, at the time of day when it began.
     QVERIFY(timeline->available() && timeline->available()->begin <= times.front());
     QVERIFY(timeline->available()->end >= times.back() && timeline->available()->end < tenMinutes);
     QVERIFY(timeline->clock().has_value());

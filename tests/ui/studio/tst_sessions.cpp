@@ -403,7 +403,7 @@ class TestSessions : public QObject {
     QVERIFY2(s.notice().isEmpty(), qPrintable(s.notice()));
   }
 
-  void theRoomOnTheDiskIsShownAndItsEndIsSaidInTime() {
+  void theRoomOnTheDiskIsShownAndItsEndIsReportedInTime() {
     Studio s;
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
     std::atomic<std::uint64_t> free = 52'300'000'000;

@@ -198,7 +198,7 @@ void TestSituationTests::aTestIsPlayedAtOnceAndItsRunsAreSeen() {
   press(dialog, "testPlay");
   auto* dock = in<QDockWidget>(&s.window, "experiments");
   QVERIFY(dock->isVisible());
-  auto* words = in<QLabel>(dock, "experimentWords");
+  auto* words = in<QLabel>(dock, "experimentMessage");
   QTRY_VERIFY2_WITH_TIMEOUT(
       words->text().startsWith(QStringLiteral("2 runs; 1 of 2 assertions fail")),
       qPrintable(words->text()), 60'000);

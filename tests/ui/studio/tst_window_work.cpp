@@ -101,7 +101,7 @@ class TestWindowWork : public QObject {
       s.window.activateWindow();
       QTRY_VERIFY(s.window.isActiveWindow());
       QTest::keyClick(&s.window, Qt::Key_K, Qt::ControlModifier);
-      auto* line = s.find<QLineEdit>("paletteWords");
+      auto* line = s.find<QLineEdit>("paletteSearch");
       QVERIFY(line);
       QTest::keyClicks(line, words);
       QTest::keyClick(line, Qt::Key_Return);

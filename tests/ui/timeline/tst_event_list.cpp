@@ -232,7 +232,7 @@ class TestEventList : public QObject {
     QCOMPARE(play.position(), 20.0);
     QVERIFY(play.isPaused());
     QCOMPARE(ends.size(), 1);
-    // From the very end it begins anew.
+    // From the very end it begins again.
     play.setPaused(false);
     QCOMPARE(play.position(), 10.0);
     play.setSpeed(1000);

@@ -81,10 +81,10 @@ class TestVariablesDock : public QObject {
     model.updateGroups();
     QCOMPARE(model.rowCount(), 4);
     QCOMPARE(model.variableCount(), 4 * 3 + 5 + 1);
-    filter.setWords(QStringLiteral("b2 cm"));
+    filter.setFilterText(QStringLiteral("b2 cm"));
     QCOMPARE(filter.variableCount(), 1);
     filter.sort(VariablesModel::Value, Qt::DescendingOrder);
-    filter.setWords({});
+    filter.setFilterText({});
     filter.update();
     filter.sort(-1);
     model.refreshAll();

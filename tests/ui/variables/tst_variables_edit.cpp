@@ -63,7 +63,7 @@ class TestVariablesEdit : public QObject {
     }
     QSignalSpy changed(bench.model, &QAbstractItemModel::dataChanged);
     QCOMPARE(look(), theme().disabledText);
-    // The name is painted anew as well.
+    // The name is painted again as well.
     const QModelIndex name = bench.model->find(QStringLiteral("B2"));
     QVERIFY(std::ranges::any_of(changed, [&name](const QList<QVariant>& call) {
       const auto first = call[0].toModelIndex(), last = call[1].toModelIndex();
@@ -246,7 +246,7 @@ class TestVariablesEdit : public QObject {
     QVERIFY(!bench.settings.contains(QStringLiteral("variables/catalog")));
   }
 
-  void attachedBlackboardIsSampledAndItsEndIsSaid() {
+  void attachedBlackboardIsSampledAndItsEndIsReported() {
     const int key = testKeyBase() + 77;
     removeSegment(key);
     Bench bench;

@@ -156,15 +156,15 @@ class TestWindowMenus : public QObject {
     QTRY_VERIFY2(s.window.notices()->text().contains("restart with the belief they had at"),
                  qPrintable(s.window.notices()->text()));
     // It is of no use once the match has gone on for a while.
-    const auto isSaid = [&s] {
+    const auto isGiven = [&s] {
       return s.window.notices()->text().contains("restart with the belief they had at");
     };
     s.controller.runTo(12 + 9 * 60);
     QTRY_COMPARE_WITH_TIMEOUT(s.controller.frame()->snapshot.tick, std::uint64_t(12 + 9 * 60),
                               60'000);
-    QVERIFY(isSaid());
+    QVERIFY(isGiven());
     s.controller.runTo(12 + 25 * 60);
-    QTRY_VERIFY_WITH_TIMEOUT(!isSaid(), 60'000);
+    QTRY_VERIFY_WITH_TIMEOUT(!isGiven(), 60'000);
   }
 
   void viewIsGrouped() {
@@ -224,7 +224,7 @@ class TestWindowMenus : public QObject {
     Studio s;
     QTRY_VERIFY(s.controller.frame());
     s.window.showPalette();
-    auto* words = s.window.findChild<QLineEdit*>(QStringLiteral("paletteWords"));
+    auto* words = s.window.findChild<QLineEdit*>(QStringLiteral("paletteSearch"));
     auto* list = s.window.findChild<QListView*>(QStringLiteral("paletteList"));
     const auto* empty = s.window.findChild<QLabel*>(QStringLiteral("paletteEmpty"));
     // An action that asks for more is as exact as one that does not.

@@ -7,7 +7,7 @@
 #include <QTabBar>
 #include <algorithm>
 
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -177,11 +177,11 @@ void FlatStyle::drawControl(ControlElement element, const QStyleOption* option, 
   QStyleOptionComboBox shown = *combo;
   int room = subControlRect(CC_ComboBox, combo, SC_ComboBoxEditField, widget).width();
   if (!combo->currentIcon.isNull()) room -= combo->iconSize.width() + textGap();
-  shown.currentText = elidedWords(QFontMetricsF(painter->font()), combo->currentText, room);
+  shown.currentText = elideText(QFontMetricsF(painter->font()), combo->currentText, room);
   QProxyStyle::drawControl(element, &shown, painter, widget);
 }
 
-// A word says what a dialog's button does; a coloured tick beside it says it twice.
+// The label of a dialog's button says what it does; a coloured tick would repeat it.
 int FlatStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                          QStyleHintReturn* more) const {
   if (hint == SH_DialogButtonBox_ButtonsHaveIcons) return 0;

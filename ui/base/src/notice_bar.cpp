@@ -116,7 +116,7 @@ void NoticeBar::place() {
   raise();
 }
 
-// Text that is squeezed beside its buttons would become a column of words.
+// Text that is squeezed beside its buttons would have one word in each line.
 void NoticeBar::arrange(int width) {
   const int room = width - m_row->contentsMargins().left() - m_row->contentsMargins().right();
   m_buttons->setDirection(QBoxLayout::LeftToRight);

@@ -9,15 +9,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 
 namespace pitchboard::ui {
 namespace {
 
-constexpr int mostWords = 4000;
+constexpr int mostTextLines = 4000;
 constexpr int mostCorners = 200;
 
-/// The parts of a font in which the studio's words differ.
+/// The properties in which the studio's fonts differ.
 struct FontKey {
   explicit FontKey(const QFont& font)
       : family(font.family()),
@@ -31,16 +31,16 @@ struct FontKey {
   int pixels, weight, marks;
 };
 
-struct WordsKey {
-  QString words;
+struct TextLineKey {
+  QString text;
   FontKey font;
   int room = -1;  // in which they are cut off; -1: whole
   int elide = 0;
-  bool operator==(const WordsKey&) const = default;
+  bool operator==(const TextLineKey&) const = default;
 };
 
-size_t qHash(const WordsKey& key, size_t seed = 0) {
-  return qHashMulti(seed, key.words, key.font.points, key.font.pixels, key.font.weight,
+size_t qHash(const TextLineKey& key, size_t seed = 0) {
+  return qHashMulti(seed, key.text, key.font.points, key.font.pixels, key.font.weight,
                     key.font.marks, key.room, key.elide);
 }
 
@@ -49,21 +49,21 @@ struct Shaped {
   QSizeF size;
 };
 
-const Shaped& shaped(const WordsKey& key, const QFont& font) {
-  static QCache<WordsKey, Shaped> cache(mostWords);
+const Shaped& shaped(const TextLineKey& key, const QFont& font) {
+  static QCache<TextLineKey, Shaped> cache(mostTextLines);
   if (const Shaped* known = cache.object(key)) return *known;
   auto* made = new Shaped;
   const QFontMetricsF metrics(font);
-  QString words = key.words;
+  QString text = key.text;
   if (key.room >= 0) {
-    words = key.elide == Qt::ElideRight
-                ? elidedWords(metrics, words, key.room)
-                : metrics.elidedText(words, static_cast<Qt::TextElideMode>(key.elide), key.room);
+    text = key.elide == Qt::ElideRight
+               ? elideText(metrics, text, key.room)
+               : metrics.elidedText(text, static_cast<Qt::TextElideMode>(key.elide), key.room);
   }
   made->text.setTextFormat(Qt::PlainText);
-  made->text.setText(words);
+  made->text.setText(text);
   made->text.prepare({}, font);
-  made->size = {metrics.horizontalAdvance(words), metrics.height()};
+  made->size = {metrics.horizontalAdvance(text), metrics.height()};
   cache.insert(key, made);  // owns it now; one entry costs 1 and is never refused
   return *made;
 }
@@ -120,35 +120,35 @@ QPixmap cornersOf(const CornerKey& key, int side, double radius, const QColor& f
 
 }  // namespace
 
-void drawWords(QPainter& painter, const QRectF& box, Qt::Alignment alignment, const QString& words,
-               Qt::TextElideMode elide) {
-  if (words.isEmpty()) return;
+void drawTextLine(QPainter& painter, const QRectF& box, Qt::Alignment alignment,
+                  const QString& text, Qt::TextElideMode elide) {
+  if (text.isEmpty()) return;
   const QFont& font = painter.font();
-  WordsKey key{words, FontKey(font)};
-  const Shaped* text = &shaped(key, font);
-  if (elide != Qt::ElideNone && text->size.width() > box.width()) {
+  TextLineKey key{text, FontKey(font)};
+  const Shaped* line = &shaped(key, font);
+  if (elide != Qt::ElideNone && line->size.width() > box.width()) {
     key.room = std::max(0, static_cast<int>(box.width()));
     key.elide = elide;
-    text = &shaped(key, font);
+    line = &shaped(key, font);
   }
   if (!onPixels(painter)) {
-    painter.drawText(box, static_cast<int>(alignment) | Qt::TextSingleLine, text->text.text());
+    painter.drawText(box, static_cast<int>(alignment) | Qt::TextSingleLine, line->text.text());
     return;
   }
   QPointF at = box.topLeft();
   if (alignment & Qt::AlignRight)
-    at.rx() = box.left() + box.width() - text->size.width();
+    at.rx() = box.left() + box.width() - line->size.width();
   else if (alignment & Qt::AlignHCenter)
-    at.rx() += (box.width() - text->size.width()) / 2;
+    at.rx() += (box.width() - line->size.width()) / 2;
   if (alignment & Qt::AlignBottom)
-    at.ry() = box.top() + box.height() - text->size.height();
+    at.ry() = box.top() + box.height() - line->size.height();
   else if (alignment & Qt::AlignVCenter)
-    at.ry() += (box.height() - text->size.height()) / 2;
-  painter.drawStaticText(at, text->text);
+    at.ry() += (box.height() - line->size.height()) / 2;
+  painter.drawStaticText(at, line->text);
 }
 
-double wordsWidth(const QFont& font, const QString& words) {
-  return words.isEmpty() ? 0.0 : shaped({words, FontKey(font)}, font).size.width();
+double textLineWidth(const QFont& font, const QString& text) {
+  return text.isEmpty() ? 0.0 : shaped({text, FontKey(font)}, font).size.width();
 }
 
 void drawRoundBox(QPainter& painter, const QRectF& box, double radius, const QColor& fill,

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include <robotlink/frame/match_result.h>
-#include <ui/base/referee_words.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/referee_text.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -19,8 +19,8 @@ QString teamName(TeamColor team, const link::Teams& teams) {
   return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).toUpper();
 }
 
-QColor refereeColour(const std::string& words) {
-  if (const auto drawn = teamColorNamed(words)) return theme().team(*drawn);
+QColor refereeColour(const std::string& colourName) {
+  if (const auto drawn = teamColorNamed(colourName)) return theme().team(*drawn);
   // What referees know besides the colours that robots are drawn in.
   static const std::pair<const char*, QColor> others[] = {{"white", QColor(245, 245, 245)},
                                                           {"green", QColor(58, 150, 80)},
@@ -28,7 +28,7 @@ QColor refereeColour(const std::string& words) {
                                                           {"brown", QColor(125, 85, 50)},
                                                           {"gray", QColor(128, 128, 128)}};
   for (const auto& [name, colour] : others) {
-    if (words == name) return colour;
+    if (colourName == name) return colour;
   }
   return {};
 }
@@ -58,8 +58,8 @@ QString refereeTip(const link::RefereeView& view, bool received) {
 
 /// Left team first; empty before the second half, and where only packets are known.
 QString halvesOf(const link::MatchFrame& frame) {
-  if (!frame.desk) return {};
-  const sim::GameState& game = frame.desk->game;
+  if (!frame.refereedGame) return {};
+  const sim::GameState& game = frame.refereedGame->game;
   const std::size_t left = game.leftTeam();
   return QString::fromStdString(
       link::halvesText(link::goalsByHalf(game, left), link::goalsByHalf(game, 1 - left)));
@@ -130,7 +130,7 @@ QString teamsText(const link::MatchFrame& frame) {
 }
 
 ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
-  // Only who plays a match knows its score without a referee: not what is heard, nor its past.
+  // Only who plays a match knows its score without a referee: not what is received, nor its past.
   const bool played = frame.truthKnown || frame.ballKnown;
   if (!played || frame.referee) return refereeScoreboard(frame);
   ScoreboardState state;

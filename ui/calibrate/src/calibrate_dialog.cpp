@@ -24,7 +24,7 @@
 #include <simcore/simulation/simulation.h>
 #include <telemetry/session/session_reader.h>
 #include <ui/base/dialog_size.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 #include <ui/sources/match_controller.h>
@@ -381,7 +381,7 @@ void CalibrateDialog::showValues() {
     m_residuals->show(nullptr);
     return;
   }
-  for (const auto* values : {&m_calibration->values, &m_calibration->told}) {
+  for (const auto* values : {&m_calibration->values, &m_calibration->estimates}) {
     for (const link::CalibratedValue& value : *values) {
       const link::WrittenValue w = link::writtenValue(value);
       const auto base = link::writtenBase(*m_calibration, value.key);

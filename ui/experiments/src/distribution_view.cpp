@@ -59,7 +59,7 @@ void DistributionView::show(const PlayedPtr& played) {
     m_metric->clear();
     int usual = 0;
     if (played) {
-      for (const std::size_t m : link::tellingMetrics(played->summary)) {
+      for (const std::size_t m : link::informativeMetrics(played->summary)) {
         const link::MetricInfo& metric = played->summary.metrics[m];
         if (!metric.rate) m_metric->addItem(QString::fromStdString(metric.title), qulonglong(m));
         if (metric.name == "walked_m") usual = m_metric->count() - 1;

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
 
 namespace pitchboard::ui {
@@ -75,7 +75,7 @@ ExperimentForm::ExperimentForm(QWidget* parent)
   m_all->setObjectName(QStringLiteral("experimentAllRuns"));
   connect(m_runs, &QSpinBox::valueChanged, this, [this] {
     showAll();
-    tellEdited();
+    notifyEdited();
   });
   m_seed->setObjectName(QStringLiteral("experimentSeed"));
   m_seed->setFixedWidth(scaled(this, 140));
@@ -83,7 +83,7 @@ ExperimentForm::ExperimentForm(QWidget* parent)
       new QRegularExpressionValidator(QRegularExpression(QStringLiteral("\\d{1,19}")), m_seed));
   m_seed->setToolTip(QStringLiteral("Run i has the same seed in every condition"));
   connect(m_seed, &QLineEdit::editingFinished, this, [this] {
-    if (m_seed->isModified()) tellEdited();
+    if (m_seed->isModified()) notifyEdited();
     m_seed->setModified(false);
   });
   auto* row = new QHBoxLayout;
@@ -99,7 +99,7 @@ ExperimentForm::ExperimentForm(QWidget* parent)
   styleTable(m_conditions);
   m_conditions->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   connect(m_conditions, &QTableWidget::itemChanged, this, [this] {
-    // Later: whoever hears of it may make the items anew.
+    // Later: receivers may recreate the items.
     if (!m_isShowing) QTimer::singleShot(0, this, &ExperimentForm::edited);
   });
   connect(m_conditions, &QTableWidget::itemSelectionChanged, this,
@@ -110,7 +110,7 @@ ExperimentForm::ExperimentForm(QWidget* parent)
     const int last = m_conditions->rowCount();
     addCondition({{}, QStringLiteral("condition %1").arg(last + 1).toStdString(), {}});
     fitConditions();
-    tellEdited();
+    notifyEdited();
     m_conditions->setFocus();
     m_conditions->editItem(m_conditions->item(last, 1));
   });
@@ -118,7 +118,7 @@ ExperimentForm::ExperimentForm(QWidget* parent)
     if (m_conditions->currentRow() < 0) return;
     m_conditions->removeRow(m_conditions->currentRow());
     fitConditions();
-    tellEdited();
+    notifyEdited();
   });
   auto* buttons = new QHBoxLayout;
   buttons->setSpacing(gap);
@@ -197,7 +197,7 @@ void ExperimentForm::fitConditions() {
       m_conditions->rowCount() * m_conditions->verticalHeader()->defaultSectionSize() + 2);
 }
 
-void ExperimentForm::tellEdited() {
+void ExperimentForm::notifyEdited() {
   if (!m_isShowing) emit edited();
 }
 

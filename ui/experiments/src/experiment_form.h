@@ -37,7 +37,7 @@ class ExperimentForm : public QScrollArea {
   void showAll();
   void addCondition(const link::ConditionEdit& condition);
   void fitConditions();
-  void tellEdited();
+  void notifyEdited();
 
   QLabel *m_title, *m_description, *m_all, *m_end, *m_assertions;
   QLineEdit* m_seed;

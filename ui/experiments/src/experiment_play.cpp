@@ -70,15 +70,15 @@ void ExperimentPlay::play(const link::Experiment& experiment, const QString& fol
   settings.folder = folder.toStdString();
   settings.program = "pitchboard";
   const auto begin = WallClock::now();
-  auto told = begin;
+  auto reported = begin;
   const auto played =
       link::playRuns(experiment, numbers, std::max(1U, std::thread::hardware_concurrency()),
                      settings, [&](const link::PlayedRun& run) -> Result<void> {
                        if (auto added = results->add(run.result, run.timesRealTime); !added)
                          return added;
                        const auto now = WallClock::now();
-                       if (now - told < progressInterval && !results->complete()) return {};
-                       told = now;
+                       if (now - reported < progressInterval && !results->complete()) return {};
+                       reported = now;
                        m_ui.post([this, done = results->finishedCount(), all = numbers.size(),
                                   seconds = std::chrono::duration<double>(now - begin).count()] {
                          emit progressed(done, all, seconds);

@@ -16,7 +16,7 @@
 #include <QVBoxLayout>
 
 #include <base/file_target.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/sources/compared_session.h>
@@ -45,7 +45,7 @@ class ExperimentsDock : public QWidget {
         m_start(new QPushButton(QStringLiteral("Start"), this)),
         m_report(new QPushButton(QStringLiteral("Report"), this)),
         m_progress(new QProgressBar(this)),
-        m_words(new OneLine(this)),
+        m_message(new OneLine(this)),
         m_tabs(new ResultsTabs(parts.compared != nullptr, this)),
         m_form(new ExperimentForm(this)),
         m_text(new QPlainTextEdit(this)) {
@@ -96,8 +96,8 @@ class ExperimentsDock : public QWidget {
     });
     m_progress->setTextVisible(false);
     m_progress->setFixedSize(scaled(this, 140), scaled(this, 8));
-    m_words->setObjectName(QStringLiteral("experimentWords"));
-    m_words->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_message->setObjectName(QStringLiteral("experimentMessage"));
+    m_message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     auto* row = new QHBoxLayout;
     const int gap = scaled(this, 4);
     row->setContentsMargins(gap, gap, gap, gap);
@@ -112,8 +112,8 @@ class ExperimentsDock : public QWidget {
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addLayout(row);
-    m_words->setContentsMargins(gap, 0, gap, gap);
-    layout->addWidget(m_words);
+    m_message->setContentsMargins(gap, 0, gap, gap);
+    layout->addWidget(m_message);
     layout->addWidget(m_tabs, 1);
     setMinimumHeight(scaled(this, 80));
   }
@@ -156,13 +156,13 @@ class ExperimentsDock : public QWidget {
                        "Timeline > Stop comparing ends it."));
   }
 
-  void say(const QString& words, bool isError = false) {
+  void say(const QString& message, bool isError = false) {
     QPalette colours = palette();
     if (isError) colours.setColor(QPalette::WindowText, theme().errorText);
-    m_words->setPalette(colours);
-    m_words->setText(words);
-    m_words->setVisible(!words.isEmpty());
-    m_words->setToolTip(words);
+    m_message->setPalette(colours);
+    m_message->setText(message);
+    m_message->setVisible(!message.isEmpty());
+    m_message->setToolTip(message);
   }
 
   void load() {
@@ -290,18 +290,19 @@ class ExperimentsDock : public QWidget {
     const auto& checks = played->summary.assertions;
     const auto failed =
         std::count_if(checks.begin(), checks.end(), [](const auto& one) { return !one.holds; });
-    QString words = complete ? QStringLiteral("%1 runs").arg(runs)
-                             : QStringLiteral("Cancelled: %1 of %2 runs")
-                                   .arg(runs)
-                                   .arg(played->experiment.allRuns());
+    QString message = complete ? QStringLiteral("%1 runs").arg(runs)
+                               : QStringLiteral("Cancelled: %1 of %2 runs")
+                                     .arg(runs)
+                                     .arg(played->experiment.allRuns());
     if (!notPlayed.isEmpty()) {
-      words += QStringLiteral(". Not played: ") + notPlayed.join(QStringLiteral(", "));
+      message += QStringLiteral(". Not played: ") + notPlayed.join(QStringLiteral(", "));
     } else if (!checks.empty()) {
-      words += failed == 0
-                   ? QStringLiteral("; all assertions hold")
-                   : QStringLiteral("; %1 of %2 assertions fail").arg(failed).arg(checks.size());
+      message += failed == 0
+                     ? QStringLiteral("; all assertions hold")
+                     : QStringLiteral("; %1 of %2 assertions fail").arg(failed).arg(checks.size());
     }
-    say(words + QStringLiteral(". Results: ") + played->folder, notPlayed.isEmpty() && failed > 0);
+    say(message + QStringLiteral(". Results: ") + played->folder,
+        notPlayed.isEmpty() && failed > 0);
     if (m_tabs->currentWidget() == m_form || m_tabs->currentWidget() == m_text) {
       m_tabs->setCurrentIndex(1);
     }
@@ -313,7 +314,7 @@ class ExperimentsDock : public QWidget {
   QPushButton* m_start;
   QPushButton* m_report;
   QProgressBar* m_progress;
-  QLabel* m_words;
+  QLabel* m_message;
   ResultsTabs* m_tabs;
   ExperimentForm* m_form;
   QPlainTextEdit* m_text;

@@ -7,7 +7,7 @@
 #include <QLabel>
 #include <QPainter>
 
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 
 namespace pitchboard::ui {
 
@@ -21,7 +21,7 @@ class OneLine : public QLabel {
     const QRect room = contentsRect();
     painter.setPen(palette().color(QPalette::WindowText));
     painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
-                     elidedWords(QFontMetricsF(font()), text(), room.width()));
+                     elideText(QFontMetricsF(font()), text(), room.width()));
   }
 };
 

@@ -61,7 +61,7 @@ void ResultsModel::show(const PlayedPtr& played) {
 
 void ResultsModel::fill() {
   const link::ExperimentSummary& s = m_played->summary;
-  const std::vector<std::size_t> telling = link::tellingMetrics(s);
+  const std::vector<std::size_t> telling = link::informativeMetrics(s);
   switch (m_kind) {
     case Kind::Measured:
       m_heads = {"Metric",          "Condition", "n",      "Mean",

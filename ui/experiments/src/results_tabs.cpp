@@ -149,18 +149,18 @@ void ResultsTabs::showResults(const PlayedPtr& played) {
   }
   m_distribution->show(played);
   for (QLabel* label : m_empty) label->setVisible(false);
-  const auto sayEmpty = [this](ResultsModel::Kind kind, const QString& words) {
+  const auto showEmpty = [this](ResultsModel::Kind kind, const QString& words) {
     const auto table = static_cast<std::size_t>(kind);
     m_empty[table]->setText(words);
     m_empty[table]->setVisible(m_models[table]->rowCount() == 0);
   };
-  sayEmpty(ResultsModel::Kind::Differences,
-           QStringLiteral("Nothing to compare: there is only one condition. Add \"conditions\", "
-                          "\"grid\" or \"compare\" to the file."));
-  sayEmpty(ResultsModel::Kind::Assertions,
-           QStringLiteral("No assertions. Add \"assertions\" to the file to make it a test, such "
-                          "as \"goal_rate >= 0.5\"."));
-  sayEmpty(ResultsModel::Kind::Runs, QStringLiteral("No run has finished."));
+  showEmpty(ResultsModel::Kind::Differences,
+            QStringLiteral("Nothing to compare: there is only one condition. Add \"conditions\", "
+                           "\"grid\" or \"compare\" to the file."));
+  showEmpty(ResultsModel::Kind::Assertions,
+            QStringLiteral("No assertions. Add \"assertions\" to the file to make it a test, such "
+                           "as \"goal_rate >= 0.5\"."));
+  showEmpty(ResultsModel::Kind::Runs, QStringLiteral("No run has finished."));
   showChoices();
 }
 

@@ -198,7 +198,7 @@ QWidget* SituationDialog::makeAssertions() {
   more->setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(more);
   for (const link::SituationTemplate& one : link::situationTemplates()) {
-    menu->addAction(QString::fromUtf8(one.words), this, [this, &one] { add(one); });
+    menu->addAction(QString::fromUtf8(one.text), this, [this, &one] { add(one); });
   }
   more->setMenu(menu);
   auto* row = new QWidget(this);
@@ -249,7 +249,7 @@ void SituationDialog::add(const link::SituationTemplate& one) {
   m_assertions->appendPlainText(QString::fromUtf8(one.assertion));
 }
 
-link::Situation SituationDialog::situation() const {
+link::SituationTest SituationDialog::situation() const {
   link::MomentOptions options;
   options.behaviour = m_behaviour->currentText().toStdString();
   if (m_poses->currentIndex() == 1) {
@@ -258,7 +258,7 @@ link::Situation SituationDialog::situation() const {
   }
   if (m_base) options.base = &*m_base;
   link::MomentScenario moment = link::situationScenario(*m_frame, options);
-  link::Situation out;
+  link::SituationTest out;
   const std::string title = m_name->text().trimmed().toStdString();
   out.name = link::experimentNameFrom(title);
   out.title = title;
@@ -295,31 +295,31 @@ QString SituationDialog::path() const {
 
 void SituationDialog::check() {
   if (m_play == nullptr) return;
-  const link::Situation asked = situation();
+  const link::SituationTest asked = situation();
   m_note->setText(QString::fromStdString(asked.description));
   const auto made = link::situationToJson(asked);
-  QString words;
+  QString text;
   if (!made) {
-    words = QString::fromStdString(made.error().message);
+    text = QString::fromStdString(made.error().message);
   } else if (m_folder->text().trimmed().isEmpty()) {
-    words = QStringLiteral("Choose a folder.");
+    text = QStringLiteral("Choose a folder.");
   }
-  const bool usable = words.isEmpty();
+  const bool usable = text.isEmpty();
   if (usable) {
-    words = QFileInfo::exists(path()) ? QStringLiteral("%1 exists and will be replaced.")
-                                      : QStringLiteral("%1");
-    words = words.arg(QDir::toNativeSeparators(path()));
+    text = QFileInfo::exists(path()) ? QStringLiteral("%1 exists and will be replaced.")
+                                     : QStringLiteral("%1");
+    text = text.arg(QDir::toNativeSeparators(path()));
   }
-  tell(words, usable ? theme().secondaryText : theme().errorText);
+  tell(text, usable ? theme().secondaryText : theme().errorText);
   m_play->setEnabled(usable);
   m_save->setEnabled(usable);
 }
 
-void SituationDialog::tell(const QString& words, const QColor& colour) {
+void SituationDialog::tell(const QString& text, const QColor& colour) {
   QPalette colours = palette();
   colours.setColor(QPalette::WindowText, colour);
   m_problem->setPalette(colours);
-  m_problem->setText(words);
+  m_problem->setText(text);
 }
 
 void SituationDialog::save(bool play) {

@@ -7,7 +7,7 @@
 #include <QDialog>
 #include <optional>
 
-#include <robotlink/experiment/situation.h>
+#include <robotlink/experiment/situation_test.h>
 #include <ui/sources/frame_source.h>
 
 class QCheckBox;
@@ -42,10 +42,10 @@ class SituationDialog : public QDialog {
   QWidget* makeFolder();
   void makeButtons();
   void add(const link::SituationTemplate& one);
-  link::Situation situation() const;
+  link::SituationTest situation() const;
   QString path() const;
   void check();
-  void tell(const QString& words, const QColor& colour);
+  void tell(const QString& text, const QColor& colour);
   void save(bool play);
 
   FramePtr m_frame;

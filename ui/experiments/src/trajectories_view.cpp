@@ -10,11 +10,11 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr double way_m = 0.03, ball_m = 0.02;
+constexpr double path_m = 0.03, ball_m = 0.02;
 constexpr int faint = 60, plain = 150, strong = 255;
 
-void paintWay(QPainter& p, const std::vector<Point>& points, QColor colour, int alpha,
-              double width) {
+void paintTrajectory(QPainter& p, const std::vector<Point>& points, QColor colour, int alpha,
+                     double width) {
   if (points.empty()) return;
   QPolygonF line;
   for (const Point& point : points) line << QPointF(point.x, point.y);
@@ -97,7 +97,7 @@ void TrajectoriesView::paintEvent(QPaintEvent* /*event*/) {
         const QColor colour = isBall                  ? theme().ball
                               : run.endedBy == "goal" ? theme().blueTeam
                                                       : theme().redTeam;
-        paintWay(p, path.points, colour, alpha, isBall ? ball_m : way_m);
+        paintTrajectory(p, path.points, colour, alpha, isBall ? ball_m : path_m);
       }
     }
   }

@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include <ui/base/explanation.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/scrolled_form.h>
 #include <ui/base/table_style.h>
 #include <ui/base/time_axis.h>

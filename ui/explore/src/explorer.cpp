@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/scenario_behind.h>

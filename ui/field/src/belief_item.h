@@ -32,7 +32,7 @@ struct BeliefLook {
   bool operator==(const BeliefLook&) const = default;
 };
 
-/// What the robot believes and perceives. One that is heard is drawn where it believes to be: it
+/// What the robot believes and perceives. One that is received is drawn where it believes to be: it
 /// has no ghost.
 BeliefLook beliefOf(const link::RobotFrame& robot, const sim::FieldSpec& field);
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {

@@ -102,10 +102,10 @@ void DrawingItem::paintShape(QPainter* painter, const ScreenPainting& screen,
       painter->drawPolyline(points);
       break;
     case ShapeKind::Arrow: {
-      const QPointF tip = points.last(), way = tip - points[points.size() - 2];
-      const double length = std::hypot(way.x(), way.y());
+      const QPointF tip = points.last(), offset = tip - points[points.size() - 2];
+      const double length = std::hypot(offset.x(), offset.y());
       if (length > 1.0) {
-        const QPointF ahead = way / length, side(-ahead.y(), ahead.x());
+        const QPointF ahead = offset / length, side(-ahead.y(), ahead.x());
         const double head = std::min(headLength_px + shape.width, length);
         const double wide = (headWidth_px + shape.width / 2) * head / (headLength_px + shape.width);
         points.last() = tip - ahead * head * 0.8;

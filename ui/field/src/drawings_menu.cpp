@@ -6,7 +6,7 @@
 #include <string>
 
 #include <robotlink/frame/match_frame.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 
 #include "field_scene.h"

@@ -15,7 +15,7 @@ namespace pitchboard::ui {
 void paintFieldBackground(QPainter& painter, const FieldStyle& style, const QTransform& sceneToView,
                           const QRectF& area);
 
-/// The pixmap of it for one view; painted anew when anything it depends on has changed.
+/// The pixmap of it for one view; painted again when anything it depends on has changed.
 class FieldBackground {
  public:
   /// Valid until the next call. `size` in device-independent pixels.

@@ -15,7 +15,7 @@ constexpr auto alt = Qt::AltModifier;
 
 /// What people read for an action everywhere.
 template <std::size_t action>
-constexpr const char* words = knownActions[action].words.data();
+constexpr const char* label = knownActions[action].label.data();
 
 const FieldKey table[] = {
     {Qt::Key_A, none, "A", "Add a blue robot at the cursor", {AddRobot, 0}},
@@ -26,22 +26,22 @@ const FieldKey table[] = {
     {Qt::Key_Insert, none, "Insert", "Move the selected robots to the cursor", {MoveHere}},
     {Qt::Key_0, ctrl, "Ctrl+0 to Ctrl+6", "Select robot 10 to 16", {Select, 10}, 7},
 
-    {Qt::Key_F, none, "F", words<1>, {Act, 1}},
-    {Qt::Key_K, none, "K", words<8>, {Act, 8, 10}},
-    {Qt::Key_V, none, "V", words<17>, {Act, 17}},
-    {Qt::Key_R, none, "R", words<18>, {Act, 18}},
-    {Qt::Key_M, none, "M", words<6>, {Act, 6}},
-    {Qt::Key_N, none, "N", words<7>, {Act, 7}},
-    {Qt::Key_E, none, "E", words<2>, {Act, 2}},
-    {Qt::Key_D, none, "D", words<3>, {Act, 3}},
-    {Qt::Key_O, none, "O", words<9>, {Act, 9}},
-    {Qt::Key_Q, none, "Q", words<14>, {Act, 14}},
-    {Qt::Key_L, none, "L", words<5>, {Act, 5}},
-    {Qt::Key_P, none, "P", words<4>, {Act, 4}},
-    {Qt::Key_I, none, "I", words<12>, {Act, 12}},
-    {Qt::Key_J, none, "J", words<13>, {Act, 13}},
-    {Qt::Key_S, none, "S", words<11>, {Act, 11}},
-    {Qt::Key_T, none, "T", words<0>, {Act, 0}},
+    {Qt::Key_F, none, "F", label<1>, {Act, 1}},
+    {Qt::Key_K, none, "K", label<8>, {Act, 8, 10}},
+    {Qt::Key_V, none, "V", label<17>, {Act, 17}},
+    {Qt::Key_R, none, "R", label<18>, {Act, 18}},
+    {Qt::Key_M, none, "M", label<6>, {Act, 6}},
+    {Qt::Key_N, none, "N", label<7>, {Act, 7}},
+    {Qt::Key_E, none, "E", label<2>, {Act, 2}},
+    {Qt::Key_D, none, "D", label<3>, {Act, 3}},
+    {Qt::Key_O, none, "O", label<9>, {Act, 9}},
+    {Qt::Key_Q, none, "Q", label<14>, {Act, 14}},
+    {Qt::Key_L, none, "L", label<5>, {Act, 5}},
+    {Qt::Key_P, none, "P", label<4>, {Act, 4}},
+    {Qt::Key_I, none, "I", label<12>, {Act, 12}},
+    {Qt::Key_J, none, "J", label<13>, {Act, 13}},
+    {Qt::Key_S, none, "S", label<11>, {Act, 11}},
+    {Qt::Key_T, none, "T", label<0>, {Act, 0}},
     {Qt::Key_Y, none, "Y", "search for the ball", {Search, 1}},
     {Qt::Key_Z, none, "Z", "stop searching", {Search, 0}},
 

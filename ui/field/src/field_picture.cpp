@@ -6,7 +6,7 @@
 #include <QSvgGenerator>
 #include <algorithm>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/scoreboard_state.h>
 #include <ui/base/theme.h>
 

@@ -54,8 +54,8 @@ std::vector<RobotPlacement> FieldPointer::standing(const std::vector<RobotKey>& 
     const link::RobotFrame* robot = pose ? m_scene->frame()->robot(key) : nullptr;
     if (robot == nullptr) continue;
     // Keys and wheel come faster than frames: none of their steps may be lost.
-    if (m_scene->frame() && m_scene->frame()->serial == m_onTheWaySince) {
-      for (const RobotPlacement& moved : m_onTheWay) {
+    if (m_scene->frame() && m_scene->frame()->serial == m_pendingSince) {
+      for (const RobotPlacement& moved : m_pending) {
         if (moved.id == robot->slot()) pose = moved.to;
       }
     }
@@ -66,11 +66,11 @@ std::vector<RobotPlacement> FieldPointer::standing(const std::vector<RobotKey>& 
 
 void FieldPointer::nudgeTo(const std::vector<RobotPlacement>& placements) {
   if (placements.empty()) return;
-  if (m_scene->frame()->serial != m_onTheWaySince) m_onTheWay.clear();
-  m_onTheWaySince = m_scene->frame()->serial;
+  if (m_scene->frame()->serial != m_pendingSince) m_pending.clear();
+  m_pendingSince = m_scene->frame()->serial;
   for (const RobotPlacement& placement : placements) {
-    std::erase_if(m_onTheWay, [&](const auto& moved) { return moved.id == placement.id; });
-    m_onTheWay.push_back(placement);
+    std::erase_if(m_pending, [&](const auto& moved) { return moved.id == placement.id; });
+    m_pending.push_back(placement);
   }
   m_controller->edits()->nudgeRobots(placements);
 }
@@ -143,9 +143,9 @@ void FieldPointer::beginTurn(RobotKey hit) {
 void FieldPointer::move(const QPointF& at, Qt::KeyboardModifiers) {
   m_at = at;
   if (m_drag == Drag::None) return;
-  const QPointF way = at - m_from;
+  const QPointF offset = at - m_from;
   if (!m_moved) {
-    m_moved = std::hypot(way.x(), way.y()) >= m_scene->style().metres(dragThreshold_px);
+    m_moved = std::hypot(offset.x(), offset.y()) >= m_scene->style().metres(dragThreshold_px);
     if (!m_moved) return;
   }
   switch (m_drag) {
@@ -182,20 +182,20 @@ void FieldPointer::move(const QPointF& at, Qt::KeyboardModifiers) {
 }
 
 void FieldPointer::dragRobots() {
-  const QPointF way = together(m_placements, m_at - m_from);
+  const QPointF offset = together(m_placements, m_at - m_from);
   for (RobotPlacement& placement : m_placements) {
-    placement.to.position = {placement.from.position.x + way.x(),
-                             placement.from.position.y + way.y()};
+    placement.to.position = {placement.from.position.x + offset.x(),
+                             placement.from.position.y + offset.y()};
   }
 }
 
 QPointF FieldPointer::together(const std::vector<RobotPlacement>& placements,
-                               const QPointF& way) const {
+                               const QPointF& offset) const {
   const sim::FieldSpec& field = m_scene->style().field;
   const auto held = [](double wanted, double at, double most) {
     return std::clamp(wanted, std::min(0.0, -most - at), std::max(0.0, most - at));
   };
-  QPointF free = way;
+  QPointF free = offset;
   for (const RobotPlacement& placement : placements) {
     const link::RobotFrame* robot = m_scene->frame()->robot(placement.id);
     const double radius = robot != nullptr ? m_scene->radius(robot->key) : 0.0;
@@ -209,10 +209,10 @@ QPointF FieldPointer::together(const std::vector<RobotPlacement>& placements,
 Velocity FieldPointer::kick() const {
   constexpr double perSecond = 2.0;  // m/s for each metre of the arrow
   constexpr double fastest = 20.0;   // m/s
-  const QPointF way = m_at - toScene(m_ballFrom);
-  const double length = std::hypot(way.x(), way.y());
+  const QPointF offset = m_at - toScene(m_ballFrom);
+  const double length = std::hypot(offset.x(), offset.y());
   const double scale = length > 0.0 ? std::min(perSecond, fastest / length) : 0.0;
-  return {way.x() * scale, way.y() * scale};
+  return {offset.x() * scale, offset.y() * scale};
 }
 
 void FieldPointer::dragTurn() {
@@ -298,10 +298,10 @@ bool FieldPointer::cancel() {
 void FieldPointer::nudge(const QPointF& metres) {
   if (!canEdit()) return;
   auto placements = standing(m_scene->selection());
-  const QPointF way = together(placements, metres);
+  const QPointF offset = together(placements, metres);
   for (RobotPlacement& placement : placements) {
-    placement.to.position.x += way.x();
-    placement.to.position.y += way.y();
+    placement.to.position.x += offset.x();
+    placement.to.position.y += offset.y();
   }
   nudgeTo(placements);
 }

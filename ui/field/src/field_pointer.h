@@ -53,7 +53,7 @@ class FieldPointer : public QObject {
   void dragRobots();
   void dragTurn();
   /// How far these robots can go towards `way` together: the first that reaches a wall holds all.
-  QPointF together(const std::vector<RobotPlacement>& placements, const QPointF& way) const;
+  QPointF together(const std::vector<RobotPlacement>& placements, const QPointF& offset) const;
   /// Of the ball that is kicked along the arrow that is being drawn.
   Velocity kick() const;
   void preview();
@@ -74,8 +74,8 @@ class FieldPointer : public QObject {
   RobotKey m_pivot;  // the robot whose handle is held
   Point m_ballFrom;
   std::vector<RobotKey> m_selectedBefore;
-  std::vector<RobotPlacement> m_onTheWay;
-  std::uint64_t m_onTheWaySince = 0;  // serial of the frame they were made on
+  std::vector<RobotPlacement> m_pending;
+  std::uint64_t m_pendingSince = 0;  // serial of the frame they were made on
   bool m_clickedOneOfSeveral = false;
 };
 

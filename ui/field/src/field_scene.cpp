@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/sources/pose_difference.h>
 
@@ -193,13 +193,13 @@ void FieldScene::showNames() {
     const RobotLook& look = robot->body.look();
     places.push_back(toScene(look.pose.position));
     named.push_back({id, toScene(look.pose.position), m_style.drawRadius(look.radius),
-                     shown ? look.name : QString(), look.word});
+                     shown ? look.name : QString(), look.tag});
   }
   m_names->setRobots(std::move(named));
   for (const auto& [id, robot] : m_robots) {
-    const auto place = m_names->words().find(id);
-    robot->body.setWordPlace(place == m_names->words().end() ? std::nullopt
-                                                             : std::optional(place->second));
+    const auto place = m_names->tags().find(id);
+    robot->body.setTagPosition(place == m_names->tags().end() ? std::nullopt
+                                                              : std::optional(place->second));
   }
   m_teamBalls->setRobots(std::move(places), m_style.robotDrawRadius());
 }
@@ -266,18 +266,18 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
   look.fallen = now.fallen;
   look.selected = std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
   look.followed = m_followed == id;
-  if (now.fallen) look.word = QStringLiteral("fallen");
+  if (now.fallen) look.tag = QStringLiteral("fallen");
   if (now.timedOut()) {
-    look.word = QStringLiteral("timeout %1").arg(durationText(telemetry::secondsOf(now.link->age)));
+    look.tag = QStringLiteral("timeout %1").arg(durationText(telemetry::secondsOf(now.link->age)));
     look.opacity = 0.45;
   } else if (now.penalty) {
-    look.word = QStringLiteral("penalised");
+    look.tag = QStringLiteral("penalised");
   }
   robot.body.setLook(look);
   robot.body.setVisible(now.poseKnown());
 
   showTrail(robot, now);
-  // Where a robot that is heard looks, it does not say.
+  // Where a robot that is received looks, it does not say.
   robot.wedge.setVisible(!now.link && m_style.shows(FieldLayer::FieldOfView) &&
                          (look.selected || m_style.wedgeForAll));
   robot.wedge.setCamera(now.fieldOfView, now.visionRange);

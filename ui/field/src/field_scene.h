@@ -2,7 +2,7 @@
 #pragma once
 
 // All that stands on the field: one group of items per robot, the ball, and what tools draw over
-// them. A frame moves items; nothing is built anew unless robots come or go.
+// them. A frame moves items; nothing is built again unless robots come or go.
 
 #include <QGraphicsScene>
 #include <functional>

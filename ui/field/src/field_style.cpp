@@ -84,7 +84,7 @@ QColor onGrass(const QColor& color, double opacity) {
 void drawHaloText(QPainter* painter, const QPointF& centre, const QString& text, const QFont& font,
                   const QColor& color, const QColor& halo) {
   const QFontMetricsF metrics(font);
-  const double width = wordsWidth(font, text);
+  const double width = textLineWidth(font, text);
   const auto kind = font.bold() ? Stamp::Kind::BoldText : Stamp::Kind::Text;
   drawStamp(painter, centre, {kind, font.pixelSize(), color.rgba(), halo.rgba(), text},
             {width / 2 + 3, metrics.height() / 2 + 3}, [&](QPainter& p) {
@@ -109,7 +109,7 @@ const QFont& plateFont() {
 }  // namespace
 
 QSizeF plateSize(const QString& text) {
-  return {wordsWidth(plateFont(), text) + 10, QFontMetricsF(plateFont()).height() + 2};
+  return {textLineWidth(plateFont(), text) + 10, QFontMetricsF(plateFont()).height() + 2};
 }
 
 void drawPlateText(QPainter* painter, const QPointF& centre, const QString& text) {

@@ -114,7 +114,7 @@ QColor onGrass(const QColor& color, double opacity);
 /// Text centred on a point in pixels, with a thin shade behind it so that it reads on any ground.
 void drawHaloText(QPainter* painter, const QPointF& centre, const QString& text, const QFont& font,
                   const QColor& color, const QColor& halo);
-/// The same on a plate of its own: for words that must be read on grass, lines and robots alike.
+/// The same on a plate of its own: for text that must be read on grass, lines and robots alike.
 void drawPlateText(QPainter* painter, const QPointF& centre, const QString& text);
 /// How much room that takes, pixels.
 QSizeF plateSize(const QString& text);

@@ -8,7 +8,7 @@
 #include <QToolButton>
 #include <array>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 
 #include "drawings_menu.h"

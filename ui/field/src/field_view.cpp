@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_keys.h>
 #include <ui/sources/match_edits.h>

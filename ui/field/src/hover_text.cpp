@@ -7,7 +7,7 @@
 #include <base/angles.h>
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/scenario/scenario.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/sources/pose_difference.h>
 
 #include "field_style.h"
@@ -86,7 +86,7 @@ QString hoverText(const link::MatchFrame& frame, RobotKey id) {
   }
   if (const auto& penalty = robot->penalty) {
     lines << QStringLiteral("Penalised: %1, %2")
-                 .arg(QString::fromStdString(penalty->words), durationText(penalty->secondsLeft));
+                 .arg(QString::fromStdString(penalty->text), durationText(penalty->secondsLeft));
   }
   lines.removeAll(QString());
   return lines.join(QLatin1Char('\n'));

@@ -9,7 +9,7 @@
 namespace pitchboard::ui {
 namespace {
 
-QString wordsOf(const link::TeamBall& ball) {
+QString textOf(const link::TeamBall& ball) {
   return QStringLiteral("%1 of %2 agree").arg(ball.agree).arg(ball.see);
 }
 
@@ -33,7 +33,7 @@ double TeamBallsItem::radius(const link::TeamBall& ball) const {
 QRectF TeamBallsItem::boundingRect() const {
   QRectF bounds;
   for (const link::TeamBall& ball : m_balls) {
-    const QSizeF plate = plateSize(wordsOf(ball));
+    const QSizeF plate = plateSize(textOf(ball));
     const double reach = radius(ball) + m_style->metres(14.0 + plate.height());
     const double wide = radius(ball) + m_style->metres(16.0 + plate.width());
     const QPointF at = toScene(ball.position);
@@ -48,8 +48,8 @@ void TeamBallsItem::setRobots(std::vector<QPointF> robots, double radius) {
 }
 
 // Above the ring, else below, else beside it: the first place that no robot covers.
-QPointF TeamBallsItem::wordsAt(const ScreenPainting& screen, const link::TeamBall& ball,
-                               QSizeF plate, double ring) const {
+QPointF TeamBallsItem::textPosition(const ScreenPainting& screen, const link::TeamBall& ball,
+                                    QSizeF plate, double ring) const {
   const double high = ring + 12.0, wide = ring + 6.0 + plate.width() / 2;
   const double robot = m_robotRadius * screen.pixelsPerMetre();
   const QPointF places[] = {{0, -high}, {0, high}, {wide, 0}, {-wide, 0}};
@@ -77,7 +77,7 @@ void TeamBallsItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QW
     painter->drawEllipse(QPointF(0, 0), ring, ring);
     painter->drawLine(QPointF(-arm, 0), QPointF(arm, 0));
     painter->drawLine(QPointF(0, -arm), QPointF(0, arm));
-    drawPlateText(painter, wordsAt(screen, ball, plateSize(wordsOf(ball)), ring), wordsOf(ball));
+    drawPlateText(painter, textPosition(screen, ball, plateSize(textOf(ball)), ring), textOf(ball));
   }
 }
 
@@ -115,7 +115,7 @@ void OtherPoseItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QW
   pen.setStyle(Qt::SolidLine);
   painter->setPen(pen);
   painter->drawLine(QPointF(0, 0), screen.direction(m_other.pose.yaw) * radius * 1.35);
-  drawHaloText(painter, {0, -radius - 10}, m_other.words, fieldFont(10, false), theme().fieldLines,
+  drawHaloText(painter, {0, -radius - 10}, m_other.text, fieldFont(10, false), theme().fieldLines,
                halo());
 }
 

@@ -17,15 +17,15 @@ class TeamBallsItem : public FieldItem {
  public:
   using FieldItem::FieldItem;
   void setBalls(std::vector<link::TeamBall> balls);
-  /// Where robots are drawn, m: the words keep off them where they can.
+  /// Where robots are drawn, m: the texts avoid them where they can.
   void setRobots(std::vector<QPointF> robots, double radius);
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
  private:
   double radius(const link::TeamBall& ball) const;  // metres
-  QPointF wordsAt(const ScreenPainting& screen, const link::TeamBall& ball, QSizeF plate,
-                  double ring) const;
+  QPointF textPosition(const ScreenPainting& screen, const link::TeamBall& ball, QSizeF plate,
+                       double ring) const;
 
   std::vector<link::TeamBall> m_balls;
   std::vector<QPointF> m_robots;
@@ -37,7 +37,7 @@ struct OtherPose {
   Pose pose;
   Point here;  ///< where this source shows it
   TeamColor team = TeamColor::Blue;
-  QString words;  ///< "12 cm 4°"
+  QString text;  ///< "12 cm 4°"
   bool operator==(const OtherPose&) const = default;
 };
 

@@ -17,9 +17,9 @@ namespace {
 constexpr double covered = 0.55;  // of the radius: where the number stands
 constexpr double gap_px = 3.0;
 constexpr std::array<double, 4> steps_px{0.0, 12.0, 26.0, 44.0};
-constexpr std::size_t wordSteps = 2;  // no line leads to a word
-constexpr int below = 1;              // of the directions
-constexpr double nose = 0.7;          // of the radius: how far it reaches beyond the disc
+constexpr std::size_t tagSteps = 2;  // no line leads to a tag
+constexpr int below = 1;             // of the directions
+constexpr double nose = 0.7;         // of the radius: how far it reaches beyond the disc
 constexpr int namePixels = 10;
 const double diagonal = std::sqrt(0.5);
 
@@ -76,11 +76,11 @@ struct Search {
     QRectF bestBox;
     for (int i = -1; i < count && least > 0.0; ++i) {
       const int choice = i < 0 ? first : i;
-      const QPointF& way = directions[static_cast<std::size_t>(choice) % directions.size()];
+      const QPointF& direction = directions[static_cast<std::size_t>(choice) % directions.size()];
       const double step = steps_px[static_cast<std::size_t>(choice) / directions.size()];
-      const double away = robot.radius + gap + step + std::abs(way.x()) * size.width() / 2 +
-                          std::abs(way.y()) * size.height() / 2;
-      const QRectF box = boxOf(robot.at + way * away, size);
+      const double away = robot.radius + gap + step + std::abs(direction.x()) * size.width() / 2 +
+                          std::abs(direction.y()) * size.height() / 2;
+      const QRectF box = boxOf(robot.at + direction * away, size);
       const QRectF seen = area.isNull() ? box : box & area;
       const double over =
           overlap(box, robots, taken) + box.width() - seen.width() + box.height() - seen.height();
@@ -98,13 +98,14 @@ struct Search {
 std::vector<const NamedRobot*> sharing(std::span<const NamedRobot> robots,
                                        const NamedRobot& first) {
   std::vector<const NamedRobot*> group{&first};
-  if (first.said.isEmpty()) return group;
+  if (first.tagText.isEmpty()) return group;
   for (std::size_t i = 0; i < group.size(); ++i) {
     for (const NamedRobot& robot : robots) {
       const QPointF apart = robot.at - group[i]->at;
-      const bool isBeside = std::abs(apart.x()) < first.word.width() &&
-                            std::abs(apart.y()) < first.word.height() + 2 * first.radius;
-      if (robot.said == first.said && isBeside && std::ranges::find(group, &robot) == group.end()) {
+      const bool isBeside = std::abs(apart.x()) < first.tag.width() &&
+                            std::abs(apart.y()) < first.tag.height() + 2 * first.radius;
+      if (robot.tagText == first.tagText && isBeside &&
+          std::ranges::find(group, &robot) == group.end()) {
         group.push_back(&robot);
       }
     }
@@ -118,14 +119,14 @@ const QFont& nameFont() {
 
 }  // namespace
 
-std::vector<PlacedName> placeWords(std::span<const NamedRobot> robots, const QRectF& area,
-                                   DirectionsBefore& before) {
+std::vector<PlacedName> placeTags(std::span<const NamedRobot> robots, const QRectF& area,
+                                  DirectionsBefore& before) {
   std::vector<PlacedName> placed;
-  Search search{robots, area, {}, wordSteps};
+  Search search{robots, area, {}, tagSteps};
   DirectionsBefore kept;
   std::vector<RobotKey> done;
   for (const NamedRobot& robot : robots) {
-    if (robot.word.isEmpty() || std::ranges::find(done, robot.id) != done.end()) continue;
+    if (robot.tag.isEmpty() || std::ranges::find(done, robot.id) != done.end()) continue;
     NamedRobot middle = robot;
     middle.at = QPointF();
     const std::vector<const NamedRobot*> group = sharing(robots, robot);
@@ -135,8 +136,9 @@ std::vector<PlacedName> placeWords(std::span<const NamedRobot> robots, const QRe
     }
     const auto known = before.find(robot.id);
     const int first = known == before.end() ? below : known->second;
-    const auto [box, way] = search.place(middle, robot.word, nose * robot.radius + gap_px, first);
-    kept[robot.id] = way;
+    const auto [box, direction] =
+        search.place(middle, robot.tag, nose * robot.radius + gap_px, first);
+    kept[robot.id] = direction;
     placed.push_back({robot.id, box.center(), false});
   }
   before = std::move(kept);
@@ -151,10 +153,11 @@ std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots, Direction
   for (const NamedRobot& robot : robots) {
     if (robot.name.isEmpty() || !needsName(robot, robots)) continue;
     const auto known = before.find(robot.id);
-    const auto [box, way] =
+    const auto [box, direction] =
         search.place(robot, robot.name, gap_px, known == before.end() ? 0 : known->second);
-    kept[robot.id] = way;
-    placed.push_back({robot.id, box.center(), static_cast<std::size_t>(way) >= directions.size()});
+    kept[robot.id] = direction;
+    placed.push_back(
+        {robot.id, box.center(), static_cast<std::size_t>(direction) >= directions.size()});
   }
   before = std::move(kept);
   return placed;
@@ -172,24 +175,24 @@ void NameLabelsItem::place() {
   std::vector<NamedRobot> named;
   named.reserve(m_robots.size());
   for (const Robot& robot : m_robots) {
-    const QSizeF name(wordsWidth(nameFont(), robot.name) + 2, metrics.ascent());
+    const QSizeF name(textLineWidth(nameFont(), robot.name) + 2, metrics.ascent());
     named.push_back({robot.id,
                      {side * robot.at.x() * scale, -side * robot.at.y() * scale},
                      robot.radius * scale,
                      robot.name.isEmpty() ? QSizeF() : name,
-                     robot.word.isEmpty() ? QSizeF() : plateSize(robot.word),
-                     robot.word});
+                     robot.tag.isEmpty() ? QSizeF() : plateSize(robot.tag),
+                     robot.tag});
   }
   const QRectF field = m_style->playingArea();
   const QRectF area = QRectF(side * field.left() * scale, -side * field.top() * scale,
                              side * field.width() * scale, -side * field.height() * scale)
                           .normalized();
-  m_words.clear();
+  m_tags.clear();
   std::vector<QRectF> taken;
-  for (const PlacedName& word : placeWords(named, area, m_wordsBefore)) {
-    const auto robot = std::ranges::find(named, word.id, &NamedRobot::id);
-    m_words[word.id] = word.centre - robot->at;
-    taken.push_back(boxOf(word.centre, robot->word));
+  for (const PlacedName& tag : placeTags(named, area, m_tagsBefore)) {
+    const auto robot = std::ranges::find(named, tag.id, &NamedRobot::id);
+    m_tags[tag.id] = tag.centre - robot->at;
+    taken.push_back(boxOf(tag.centre, robot->tag));
   }
   std::vector<Label> labels;
   for (const PlacedName& name : placeNames(named, m_before, std::move(taken))) {
@@ -202,7 +205,7 @@ void NameLabelsItem::place() {
   for (const Label& label : labels) {
     const double reach =
         m_style->metres(std::hypot(label.offset.x(), label.offset.y()) +
-                        wordsWidth(nameFont(), label.name) / 2 + metrics.height() / 2 + 6.0);
+                        textLineWidth(nameFont(), label.name) / 2 + metrics.height() / 2 + 6.0);
     bounds |= QRectF(label.robot.x() - reach, label.robot.y() - reach, 2 * reach, 2 * reach);
   }
   if (labels.empty() && m_labels.empty()) return;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Words beside robots: what is said of them ("timeout 37 s"), and names of those whose number
-// cannot be read in their disc, because it is too small to write in or another robot covers it.
-// They never lie on each other or on a robot while there is room. UI thread; belongs to the scene.
+// Texts beside robots: tags with their state ("timeout 37 s"), and names of those whose number
+// cannot be read in their disc, because it is too small or another robot covers it. They never
+// overlap each other or a robot while there is room. UI thread; belongs to the scene.
 
 #include <QSizeF>
 #include <map>
@@ -21,12 +21,12 @@ struct NamedRobot {
   RobotKey id;
   QPointF at;
   double radius = 0.0;
-  QSizeF name;        ///< how large its name is when written
-  QSizeF word = {};   ///< the plate with what is said of it; empty: nothing
-  QString said = {};  ///< robots side by side of which the same is said share a plate
+  QSizeF name;           ///< how large its name is when written
+  QSizeF tag = {};       ///< size of the plate of its tag; empty: no tag
+  QString tagText = {};  ///< robots side by side with the same text share a plate
 };
 
-/// Where a name or a word is written.
+/// Where a name or a tag is written.
 struct PlacedName {
   RobotKey id;
   QPointF centre;
@@ -36,10 +36,10 @@ struct PlacedName {
 /// The direction that each of them had, which is kept where it can be.
 using DirectionsBefore = std::map<RobotKey, int>;
 
-/// Places for the words, below their robots where there is room, and inside `area`. Of robots that
-/// share a word only the first has a place: in the middle of them.
-std::vector<PlacedName> placeWords(std::span<const NamedRobot> robots, const QRectF& area,
-                                   DirectionsBefore& before);
+/// Returns places for the tags, below their robots where there is room, and inside `area`. Of
+/// robots that share a tag only the first has a place: in the middle of them.
+std::vector<PlacedName> placeTags(std::span<const NamedRobot> robots, const QRectF& area,
+                                  DirectionsBefore& before);
 /// Places for the names of those that need one; `taken` is not written on.
 std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots, DirectionsBefore& before,
                                    std::vector<QRectF> taken = {});
@@ -53,12 +53,12 @@ class NameLabelsItem : public FieldItem {
     QPointF at;           ///< in the scene, m
     double radius = 0.0;  ///< as drawn, m
     QString name;         ///< empty: not to be written
-    QString word;
+    QString tag;
   };
-  /// Also says where the words go, which the robots write themselves.
+  /// Also places the tags, which the robots paint themselves.
   void setRobots(std::vector<Robot> robots);
-  /// In pixels from the robot, of those that write a word.
-  const std::map<RobotKey, QPointF>& words() const { return m_words; }
+  /// In pixels from the robot, of those that have a tag.
+  const std::map<RobotKey, QPointF>& tags() const { return m_tags; }
 
   QRectF boundingRect() const override { return m_bounds; }
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
@@ -75,8 +75,8 @@ class NameLabelsItem : public FieldItem {
 
   std::vector<Robot> m_robots;
   std::vector<Label> m_labels;
-  std::map<RobotKey, QPointF> m_words;
-  DirectionsBefore m_before, m_wordsBefore;
+  std::map<RobotKey, QPointF> m_tags;
+  DirectionsBefore m_before, m_tagsBefore;
   QRectF m_bounds;
 };
 

@@ -10,9 +10,9 @@
 namespace pitchboard::ui {
 
 QString rulerText(const QPointF& from, const QPointF& to) {
-  const QPointF way = to - from;
-  const double degrees = degreesFromRadians(std::atan2(way.y(), way.x()));
-  return fieldNumber(std::hypot(way.x(), way.y()), 2) + QStringLiteral(" m   ") +
+  const QPointF offset = to - from;
+  const double degrees = degreesFromRadians(std::atan2(offset.y(), offset.x()));
+  return fieldNumber(std::hypot(offset.x(), offset.y()), 2) + QStringLiteral(" m   ") +
          fieldNumber(degrees, 1) + QChar(0x00B0);
 }
 

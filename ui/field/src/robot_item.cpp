@@ -31,7 +31,7 @@ RobotItem::RobotItem(const FieldStyle* style, RobotKey id) : FieldItem(style), m
 void RobotItem::setLook(const RobotLook& look) {
   if (look == m_look) return;
   if (look.selected != m_look.selected || look.followed != m_look.followed ||
-      look.word != m_look.word || look.radius != m_look.radius) {
+      look.tag != m_look.tag || look.radius != m_look.radius) {
     prepareGeometryChange();
   }
   const bool moved = !(look.pose.position == m_look.pose.position);
@@ -40,10 +40,10 @@ void RobotItem::setLook(const RobotLook& look) {
   update();
 }
 
-void RobotItem::setWordPlace(const std::optional<QPointF>& place) {
-  if (m_wordPlace == place) return;
+void RobotItem::setTagPosition(const std::optional<QPointF>& place) {
+  if (m_tagPosition == place) return;
   prepareGeometryChange();
-  m_wordPlace = place;
+  m_tagPosition = place;
   update();
 }
 
@@ -65,10 +65,10 @@ QRectF RobotItem::boundingRect() const {
         std::max(radius * 1.8, radius * 1.7 + m_style->metres(handleGap_px)) + m_style->metres(8.0);
   }
   QRectF area(-reach, -reach, 2 * reach, 2 * reach);
-  if (m_wordPlace && !m_look.word.isEmpty()) {
-    const QSizeF plate = plateSize(m_look.word) / 2;
-    const double half = m_style->metres(std::abs(m_wordPlace->x()) + plate.width() + 2.0);
-    const double tall = m_style->metres(std::abs(m_wordPlace->y()) + plate.height() + 2.0);
+  if (m_tagPosition && !m_look.tag.isEmpty()) {
+    const QSizeF plate = plateSize(m_look.tag) / 2;
+    const double half = m_style->metres(std::abs(m_tagPosition->x()) + plate.width() + 2.0);
+    const double tall = m_style->metres(std::abs(m_tagPosition->y()) + plate.height() + 2.0);
     area = area.united(QRectF(-half, -tall, 2 * half, 2 * tall));
   }
   return area;
@@ -85,8 +85,8 @@ void RobotItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
   painter->setOpacity(before * m_look.opacity);
   paintBody(painter, screen, radius);
   painter->setOpacity(before);
-  if (m_wordPlace && !m_look.word.isEmpty()) {
-    drawPlateText(painter, *m_wordPlace, m_look.word);
+  if (m_tagPosition && !m_look.tag.isEmpty()) {
+    drawPlateText(painter, *m_tagPosition, m_look.tag);
   }
 }
 

@@ -23,7 +23,7 @@ struct RobotLook {
   bool fallen = false;
   bool selected = false;
   bool followed = false;
-  QString word;          ///< beside the robot: "fallen", "penalised", "timeout 37 s"
+  QString tag;           ///< beside the robot: "fallen", "penalised", "timeout 37 s"
   double opacity = 1.0;  ///< 0.45 for a robot that has timed out
   bool operator==(const RobotLook&) const = default;
 };
@@ -36,8 +36,8 @@ class RobotItem : public FieldItem {
   void setKey(const RobotKey& key) { m_id = key; }
   const RobotLook& look() const { return m_look; }
   void setLook(const RobotLook& look);
-  /// Where its word is written, in pixels from its centre; null: it is not written.
-  void setWordPlace(const std::optional<QPointF>& place);
+  /// Where its tag is painted, in pixels from its centre; null: it is not painted.
+  void setTagPosition(const std::optional<QPointF>& place);
 
   /// Where the turning handle is, in metres of the scene.
   static QPointF handlePosition(const FieldStyle& style, const Pose& pose, double radius);
@@ -53,7 +53,7 @@ class RobotItem : public FieldItem {
 
   RobotKey m_id;
   RobotLook m_look;
-  std::optional<QPointF> m_wordPlace;  // pixels
+  std::optional<QPointF> m_tagPosition;  // pixels
 };
 
 }  // namespace pitchboard::ui

@@ -14,12 +14,12 @@ namespace {
 /// Whether a line passes all these points so closely that nobody sees the difference.
 bool passes(const QPointF& from, const QPointF& to, const QPointF* points, int count) {
   constexpr double tolerance_px = 0.6;
-  const QPointF way = to - from;
-  const double most = tolerance_px * std::hypot(way.x(), way.y());
+  const QPointF offset = to - from;
+  const double most = tolerance_px * std::hypot(offset.x(), offset.y());
   return std::all_of(points, points + count, [&](const QPointF& point) {
     const QPointF off = point - from;
-    return std::abs(way.x() * off.y() - way.y() * off.x()) <= most &&
-           QPointF::dotProduct(way, off) >= 0.0;
+    return std::abs(offset.x() * off.y() - offset.y() * off.x()) <= most &&
+           QPointF::dotProduct(offset, off) >= 0.0;
   });
 }
 
@@ -84,7 +84,7 @@ void TrailItem::updateBounds() {
     low = std::min(low, p.y());
     high = std::max(high, p.y());
   }
-  // The tip may run ahead by one step before the bounds are made anew.
+  // The tip may run ahead by one step before the bounds are made again.
   m_bounds = QRectF(left, low, right - left, high - low).adjusted(-step, -step, step, step);
 }
 

@@ -24,7 +24,7 @@ class TrailItem : public FieldItem {
   };
 
   double now() const { return m_now; }  ///< of its end, s
-  /// `time` in simulated seconds; going back in time or jumping starts the trail anew.
+  /// `time` in simulated seconds; going back in time or jumping starts the trail again.
   void append(const Point& position, double time);
   /// The trail is this one now, in order of time.
   void set(std::span<const Place> places);

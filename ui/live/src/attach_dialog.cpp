@@ -16,7 +16,7 @@
 #include <robotlink/blackboard/segments.h>
 #include <ui/base/dialog_size.h>
 #include <ui/base/number_box.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 #include <ui/sources/attached_boards.h>
@@ -38,7 +38,7 @@ QTableWidget* makeTable(QWidget* parent, const char* name, const QStringList& co
   table->setHorizontalHeaderLabels(columns);
   styleTable(table);
   table->setSelectionMode(QAbstractItemView::SingleSelection);
-  // The last column says what it is, in words: it has all that the others do not need.
+  // The last column has the explanation: it gets all the width that the others do not need.
   for (int column = 0; column + 1 < table->columnCount(); ++column) {
     table->horizontalHeader()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
   }
@@ -114,8 +114,8 @@ QWidget* AttachDialog::makeForm() {
   form->setContentsMargins(0, 0, 0, 0);
   form->setHorizontalSpacing(scaled(this, 10));
   for (const int fields : {1, 3}) form->setColumnStretch(fields, 1);
-  const auto add = [&](int row, int column, const char* words, QWidget* field) {
-    form->addWidget(new QLabel(QLatin1String(words), widget), row, column);
+  const auto add = [&](int row, int column, const char* text, QWidget* field) {
+    form->addWidget(new QLabel(QLatin1String(text), widget), row, column);
     form->addWidget(field, row, column + 1);
   };
   m_key = new QSpinBox(widget);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bad_messages_model.h"
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 
 namespace pitchboard::ui {
 
@@ -10,8 +10,8 @@ void BadMessagesModel::add(std::vector<Row>& rows, const QString& who,
   for (std::size_t i = 0; i < telemetry::textErrorCount; ++i) {
     const auto error = static_cast<telemetry::TextError>(i);
     if (errors.count(error) == 0) continue;
-    const std::string_view words = telemetry::errorText(error);
-    rows.push_back({who, QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size())),
+    const std::string_view text = telemetry::errorText(error);
+    rows.push_back({who, QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())),
                     errors.count(error), QString::fromStdString(errors.sample(error))});
   }
 }

@@ -50,20 +50,20 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
   row->addWidget(m_team);
   row->addWidget(m_monitor);
   row->addWidget(m_catalog);
-  setRoom(Room::Wide);
+  setAvailableWidth(Width::Wide);
   m_refresh = Beat::display().add(
       this, most, [this] { refresh(); }, most);
   connect(live, &LiveController::optionsChanged, this, &LiveBar::refresh);
   refresh();
 }
 
-void LiveBar::setRoom(Room room) {
-  const bool least = room == Room::Least;
-  m_ports->setToolButtonStyle(room == Room::Wide ? Qt::ToolButtonTextBesideIcon
-                                                 : Qt::ToolButtonIconOnly);
+void LiveBar::setAvailableWidth(Width width) {
+  const bool least = width == Width::Least;
+  m_ports->setToolButtonStyle(width == Width::Wide ? Qt::ToolButtonTextBesideIcon
+                                                   : Qt::ToolButtonIconOnly);
   // With their texts both would push the whole bar out of the tool bar.
   for (QToolButton* one : {m_monitor, m_catalog}) {
-    one->setToolButtonStyle(room == Room::Wide ? Qt::ToolButtonTextOnly : Qt::ToolButtonIconOnly);
+    one->setToolButtonStyle(width == Width::Wide ? Qt::ToolButtonTextOnly : Qt::ToolButtonIconOnly);
   }
   m_team->setFixedWidth(scaled(this, least ? 136 : 150));
   layout()->setSpacing(scaled(this, least ? 2 : 8));

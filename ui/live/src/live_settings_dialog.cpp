@@ -346,9 +346,9 @@ bool LiveSettingsDialog::fail(const QString& sentence) {
 
 bool LiveSettingsDialog::read(LiveSettings& live) {
   link::LiveOptions& o = live.options;
-  const auto words = [](const Error& error) { return QString::fromStdString(error.text()); };
+  const auto message = [](const Error& error) { return QString::fromStdString(error.text()); };
   const auto bind = telemetry::parseAddress(m_bind->address().toStdString());
-  if (!bind) return fail(QStringLiteral("Listen on: %1").arg(words(bind.error())));
+  if (!bind) return fail(QStringLiteral("Listen on: %1").arg(message(bind.error())));
   o.bind = *bind;
   o.portBase = m_portBase->value();
   o.robots = m_robots->value();
@@ -356,12 +356,12 @@ bool LiveSettingsDialog::read(LiveSettings& live) {
   o.refereePort = m_refereePort->value();
   live.senders = m_senders->text();
   auto senders = sendersFromText(live.senders);
-  if (!senders) return fail(QStringLiteral("Accept robots from: %1").arg(words(senders.error())));
+  if (!senders) return fail(QStringLiteral("Accept robots from: %1").arg(message(senders.error())));
   o.team.senders = std::move(*senders);
   live.refereeSenders = m_refereeSenders->text();
   auto referees = sendersFromText(live.refereeSenders);
   if (!referees)
-    return fail(QStringLiteral("Accept referee from: %1").arg(words(referees.error())));
+    return fail(QStringLiteral("Accept referee from: %1").arg(message(referees.error())));
   o.refereeSenders = std::move(*referees);
   o.refereeVersion = m_refereeVersion->currentData().toInt();
   o.team.timeout = std::chrono::milliseconds(qRound64(m_timeout->value() * 1000));
@@ -379,15 +379,15 @@ bool LiveSettingsDialog::read(LiveSettings& live) {
   o.monitor.reset();
   if (m_monitor->isChecked()) {
     const auto referee = telemetry::parseAddress(live.monitorAddress.toStdString());
-    if (!referee) return fail(QStringLiteral("Referee at: %1").arg(words(referee.error())));
+    if (!referee) return fail(QStringLiteral("Referee at: %1").arg(message(referee.error())));
     o.monitor = *referee;
   }
   auto teams = m_teams->teams();
-  if (!teams) return fail(QStringLiteral("Teams: %1").arg(words(teams.error())));
+  if (!teams) return fail(QStringLiteral("Teams: %1").arg(message(teams.error())));
   o.team.teams = std::move(*teams);
   o.profile = m_profile;
   live.profileFile = m_profileFile;
-  if (const auto good = link::validate(o); !good) return fail(words(good.error()));
+  if (const auto good = link::validate(o); !good) return fail(message(good.error()));
   return true;
 }
 

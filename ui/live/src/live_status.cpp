@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/scoreboard_state.h>
 
 namespace pitchboard::ui {
@@ -69,7 +69,7 @@ QString sentText(const link::SentStatus& sent) {
 double RateWindow::look(double seconds, quint64 count) {
   constexpr double window = 5.0;  // s
   if (!m_looks.empty() && (count < m_looks.back().second || seconds < m_looks.back().first)) {
-    m_looks.clear();  // counted anew
+    m_looks.clear();  // counted again
   }
   m_looks.emplace_back(seconds, count);
   while (m_looks.size() > 2 && seconds - m_looks[1].first >= window) m_looks.pop_front();

@@ -2,7 +2,7 @@
 #pragma once
 
 // Where Live listens: every network interface of this computer, or one, chosen by name and address.
-// Another address may be typed. The list is made anew whenever it opens, since networks come and
+// Another address may be typed. The list is made again whenever it opens, since networks come and
 // go; an address that is not there at the moment stays chosen, and says so. UI thread only.
 
 #include <QComboBox>

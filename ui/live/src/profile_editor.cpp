@@ -37,7 +37,7 @@ using telemetry::ProfileField;
 
 enum Column { Name, Type, Unit, Scale, Offset, Category, Meaning, Labels, columns };
 
-constexpr const char* typeWords[] = {"int", "float", "flag", "text"};
+constexpr const char* typeNames[] = {"int", "float", "flag", "text"};
 
 QComboBox* choice(QTableWidget* table, int row, int column) {
   return static_cast<QComboBox*>(table->cellWidget(row, column));
@@ -46,8 +46,8 @@ QComboBox* choice(QTableWidget* table, int row, int column) {
 /// "0 = stop, 1 = walk".
 QString labelsText(const ProfileField& field) {
   QStringList all;
-  for (const auto& [code, word] : field.labels) {
-    all << QStringLiteral("%1 = %2").arg(code).arg(QString::fromStdString(word));
+  for (const auto& [code, label] : field.labels) {
+    all << QStringLiteral("%1 = %2").arg(code).arg(QString::fromStdString(label));
   }
   return all.join(QStringLiteral(", "));
 }
@@ -59,9 +59,9 @@ std::optional<std::map<std::int32_t, std::string>> labelsFrom(const QString& tex
     const qsizetype equals = part.indexOf(QLatin1Char('='));
     bool good = false;
     const int code = part.left(equals).trimmed().toInt(&good);
-    const QString word = equals < 0 ? QString() : part.mid(equals + 1).trimmed();
-    if (!good || word.isEmpty()) return std::nullopt;
-    labels[code] = word.toStdString();
+    const QString label = equals < 0 ? QString() : part.mid(equals + 1).trimmed();
+    if (!good || label.isEmpty()) return std::nullopt;
+    labels[code] = label.toStdString();
   }
   return labels;
 }
@@ -177,10 +177,10 @@ ProfileEditor::~ProfileEditor() = default;
 // Of x, y, theta and a ball on the field.
 void ProfileEditor::addFrame(QFormLayout* form) {
   auto* row = new QHBoxLayout;
-  const auto add = [&](QComboBox* box, const char* name, std::initializer_list<const char*> words,
+  const auto add = [&](QComboBox* box, const char* name, std::initializer_list<const char*> choices,
                        int chosen) {
     box->setObjectName(QLatin1String(name));
-    for (const char* word : words) box->addItem(QString::fromUtf8(word));
+    for (const char* label : choices) box->addItem(QString::fromUtf8(label));
     box->setCurrentIndex(chosen);
     row->addWidget(box);
     connect(box, &QComboBox::currentIndexChanged, this, &ProfileEditor::check);
@@ -228,7 +228,7 @@ void ProfileEditor::addRow(int row, const ProfileField& field) {
   text(Labels, labelsText(field).toStdString());
   text(Category, field.category);
   auto* type = new QComboBox(m_table);
-  for (const char* word : typeWords) type->addItem(QLatin1String(word));
+  for (const char* label : typeNames) type->addItem(QLatin1String(label));
   type->setCurrentIndex(static_cast<int>(field.type));
   auto* meaning = new QComboBox(m_table);
   for (std::size_t i = 0; i < telemetry::fieldMeaningCount; ++i) {

@@ -23,9 +23,9 @@ QString valuesOf(const TextDecoder& decoder, const DecodedText& decoded) {
       const QString unit = i < fields.size() ? QString::fromStdString(fields[i].unit) : QString();
       parts << QStringLiteral("%1 %2%3").arg(name, QString::number(decoded.values[i], 'g', 6),
                                              unit.isEmpty() ? QString() : QLatin1Char(' ') + unit);
-    } else if (!decoded.words[i].empty()) {
+    } else if (!decoded.texts[i].empty()) {
       parts << name + QLatin1Char(' ') +
-                   QString::fromStdString(telemetry::printable(decoded.words[i], 24));
+                   QString::fromStdString(telemetry::printable(decoded.texts[i], 24));
     }
   }
   return parts.join(QStringLiteral(", "));
@@ -44,13 +44,13 @@ QString knownFormats(const Arrival& arrival, std::span<const KnownFormat> known)
 }
 
 QString robotText(const link::LiveOptions& options, const RobotKey& robot) {
-  QString words = QString::fromStdString(link::robotName(robot, link::teamsOf(options, nullptr)));
+  QString text = QString::fromStdString(link::robotName(robot, link::teamsOf(options, nullptr)));
   const std::string own = link::ownNameOf(options, robot);
-  if (!own.empty()) words += QLatin1Char(' ') + QString::fromStdString(own);
+  if (!own.empty()) text += QLatin1Char(' ') + QString::fromStdString(own);
   if (const auto* team = telemetry::setupAt(robot.team, options.team.teams)) {
-    words += QStringLiteral(" (%1)").arg(QString::fromStdString(team->title()));
+    text += QStringLiteral(" (%1)").arg(QString::fromStdString(team->title()));
   }
-  return words;
+  return text;
 }
 
 }  // namespace

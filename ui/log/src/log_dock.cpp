@@ -15,7 +15,7 @@
 #include <QVBoxLayout>
 
 #include <base/file_target.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -52,7 +52,7 @@ class LogDock : public QWidget {
     words->setPlaceholderText(QStringLiteral("Filter by words, e.g. B1 goal"));
     words->setClearButtonEnabled(true);
     words->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
-    connect(words, &QLineEdit::textChanged, m_filter, &WordsFilter::setWords);
+    connect(words, &QLineEdit::textChanged, m_filter, &TextFilter::setFilterText);
     auto* level = new QComboBox(this);
     level->setObjectName(QStringLiteral("logLevel"));
     level->addItem(QStringLiteral("All lines"), static_cast<int>(LogLevel::Info));

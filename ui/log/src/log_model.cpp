@@ -204,7 +204,7 @@ bool LogFilter::filterAcceptsRow(int row, const QModelIndex& parent) const {
       static_cast<LogLevel>(sourceModel()->index(row, 0, parent).data(LogModel::levelRole).toInt());
   const bool start = level == LogLevel::Debug;
   if (start ? !m_startLinesShown : level != LogLevel::Unknown && level < m_least) return false;
-  return WordsFilter::filterAcceptsRow(row, parent);
+  return TextFilter::filterAcceptsRow(row, parent);
 }
 
 }  // namespace pitchboard::ui

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include <base/log_line.h>
-#include <ui/base/words_filter.h>
+#include <ui/base/text_filter.h>
 #include <ui/sources/frame_source.h>
 
 namespace pitchboard::ui {
@@ -34,7 +34,7 @@ class LogModel : public QAbstractTableModel {
   /// share one part of the list whatever robot they are about.
   void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {},
               std::optional<SourceKind> of = {}, bool events = false);
-  /// The source begins anew: its lines so far belong to no moment of it any more, and `text`
+  /// The source begins again: its lines so far belong to no moment of it any more, and `text`
   /// divides them from what comes.
   void divide(SourceKind of, const QString& text);
   /// The source that is shown, and the moment while it is not the newest: later lines are pale.
@@ -80,11 +80,11 @@ class LogModel : public QAbstractTableModel {
   int m_startLines = 0;
 };
 
-/// Lines with all of the words, of a level and above. Lines of processes that are starting are
-/// folded away unless asked for.
-class LogFilter : public WordsFilter {
+/// Lines that contain the filter text, of a level and above. Lines of processes that are starting
+/// are folded away unless asked for.
+class LogFilter : public TextFilter {
  public:
-  using WordsFilter::WordsFilter;
+  using TextFilter::TextFilter;
   void setLeast(LogLevel least) {
     m_least = least;
     invalidateFilter();

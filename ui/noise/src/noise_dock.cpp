@@ -11,7 +11,7 @@
 #include <simcore/world/parameters.h>
 #include <ui/base/explanation.h>
 #include <ui/base/parameter_rows.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/scrolled_form.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>

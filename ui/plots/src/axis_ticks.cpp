@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 
 namespace pitchboard::ui {
 namespace {

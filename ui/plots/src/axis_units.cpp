@@ -24,15 +24,16 @@ bool AxisPlan::hasRight() const {
   return std::ranges::any_of(places, &Place::right);
 }
 
-AxisPlan planAxes(std::span<const UnitWish> curves) {
+AxisPlan planAxes(std::span<const AxisRequest> curves) {
   AxisPlan plan;
   // What was said by hand has its axis before others look for one.
-  for (const UnitWish& curve : curves) {
+  for (const AxisRequest& curve : curves) {
     if (curve.side == Side::Right && plan.right.isEmpty()) plan.right = curve.unit;
     if (curve.side != Side::Right && plan.left.isEmpty()) plan.left = curve.unit;
   }
-  const bool rightIsTaken = std::ranges::find(curves, Side::Right, &UnitWish::side) != curves.end();
-  for (const UnitWish& curve : curves) {
+  const bool rightIsTaken =
+      std::ranges::find(curves, Side::Right, &AxisRequest::side) != curves.end();
+  for (const AxisRequest& curve : curves) {
     AxisPlan::Place place{.right = curve.side == Side::Right};
     if (curve.side == Side::ByUnit && !factorTo(plan.left, curve.unit)) {
       place.right = true;

@@ -24,10 +24,10 @@ struct AxisPlan {
   bool hasRight() const;
 };
 
-struct UnitWish {
+struct AxisRequest {
   QString unit;  ///< empty: unknown, and so is whether it fits; it goes to the left
   CurveSpec::Side side = CurveSpec::Side::ByUnit;
 };
-AxisPlan planAxes(std::span<const UnitWish> curves);
+AxisPlan planAxes(std::span<const AxisRequest> curves);
 
 }  // namespace pitchboard::ui

@@ -51,9 +51,9 @@ class Curve {
   bool isHidden() const { return m_spec.hidden.contains(name()); }
   /// At this time, or the newest value without one; nothing where the curve has a gap.
   std::optional<double> valueAt(std::optional<double> time) const;
-  /// The same as text, codes in words.
+  /// The same as text, codes as their labels.
   QString valueTextAt(std::optional<double> time) const;
-  /// "walk forward, slow" for a code; its number when nobody gave it a word.
+  /// "walk forward, slow" for a code; its number if it has no label.
   QString codeText(double value) const;
 
  private:

@@ -97,8 +97,8 @@ QList<QLineF> dashedLine(std::span<const QPointF> line, int dash, double pixel, 
   return pieces;
 }
 
-QColor laneColor(const QString& word, int code) {
-  static constexpr std::array<std::pair<const char*, std::size_t>, 8> words{{{"walk", 0},
+QColor laneColor(const QString& label, int code) {
+  static constexpr std::array<std::pair<const char*, std::size_t>, 8> verbs{{{"walk", 0},
                                                                              {"turn", 1},
                                                                              {"stop", 2},
                                                                              {"kick", 3},
@@ -106,8 +106,8 @@ QColor laneColor(const QString& word, int code) {
                                                                              {"gait", 4},
                                                                              {"off", 4},
                                                                              {"on", 0}}};
-  for (const auto& [start, lane] : words) {
-    if (word.startsWith(QLatin1String(start), Qt::CaseInsensitive)) return shade(lanes[lane]);
+  for (const auto& [start, lane] : verbs) {
+    if (label.startsWith(QLatin1String(start), Qt::CaseInsensitive)) return shade(lanes[lane]);
   }
   const auto count = static_cast<int>(lanes.size());
   return shade(lanes[static_cast<std::size_t>(((code % count) + count) % count)]);

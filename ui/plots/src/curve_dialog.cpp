@@ -255,7 +255,7 @@ void CurveDialog::showKind() {
 QString CurveDialog::problem() const {
   const CurveSpec spec = curve();
   if (spec.kind == CurveKind::Expression) {
-    const auto parsed = Expression::parse(spec.expression);
+    const auto parsed = PlotExpression::parse(spec.expression);
     return parsed ? QString() : QString::fromStdString(parsed.error().message);
   }
   for (const QString& input : spec.inputs) {
@@ -276,7 +276,7 @@ QString CurveDialog::unknownVariable() const {
   const CurveSpec spec = curve();
   QStringList inputs = spec.inputs;
   if (spec.kind == CurveKind::Expression) {
-    const auto parsed = Expression::parse(spec.expression);
+    const auto parsed = PlotExpression::parse(spec.expression);
     if (!parsed) return {};
     inputs = parsed->variables();
   }
@@ -292,10 +292,11 @@ QString CurveDialog::unknownVariable() const {
     }
     const QString near =
         columns.isEmpty() ? nearestName(group, groups) : nearestName(column, columns);
-    const QString words = columns.isEmpty()
-                              ? QStringLiteral("There is no %1.").arg(group)
-                              : QStringLiteral("%1 has no variable %2.").arg(group, column);
-    return near.isEmpty() ? words : words + QStringLiteral(" Did you mean %1?").arg(near);
+    const QString explanation = columns.isEmpty()
+                                    ? QStringLiteral("There is no %1.").arg(group)
+                                    : QStringLiteral("%1 has no variable %2.").arg(group, column);
+    return near.isEmpty() ? explanation
+                          : explanation + QStringLiteral(" Did you mean %1?").arg(near);
   }
   return {};
 }

@@ -18,27 +18,27 @@ QString groupOf(const QString& name) {
   return name.left(name.indexOf(QLatin1Char('/')));
 }
 
-bool isWord(const QString& group) {
+bool isPlainName(const QString& group) {
   return group == eachGroup || group == firstGroup;
 }
 
 QStringList variablesOf(const CurveSpec& curve) {
   if (curve.kind != CurveKind::Expression) return curve.inputs;
-  const auto expression = Expression::parse(curve.expression);
+  const auto expression = PlotExpression::parse(curve.expression);
   return expression ? expression->variables() : QStringList();
 }
 
 /// As it was typed, with the names that its variables have now.
 QString presentExpression(const QString& typed, const PlotFeed& feed) {
-  static const QRegularExpression word(QStringLiteral("^[A-Za-z_]\\w*$"));
-  const auto parsed = Expression::parse(typed);
+  static const QRegularExpression identifier(QStringLiteral("^[A-Za-z_]\\w*$"));
+  const auto parsed = PlotExpression::parse(typed);
   QString shown = typed;
   for (const QString& name : parsed ? parsed->variables() : QStringList()) {
     const QString present = feed.presentName(name);
     if (present == name) continue;
     const QString group = groupOf(present), column = present.mid(group.size() + 1);
-    const QString now = word.match(group).hasMatch() ? group + QLatin1Char('.') + column
-                                                     : QStringLiteral("{%1}").arg(present);
+    const QString now = identifier.match(group).hasMatch() ? group + QLatin1Char('.') + column
+                                                           : QStringLiteral("{%1}").arg(present);
     const QString braced = QRegularExpression::escape(name);
     const QString plain = QRegularExpression::escape(QString(name).replace('/', '.'));
     shown.replace(QRegularExpression(QStringLiteral("\\{\\s*%1\\s*\\}").arg(braced)), now);
@@ -50,9 +50,9 @@ QString presentExpression(const QString& typed, const PlotFeed& feed) {
 CurveSpec ofGroup(const CurveSpec& curve, const QString& group, const PlotFeed& feed) {
   CurveSpec made = curve;
   for (QString& input : made.inputs) {
-    const QString word = groupOf(input);
-    if (!isWord(word)) continue;
-    input = feed.presentName(group + input.mid(word.size()));
+    const QString identifier = groupOf(input);
+    if (!isPlainName(identifier)) continue;
+    input = feed.presentName(group + input.mid(identifier.size()));
   }
   // Names of groups may have characters that only braces can hold.
   static const QRegularExpression plain(
@@ -75,7 +75,7 @@ CurveSpec ofGroup(const CurveSpec& curve, const QString& group, const PlotFeed& 
 bool isTemplate(const CurveSpec& curve) {
   const QStringList names = variablesOf(curve);
   return std::any_of(names.begin(), names.end(),
-                     [](const QString& name) { return isWord(groupOf(name)); });
+                     [](const QString& name) { return isPlainName(groupOf(name)); });
 }
 
 QList<CurveSpec> curvesOf(const CurveSpec& curve, PlotFeed& feed) {
@@ -83,7 +83,7 @@ QList<CurveSpec> curvesOf(const CurveSpec& curve, PlotFeed& feed) {
   bool every = false;
   for (const QString& name : variablesOf(curve)) {
     const QString group = groupOf(name);
-    if (!isWord(group)) continue;
+    if (!isPlainName(group)) continue;
     columns << name.mid(group.size() + 1);
     every = every || group == eachGroup;
   }

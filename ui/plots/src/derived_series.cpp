@@ -21,7 +21,7 @@ using telemetry::Sample;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t rowsAtOnce = 1 << 16;
 constexpr std::size_t memoryBudget = std::size_t{256} << 20;  // bytes of one derived curve
-// An input that is silent for longer is not waited for; its last value holds.
+// An input without samples for longer is not waited for; its last value holds.
 constexpr double longestWait = 1.0;  // s
 constexpr std::size_t tailRows = 64;
 
@@ -55,9 +55,9 @@ Step makeStep(const CurveSpec& spec, const std::string& unit) {
     case CurveKind::Difference:
       return [](double, std::span<const double> values) { return values[0] - values[1]; };
     case CurveKind::Expression: {
-      auto expression = Expression::parse(spec.expression);
+      auto expression = PlotExpression::parse(spec.expression);
       if (!expression) return {};
-      auto shared = std::make_shared<Expression>(std::move(*expression));
+      auto shared = std::make_shared<PlotExpression>(std::move(*expression));
       return [shared](double time, std::span<const double> values) {
         return shared->evaluate(time, values);
       };
@@ -156,7 +156,7 @@ DerivedSeries::DerivedSeries(const CurveSpec& spec) : m_work(std::make_shared<Wo
   m_work->spec = spec;
   m_work->inputs = spec.inputs;
   if (spec.kind == CurveKind::Expression) {
-    const auto expression = Expression::parse(spec.expression);
+    const auto expression = PlotExpression::parse(spec.expression);
     if (expression)
       m_work->inputs = expression->variables();
     else

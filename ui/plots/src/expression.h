@@ -11,13 +11,13 @@
 
 namespace pitchboard::ui {
 
-class Expression {
+class PlotExpression {
  public:
   /// Fails with a sentence that names the place.
-  static Result<Expression> parse(const QString& text) {
+  static Result<PlotExpression> parse(const QString& text) {
     auto parsed = telemetry::Expression::parse(text.toStdString());
     if (!parsed) return tl::unexpected(parsed.error());
-    return Expression(std::move(*parsed));
+    return PlotExpression(std::move(*parsed));
   }
 
   /// `GROUP/NAME` of each, in the order in which they appear first.
@@ -28,7 +28,7 @@ class Expression {
   }
 
  private:
-  explicit Expression(telemetry::Expression expression) : m_expression(std::move(expression)) {
+  explicit PlotExpression(telemetry::Expression expression) : m_expression(std::move(expression)) {
     for (const std::string& name : m_expression.variables()) {
       m_variables << QString::fromStdString(name);
     }

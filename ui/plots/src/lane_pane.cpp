@@ -177,14 +177,14 @@ void LanePane::paintLanes(QPainter& painter) const {
                    : curve.isWaiting() ? colors.disabledText
                                        : colors.text);
     QString text = curve.isWaiting() ? curve.note() : curve.name();
-    drawWords(painter, name, Qt::AlignLeft | Qt::AlignVCenter, text);
+    drawTextLine(painter, name, Qt::AlignLeft | Qt::AlignVCenter, text);
     if (!curve.isWaiting()) {
-      const double used = wordsWidth(painter.font(), text) + scaled(this, 8);
+      const double used = textLineWidth(painter.font(), text) + scaled(this, 8);
       painter.setPen(colors.secondaryText);
-      drawWords(painter, name.adjusted(used, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
-                curve.valueTextAt(m_feed->time()->readAt()));
+      drawTextLine(painter, name.adjusted(used, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
+                   curve.valueTextAt(m_feed->time()->readAt()));
       if (curve.view().group->isReading(axis.shown)) {
-        drawWords(painter, name, Qt::AlignRight | Qt::AlignVCenter, QStringLiteral("reading…"));
+        drawTextLine(painter, name, Qt::AlignRight | Qt::AlignVCenter, QStringLiteral("reading…"));
       }
     }
     y += scaled(this, nameHeight);
@@ -211,8 +211,8 @@ void LanePane::paintLanes(QPainter& painter) const {
           continue;
         }
         painter.setPen(colors.text);
-        drawWords(painter, box.adjusted(padding, 0, -padding, 0), Qt::AlignLeft | Qt::AlignVCenter,
-                  word, Qt::ElideRight);
+        drawTextLine(painter, box.adjusted(padding, 0, -padding, 0),
+                     Qt::AlignLeft | Qt::AlignVCenter, word, Qt::ElideRight);
       }
     }
     if (i < m_comparedStretches.size()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Codes and flags over the linked time axis: a lane for each, stretches in words.
+// Codes and flags over the linked time axis: a lane for each, stretches with their labels.
 
 #include "plot_pane.h"
 

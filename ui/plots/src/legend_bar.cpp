@@ -23,7 +23,7 @@ constexpr int gapInEntry = 6;
 constexpr int gapBetween = 24;
 
 int textWidth(const QFont& font, const QString& text) {
-  return static_cast<int>(std::ceil(wordsWidth(font, text)));
+  return static_cast<int>(std::ceil(textLineWidth(font, text)));
 }
 }  // namespace
 
@@ -149,10 +149,10 @@ void LegendBar::paintEvent(QPaintEvent*) {
   painter.setFont(font);
   painter.setPen(colors.secondaryText);
   const int gap = scaled(this, gapInEntry);
-  drawWords(painter, QRect(0, 0, m_left - gap, height), Qt::AlignRight | Qt::AlignVCenter,
-            m_leftUnit);
-  drawWords(painter, QRect(width() - m_right + gap, 0, m_right - gap, height),
-            Qt::AlignLeft | Qt::AlignVCenter, m_rightUnit);
+  drawTextLine(painter, QRect(0, 0, m_left - gap, height), Qt::AlignRight | Qt::AlignVCenter,
+               m_leftUnit);
+  drawTextLine(painter, QRect(width() - m_right + gap, 0, m_right - gap, height),
+               Qt::AlignLeft | Qt::AlignVCenter, m_rightUnit);
   for (qsizetype i = 0; i < m_entries.size(); ++i) {
     const LegendEntry& entry = m_entries[i];
     QRect rect = m_rects.value(i);
@@ -174,7 +174,7 @@ void LegendBar::paintEvent(QPaintEvent*) {
     const int rest = wide(entry.value) + wide(entry.side);
     const int name = std::clamp(rect.width() - rest, 0, textWidth(font, entry.text));
     const QRect nameRect(rect.topLeft(), QSize(name, rect.height()));
-    drawWords(painter, nameRect, Qt::AlignLeft | Qt::AlignVCenter, entry.text, Qt::ElideRight);
+    drawTextLine(painter, nameRect, Qt::AlignLeft | Qt::AlignVCenter, entry.text, Qt::ElideRight);
     if (entry.hidden) {
       painter.drawLine(nameRect.left(), nameRect.center().y() + 1, nameRect.right(),
                        nameRect.center().y() + 1);
@@ -182,11 +182,11 @@ void LegendBar::paintEvent(QPaintEvent*) {
     rect.setLeft(rect.left() + name + gap);
     if (!entry.side.isEmpty()) {
       painter.setPen(entry.odd ? colors.warningText : colors.secondaryText);
-      drawWords(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, entry.side);
+      drawTextLine(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, entry.side);
       rect.setLeft(rect.left() + wide(entry.side));
     }
     painter.setPen(colors.secondaryText);
-    drawWords(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, entry.value);
+    drawTextLine(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, entry.value);
   }
   const auto arrow = [&](const QRect& at, const QString& sign, bool on) {
     if (at.isEmpty()) return;

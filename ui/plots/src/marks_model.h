@@ -18,7 +18,7 @@ struct MarksRow {
   QColor color;
   std::optional<double> a, b;           ///< the last sample at or before the mark
   telemetry::SeriesStatistics between;  ///< no samples: nothing lies between
-  QString aText, bText;                 ///< words of codes; empty for numbers
+  QString aText, bText;                 ///< labels of codes; empty for numbers
   bool operator==(const MarksRow&) const;
 };
 

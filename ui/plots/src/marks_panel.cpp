@@ -14,7 +14,7 @@
 #include <iterator>
 #include <utility>
 
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 #include <ui/sources/linked_time.h>
@@ -26,8 +26,8 @@
 namespace pitchboard::ui {
 namespace {
 constexpr int mostEventsNamed = 3;
-constexpr int nameWidth = 188, numberWidth = 54, wordWidth = 84;  // px of the mock
-constexpr int widestWord = 124;
+constexpr int nameWidth = 188, numberWidth = 54, labelWidth = 84;  // px of the mock
+constexpr int widestText = 124;
 constexpr int wordColumns[] = {MarksModel::AtA, MarksModel::AtB};
 
 QString spanText(bool whole) {
@@ -46,7 +46,7 @@ class MarksDelegate : public QStyledItemDelegate {
     if (index.column() == MarksModel::Name || !option->rect.isValid()) return;
     constexpr int margin = 4;
     option->text =
-        elidedWords(QFontMetricsF(option->font), option->text, option->rect.width() - 2 * margin);
+        elideText(QFontMetricsF(option->font), option->text, option->rect.width() - 2 * margin);
   }
 };
 }  // namespace
@@ -96,7 +96,7 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
   m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   m_table->horizontalHeader()->setMinimumSectionSize(scaled(this, 30));
   m_table->horizontalHeader()->setSectionResizeMode(MarksModel::Name, QHeaderView::Stretch);
-  forgetWords();
+  forgetTextWidths();
   m_times->setTextFormat(Qt::RichText);
   m_difference->setFont(themeFont(TypeRole::Secondary, true));
   m_difference->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -141,18 +141,18 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
 QSize MarksPanel::sizeHint() const {
   // All columns side by side.
   constexpr int numbers = MarksModel::columns - 1 - static_cast<int>(std::size(wordColumns));
-  return {scaled(this, nameWidth + numbers * numberWidth + 2 * wordWidth), scaled(this, 120)};
+  return {scaled(this, nameWidth + numbers * numberWidth + 2 * labelWidth), scaled(this, 120)};
 }
 
-void MarksPanel::forgetWords() {
+void MarksPanel::forgetTextWidths() {
   for (int c = MarksModel::AtA; c < MarksModel::columns; ++c) {
     m_table->setColumnWidth(c, scaled(this, numberWidth));
   }
 }
 
-// Numbers have all the room that they need, words of a code less. Columns do not become narrower
+// Numbers have all the room that they need, labels of codes less. Columns do not become narrower
 // again while a mark is dragged.
-void MarksPanel::fitWords() {
+void MarksPanel::fitTextColumns() {
   QStyleOptionViewItem option;
   option.initFrom(m_table);
   option.widget = m_table;
@@ -162,8 +162,8 @@ void MarksPanel::fitWords() {
       const QModelIndex cell = m_model->index(row, column);
       const int wide = m_table->itemDelegate()->sizeHint(option, cell).width();
       const QString text = cell.data().toString();
-      const bool isWord = !text.isEmpty() && text.front().isLetter();
-      wanted = std::max(wanted, isWord ? std::min(wide, scaled(this, widestWord)) : wide);
+      const bool isText = !text.isEmpty() && text.front().isLetter();
+      wanted = std::max(wanted, isText ? std::min(wide, scaled(this, widestText)) : wide);
     }
     if (wanted != m_table->columnWidth(column)) m_table->setColumnWidth(column, wanted);
   }
@@ -185,7 +185,7 @@ void MarksPanel::copyTable() const {
 
 void MarksPanel::refresh(const QList<PlotPane*>& panes) {
   LinkedTime* time = m_feed->time();
-  if (isHidden()) forgetWords();
+  if (isHidden()) forgetTextWidths();
   setVisible(time->hasMarks());
   m_panes.clear();
   for (PlotPane* pane : panes) m_panes << pane;
@@ -204,7 +204,7 @@ void MarksPanel::refresh(const QList<PlotPane*>& panes) {
     }
   }
   m_model->setRows(std::move(rows));
-  fitWords();
+  fitTextColumns();
   m_events->setText(m_timeline != nullptr
                         ? eventsBetween(m_timeline->events()->events(), a, b, *m_feed)
                         : QString());

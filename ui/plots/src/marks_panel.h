@@ -33,8 +33,8 @@ class MarksPanel : public QWidget {
   QSize sizeHint() const override;
 
  private:
-  void forgetWords();
-  void fitWords();
+  void forgetTextWidths();
+  void fitTextColumns();
 
   PlotFeed* m_feed;
   Timeline* m_timeline;

@@ -132,7 +132,7 @@ void PlotFeed::orderRobots() {
   if (m_robots.isEmpty()) m_first.clear();  // chosen before anybody knew who keeps the goal
   m_robots = std::move(now);
   ++m_looks;
-  ++m_generation;  // drawn anew in a match that is paused, too
+  ++m_generation;  // drawn again in a match that is paused, too
 }
 
 std::optional<bool> PlotFeed::isMoving(const QString& group, const QStringList& columns) const {
@@ -188,7 +188,7 @@ void PlotFeed::findFirst() {
   }
 }
 
-// A robot that is heard for the first time says nothing new of the others: their derived curves
+// A robot that is received for the first time says nothing new of the others: their derived curves
 // stay.
 void PlotFeed::lookAgain() {
   bool changed = false;
@@ -217,7 +217,7 @@ void PlotFeed::setNamedCurves(const std::map<QString, CurveSpec>& curves) {
     made.spec = spec;
     if (spec.kind != CurveKind::Variable) made.rows = std::make_unique<DerivedSeries>(spec);
   }
-  // Only what is made of them has to be computed anew.
+  // Only what is made of them has to be computed again.
   if (changed && m_namedAsked) ++m_generation;
 }
 

@@ -25,11 +25,11 @@ constexpr std::size_t mostLayoutBytes = 4 << 20;  // a layout has some kilobytes
 constexpr std::size_t mostOfAnything =
     200;  // pages, plots, curves: a file with more is not one of ours
 
-/// A missing word is the first one; `what` as in "there is no style of curve ...".
+/// A missing name is the first one; `what` as in "there is no style of curve ...".
 template <class Enum, std::size_t N>
-Enum readWord(const JsonObject& object, std::string_view key,
-              const std::array<std::string_view, N>& words, std::string_view what) {
-  return static_cast<Enum>(object.choice(key, words, what).value_or(0));
+Enum readChoice(const JsonObject& object, std::string_view key,
+                const std::array<std::string_view, N>& choices, std::string_view what) {
+  return static_cast<Enum>(object.choice(key, choices, what).value_or(0));
 }
 
 QString textOf(const JsonObject& object, std::string_view key) {
@@ -51,8 +51,8 @@ void forEach(JsonReport& report, const JsonObject& object, std::string_view key,
 }
 
 template <class Enum, std::size_t N>
-QString word(const std::array<std::string_view, N>& words, Enum value) {
-  const std::string_view found = words[static_cast<std::size_t>(value)];
+QString word(const std::array<std::string_view, N>& choices, Enum value) {
+  const std::string_view found = choices[static_cast<std::size_t>(value)];
   return QLatin1String(found.data(), qsizetype(found.size()));
 }
 
@@ -86,8 +86,8 @@ QStringList namesOf(const JsonObject& o, std::string_view key) {
 
 CurveSpec curveFrom(const JsonObject& o) {
   CurveSpec curve;
-  curve.kind = readWord<CurveKind>(o, "kind", curveKinds, "kind of curve");
-  curve.style = readWord<CurveStyle>(o, "style", styles, "style of curve");
+  curve.kind = readChoice<CurveKind>(o, "kind", curveKinds, "kind of curve");
+  curve.style = readChoice<CurveStyle>(o, "style", styles, "style of curve");
   for (const QString& input : namesOf(o, "inputs")) {
     // Version 0.8 wrote `A|B` where Live called A otherwise.
     curve.inputs << input.section(QLatin1Char('|'), 0, 0);
@@ -106,7 +106,7 @@ CurveSpec curveFrom(const JsonObject& o) {
   curve.title = textOf(o, "title");
   curve.colorNumber = wholeOf(o, "colorNumber", 0, 0, std::numeric_limits<int>::max());
   if (o.find("color")) curve.color = QColor(textOf(o, "color"));
-  curve.side = readWord<CurveSpec::Side>(o, "axis", sides, "value axis");
+  curve.side = readChoice<CurveSpec::Side>(o, "axis", sides, "value axis");
   // As versions up to 0.11 wrote it.
   if (o.boolean("rightAxis", false)) curve.side = CurveSpec::Side::Right;
   curve.hidden = namesOf(o, "hidden");
@@ -140,7 +140,7 @@ bool readLimits(const JsonObject& o, std::string_view key, ValueLimits& limits) 
 
 PaneSpec paneFrom(JsonReport& report, const JsonObject& o) {
   PaneSpec pane;
-  pane.kind = readWord<PaneKind>(o, "kind", paneKinds, "kind of plot");
+  pane.kind = readChoice<PaneKind>(o, "kind", paneKinds, "kind of plot");
   pane.title = textOf(o, "title");
   pane.valueTitle = textOf(o, "valueTitle");
   pane.share = wholeOf(o, "share", 100, 1, 100'000);

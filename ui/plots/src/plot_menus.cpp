@@ -253,14 +253,14 @@ void addKinds(QMenu* menu, PlotPage* page, PlotPane* pane) {
                  spec.curves[i + 1].kind != CurveKind::Variable;
       xy.curves << pair;
     }
-    const QString words = QStringLiteral("Show as XY plot");
+    const QString label = QStringLiteral("Show as XY plot");
     if (computed) {
       // What is computed is computed where it is shown over time: that stays.
-      menu->addAction(words, page, [page, pane, xy] {
+      menu->addAction(label, page, [page, pane, xy] {
         page->insertPane(static_cast<int>(page->panes().indexOf(pane)) + 1, xy);
       });
     } else {
-      offer(words, xy, PaneKind::Xy);
+      offer(label, xy, PaneKind::Xy);
     }
   }
   if (pane->kind() == PaneKind::Xy) {

@@ -82,7 +82,7 @@ PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWi
   row->setContentsMargins(0, 0, 0, 0);
   row->addWidget(m_split);
   m_stack->installEventFilter(this);
-  connect(m_panes, &QSplitter::splitterMoved, this, &PlotPage::tellChanged);
+  connect(m_panes, &QSplitter::splitterMoved, this, &PlotPage::notifyChanged);
   for (const auto moved : {&LinkedTime::cursorChanged, &LinkedTime::momentChanged}) {
     connect(feed->time(), moved, this, [this] {
       if (!isVisible()) return;
@@ -117,7 +117,7 @@ class PlotPage::Batch {
   PlotPage* m_page;
 };
 
-void PlotPage::tellChanged() {
+void PlotPage::notifyChanged() {
   if (m_batches > 0)
     m_changedInBatch = true;
   else
@@ -139,7 +139,7 @@ PageSpec PlotPage::spec() const {
 
 void PlotPage::setName(const QString& name) {
   m_name = name;
-  tellChanged();
+  notifyChanged();
 }
 
 QList<PlotPane*> PlotPage::panes() const {
@@ -154,7 +154,7 @@ PlotPane* PlotPage::insertPane(int index, const PaneSpec& spec) {
   m_panes->setStretchFactor(index, spec.kind == PaneKind::Lane ? 0 : 1);
   pane->setBoxTool(m_boxTool);
   connect(pane, &PlotPane::leftChanged, this, &PlotPage::align);
-  connect(pane, &PlotPane::changed, this, &PlotPage::tellChanged);
+  connect(pane, &PlotPane::changed, this, &PlotPage::notifyChanged);
   connect(pane, &PlotPane::changed, this, &PlotPage::showMarks);
   connect(pane, &PlotPane::pointed, this, [this, pane](std::optional<QPointF> at) {
     m_pointedPane = pane;
@@ -167,7 +167,7 @@ PlotPane* PlotPage::insertPane(int index, const PaneSpec& spec) {
   pane->show();
   align();
   m_lines->raise();
-  tellChanged();
+  notifyChanged();
   return pane;
 }
 
@@ -176,7 +176,7 @@ void PlotPage::removePane(PlotPane* pane) {
   pane->deleteLater();
   align();
   showMarks();
-  tellChanged();
+  notifyChanged();
 }
 
 void PlotPage::removeAll() {
@@ -186,7 +186,7 @@ void PlotPage::removeAll() {
   }
   align();
   showMarks();
-  tellChanged();
+  notifyChanged();
 }
 
 // The table gets the width that its columns want, as long as the plots keep half.
@@ -463,10 +463,10 @@ void PlotPage::dragMoveEvent(QDragMoveEvent* event) {
   if (names.isEmpty()) return;
   event->acceptProposedAction();
   const Target target = targetAt(event->position().toPoint(), names.size());
-  const QString words = target.place == Place::OnPane  ? QStringLiteral("add to this plot")
+  const QString label = target.place == Place::OnPane  ? QStringLiteral("add to this plot")
                         : target.place == Place::NewXy ? QStringLiteral("XY plot")
                                                        : QStringLiteral("new plot");
-  m_lines->setHint(DropHint{target.area, words});
+  m_lines->setHint(DropHint{target.area, label});
 }
 
 void PlotPage::dragLeaveEvent(QDragLeaveEvent*) {

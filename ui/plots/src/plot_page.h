@@ -82,7 +82,7 @@ class PlotPage : public QWidget {
   Target targetAt(const QPoint& position, qsizetype count) const;
   /// Changes that are one for whoever undoes them: changed() comes at their end.
   class Batch;
-  void tellChanged();
+  void notifyChanged();
   bool isCoded(const QString& name) const;
   QString unitOf(const QString& name) const;
   /// Each to the first of these plots that can show it, else to a new one at `index`.

@@ -119,15 +119,15 @@ void PlotPane::expand() {
   m_axes = planAxes(unitsOfCurves());
 }
 
-std::vector<UnitWish> PlotPane::unitsOfCurves() const {
-  std::vector<UnitWish> all;
+std::vector<AxisRequest> PlotPane::unitsOfCurves() const {
+  std::vector<AxisRequest> all;
   for (const Curve& curve : m_curves) all.push_back({curve.unit(), curve.spec().side});
   return all;
 }
 
 bool PlotPane::canTake(const QString& unit) const {
   if (kind() != PaneKind::Chart) return true;
-  std::vector<UnitWish> all = unitsOfCurves();
+  std::vector<AxisRequest> all = unitsOfCurves();
   all.push_back({unit});
   return !planAxes(all).places.back().stranger;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 // One plot on a page: curves, a legend, and something that draws them. What it draws with is the
-// subclass's: a chart over time, lanes of words, one variable over another. UI thread only.
+// subclass's: a chart over time, lanes of labels, one variable over another. UI thread only.
 
 #include <QWidget>
 #include <vector>
@@ -69,7 +69,7 @@ class PlotPane : public QWidget {
   TimeAxis timeAxis() const;
   /// A drag without keys draws a box.
   virtual void setBoxTool(bool) {}
-  /// The value at this place of the surface, in words; empty where there is none.
+  /// Returns the value at this place of the surface as text; empty where there is none.
   virtual QString pointedText(QPointF) const { return {}; }
 
   /// Takes the newest rows and draws what is visible of them.
@@ -104,9 +104,9 @@ class PlotPane : public QWidget {
  private:
   void edited();
   void expand();
-  std::vector<UnitWish> unitsOfCurves() const;
+  std::vector<AxisRequest> unitsOfCurves() const;
   LegendEntry legendEntry(std::size_t index) const;
-  /// Without drawing anew.
+  /// Without drawing again.
   void setHidden(int index, bool on);
   int freeColor() const;
 

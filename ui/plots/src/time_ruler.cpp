@@ -41,7 +41,7 @@ std::vector<AxisTick> TimeRuler::labels() const {
   const std::vector<Tag> covering = tags();
   const QFont font = themeFont(TypeRole::Small);
   std::erase_if(shown, [&](const AxisTick& tick) {
-    const double wide = wordsWidth(font, tick.label) + scaled(this, 6);
+    const double wide = textLineWidth(font, tick.label) + scaled(this, 6);
     const QRectF box(axis.pixel(tick.time) - wide / 2, 0, wide, height());
     return std::ranges::any_of(covering,
                                [&box](const Tag& tag) { return tag.box.intersects(box); });
@@ -57,14 +57,14 @@ void TimeRuler::paintEvent(QPaintEvent*) {
   const double half = scaled(this, pixelsPerStep);
   for (const AxisTick& tick : labels()) {
     const double x = axis.pixel(tick.time);
-    drawWords(painter, QRectF(x - half, 0, 2 * half, height()), Qt::AlignCenter, tick.label);
+    drawTextLine(painter, QRectF(x - half, 0, 2 * half, height()), Qt::AlignCenter, tick.label);
   }
   for (const Tag& tag : tags()) {
     painter.setPen(theme().innerLine);
     painter.setBrush(tag.isMoment ? theme().accentFill : theme().button);
     painter.drawRoundedRect(tag.box, 2, 2);
     painter.setPen(tag.isMoment ? QColor(Qt::white) : theme().text);
-    painter.drawText(tag.box, Qt::AlignCenter, tag.words);
+    painter.drawText(tag.box, Qt::AlignCenter, tag.text);
   }
 }
 
@@ -78,12 +78,12 @@ std::vector<TimeRuler::Tag> TimeRuler::tags() const {
     if (!time || x < axis.left - 0.5 || x > axis.right() + 0.5) return;
     constexpr double fine = 0.003, coarse = 0.03;  // s for each pixel
     const double each = axis.secondsPerPixel();
-    const QString words = m_feed->timeText(*time, each < fine ? 3 : each < coarse ? 2 : 1);
-    const double wide = metrics.horizontalAdvance(words) + scaled(this, 8);
+    const QString text = m_feed->timeText(*time, each < fine ? 3 : each < coarse ? 2 : 1);
+    const double wide = metrics.horizontalAdvance(text) + scaled(this, 8);
     QRectF box(x - wide / 2, 0.5, wide, height() - 1.0);
     if (box.left() < 0) box.moveLeft(0);
     if (box.right() > width()) box.moveRight(width());
-    all.push_back({box, words, isMoment});
+    all.push_back({box, text, isMoment});
   };
   add(m_feed->time()->moment(), true);
   add(m_feed->time()->cursor(), false);
@@ -240,7 +240,7 @@ void TimeLines::paintEvent(QPaintEvent*) {
   painter.setBrush(ground);
   painter.drawRect(m_hint->area.adjusted(1, 1, -1, -1));
   painter.setPen(colors.text);
-  painter.drawText(m_hint->area, Qt::AlignCenter, m_hint->words);
+  painter.drawText(m_hint->area, Qt::AlignCenter, m_hint->text);
 }
 
 }  // namespace pitchboard::ui

@@ -36,7 +36,7 @@ class TimeRuler : public QWidget {
   /// The time of pointer or moment.
   struct Tag {
     QRectF box;
-    QString words;
+    QString text;
     bool isMoment = false;
   };
   std::vector<Tag> tags() const;
@@ -68,8 +68,8 @@ class MarkHeads : public QWidget {
 
 /// Where something that is dragged over a page would go.
 struct DropHint {
-  QRect area;     ///< of the plot it would join, or the line of a new one
-  QString words;  ///< "add to this plot", "new plot"
+  QRect area;    ///< of the plot it would join, or the line of a new one
+  QString text;  ///< "add to this plot", "new plot"
   bool operator==(const DropHint&) const = default;
 };
 

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <vector>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 
 #include "side_by_side.h"

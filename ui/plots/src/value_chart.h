@@ -5,7 +5,7 @@
 // an XY plot. Long curves over time are painted by a function instead: Qt's line series takes every
 // row as a point and keeps all of them (compared by line_series in
 // tests/benchmarks/bench_plots.cpp). With them goes the grid of an x axis without numbers: Qt makes
-// items anew for every step of a time axis that follows. UI thread only.
+// items again for every step of a time axis that follows. UI thread only.
 
 #include <QChartView>
 #include <functional>
@@ -48,7 +48,7 @@ class ValueChart : public QChartView {
   int wantedRight() const;
 
   void setCurvePainter(Painter painter, Painting painting = Painting::Whole);
-  /// The curves have changed: paint them anew at the next opportunity.
+  /// The curves have changed: paint them again at the next opportunity.
   void redraw();
   void applyTheme();
 

@@ -24,12 +24,13 @@ void showOrphanNotice(NoticeBar* notices, MatchController* controller) {
   const QString sentence =
       keys.size() == 1
           ? QStringLiteral(
-                "A program that has ended left a blackboard behind (key %1), with its old values. "
-                "Removing it restarts the match.")
+                "A program that has ended did not remove its blackboard (key %1), which still "
+                "holds "
+                "old values. Removing it restarts the match.")
                 .arg(names.front())
           : QStringLiteral(
-                "Programs that have ended left %1 blackboards behind (keys %2), with their "
-                "old values. Removing them restarts the match.")
+                "Programs that have ended did not remove %1 blackboards (keys %2), which still "
+                "hold old values. Removing them restarts the match.")
                 .arg(keys.size())
                 .arg(names.join(QStringLiteral(", ")));
   notices->show({QStringLiteral("orphans")}, sentence,

@@ -100,7 +100,7 @@ class ProcessesDock : public QStackedWidget {
         simulated
             ? emptyText(*m_controller)
             : QStringLiteral("These robots' processes run on the robots. The letters on the cards "
-                             "tell which of them work."));
+                             "show which of them work."));
     m_asNow->setVisible(m_controller->edits()->isLocked());
     setCurrentWidget(m_model->rowCount() > 0 ? m_page : m_empty);
   }

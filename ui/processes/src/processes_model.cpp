@@ -4,7 +4,7 @@
 #include <QColor>
 #include <algorithm>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -14,8 +14,8 @@ using State = link::ProcessState;
 
 QString stateText(const link::ProcessSummary& status) {
   const QString detail = QString::fromStdString(status.detail);
-  const auto with = [&detail](const QString& word) {
-    return detail.isEmpty() ? word : word + QStringLiteral(" (") + detail + QLatin1Char(')');
+  const auto with = [&detail](const QString& state) {
+    return detail.isEmpty() ? state : state + QStringLiteral(" (") + detail + QLatin1Char(')');
   };
   switch (status.state) {
     case State::Waiting:
@@ -23,7 +23,7 @@ QString stateText(const link::ProcessSummary& status) {
     case State::Running:
       return QStringLiteral("running");
     case State::NotResponding:
-      return with(QStringLiteral("silent"));
+      return with(QStringLiteral("not responding"));
     case State::Restarting:
       return with(QStringLiteral("restarting"));
     case State::Ended:

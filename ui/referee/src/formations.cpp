@@ -105,7 +105,7 @@ FormationPlaces placesOf(std::size_t index, const link::MatchFrame& frame, bool 
                        : kind == PenaltyKick ? (attacks ? attack : behind)
                        : attacks             ? attack
                                              : defence;
-    const double way = side == link::Side::Left ? 1.0 : -1.0;
+    const double sign = side == link::Side::Left ? 1.0 : -1.0;
     for (std::size_t i = 0; i < own.size(); ++i) {
       const Share& share = line[i % line.size()];
       const double row = static_cast<double>(i / line.size()) * 0.35;
@@ -122,8 +122,8 @@ FormationPlaces placesOf(std::size_t index, const link::MatchFrame& frame, bool 
         place = {(attacks ? 1.0 : -1.0) * x * field.halfLength() - (attacks ? 0.6 : 0.0),
                  (static_cast<double>(i) - 1.5) * 0.8 + (attacks ? 0.4 : 0.0)};
       }
-      const double heading = way > 0 ? yaw : std::numbers::pi + yaw;
-      places.robots.emplace_back(own[i].id, Pose{{way * place.x, way * place.y}, heading});
+      const double heading = sign > 0 ? yaw : std::numbers::pi + yaw;
+      places.robots.emplace_back(own[i].id, Pose{{sign * place.x, sign * place.y}, heading});
     }
   }
   return places;

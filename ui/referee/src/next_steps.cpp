@@ -58,8 +58,8 @@ std::vector<NextStep> afterTheEnd(const sim::GameState& game) {
 
 }  // namespace
 
-std::vector<NextStep> nextSteps(const link::RefereeDesk& desk) {
-  const sim::GameState& game = desk.game;
+std::vector<NextStep> nextSteps(const link::RefereedGame& refereed) {
+  const sim::GameState& game = refereed.game;
   const bool shootOut = game.phase == GamePhase::ShootOut;
   std::vector<NextStep> steps;
   if (game.stopped && game.state != PlayState::Finished) {
@@ -71,11 +71,11 @@ std::vector<NextStep> nextSteps(const link::RefereeDesk& desk) {
         steps.push_back(toState(PlayState::Set, "Next shot", "The next robot places itself"));
       else
         steps.push_back(toState(PlayState::Ready, "READY", "Robots walk to their places"));
-      if (!shootOut && desk.rules.automatic) steps.push_back(skipToKickOff());
+      if (!shootOut && refereed.rules.automatic) steps.push_back(skipToKickOff());
       break;
     case PlayState::Ready:
       steps.push_back(toState(PlayState::Set, "SET", "Robots stand still"));
-      if (desk.rules.automatic) steps.push_back(skipToKickOff());
+      if (refereed.rules.automatic) steps.push_back(skipToKickOff());
       break;
     case PlayState::Set:
       steps.push_back(toState(PlayState::Playing, "PLAYING", "Starts play"));
@@ -93,21 +93,21 @@ std::vector<NextStep> nextSteps(const link::RefereeDesk& desk) {
       steps = afterTheEnd(game);
       break;
   }
-  std::erase_if(steps, [&desk](const NextStep& step) {
-    return step.call && !sim::checkCall(desk.game, desk.rules, {}, *step.call);
+  std::erase_if(steps, [&refereed](const NextStep& step) {
+    return step.call && !sim::checkCall(refereed.game, refereed.rules, {}, *step.call);
   });
   return steps;
 }
 
-QString playText(const link::RefereeDesk& desk) {
-  const sim::GameState& game = desk.game;
+QString playText(const link::RefereedGame& refereed) {
+  const sim::GameState& game = refereed.game;
   using Step = sim::Restart::Step;
   if (game.setPlay() == sim::SetPlay::None) return {};
-  const std::string_view words = labelOf(game.setPlay());
-  QString text = QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
+  const std::string_view label = labelOf(game.setPlay());
+  QString text = QString::fromUtf8(label.data(), static_cast<qsizetype>(label.size()));
   if (game.setPlayTeam() >= 0) {
     text += QStringLiteral(" for ") +
-            teamWords(game.teams[static_cast<std::size_t>(game.setPlayTeam())]);
+            teamText(game.teams[static_cast<std::size_t>(game.setPlayTeam())]);
   }
   const Step step = game.restart.step;
   return text + (step == Step::Placing     ? QStringLiteral(", ball is placed")
@@ -115,7 +115,7 @@ QString playText(const link::RefereeDesk& desk) {
                                            : QStringLiteral(", ready"));
 }
 
-QString teamWords(const sim::GameTeam& team) {
+QString teamText(const sim::GameTeam& team) {
   const std::string_view name = info(team.colour).name;
   return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).toUpper();
 }

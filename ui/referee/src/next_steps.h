@@ -19,12 +19,12 @@ struct NextStep {
 };
 
 /// At most three, the usual one first; each is allowed by sim::checkCall().
-std::vector<NextStep> nextSteps(const link::RefereeDesk& desk);
+std::vector<NextStep> nextSteps(const link::RefereedGame& refereed);
 
 /// "corner kick for BLUE, prepare": what is going on besides the state; empty: nothing.
-QString playText(const link::RefereeDesk& desk);
+QString playText(const link::RefereedGame& refereed);
 
 /// "BLUE".
-QString teamWords(const sim::GameTeam& team);
+QString teamText(const sim::GameTeam& team);
 
 }  // namespace pitchboard::ui

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include <ui/base/referee_words.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/referee_text.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -128,7 +128,7 @@ QVariant RefereeModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant RefereeModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  // A hidden header takes room, too: that of its words.
+  // A hidden header takes room, too: that of its text.
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole || m_compact) return {};
   const QString names[] = {QStringLiteral("Player"), QStringLiteral("State"),
                            QStringLiteral("Left"), QStringLiteral("Cards"),

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <array>
 
-#include <ui/base/referee_words.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/referee_text.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
 #include <ui/sources/referee_calls.h>
 #include <ui/sources/robot_selection.h>
@@ -35,7 +35,7 @@ using sim::SetPlay;
 /// Calls that have keys, wherever the focus is while the panel is shown.
 struct KeyedCall {
   const char* key;
-  const char* words;
+  const char* text;
   RefereeCall call;
 };
 const KeyedCall keyedCalls[] = {
@@ -90,8 +90,8 @@ class RefereePanel : public QScrollArea {
     m_column->addStretch(0);  // only while the log is hidden
     setWidget(m_inside);
     for (const KeyedCall& one : keyedCalls) {
-      addKey(QString::fromUtf8(one.words), one.key,
-             [this, &one] { callReferee(edits(), one.call, QString::fromUtf8(one.words)); });
+      addKey(QString::fromUtf8(one.text), one.key,
+             [this, &one] { callReferee(edits(), one.call, QString::fromUtf8(one.text)); });
     }
     constexpr Beat::Milliseconds least{100};  // between two looks at frames
     m_later = Beat::display().add(this, least, [this] { refresh(); });
@@ -112,7 +112,7 @@ class RefereePanel : public QScrollArea {
   }
   void resizeEvent(QResizeEvent* event) override {
     QScrollArea::resizeEvent(event);
-    // Five controls in a row would cut each other's words.
+    // Five controls in a row would cut off each other's labels.
     const bool wide = event->size().width() >= scaled(this, 480);
     m_penaltyRows->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
   }
@@ -210,8 +210,8 @@ class RefereePanel : public QScrollArea {
       auto*& column = m_columns[right ? 1 : 0];
       column = new TeamColumn(
           right,
-          [this](const RefereeCall& call, const QString& words) {
-            callReferee(edits(), call, words);
+          [this](const RefereeCall& call, const QString& text) {
+            callReferee(edits(), call, text);
           },
           m_teams);
       m_teamRow->addWidget(column, 1);
@@ -244,7 +244,7 @@ class RefereePanel : public QScrollArea {
       const auto kind = static_cast<PenaltyKind>(i);
       // These have controls of their own.
       if (kind == PenaltyKind::SentOff || kind == PenaltyKind::Substitute) continue;
-      m_kind->addItem(asLabel(labelOf(kind)), i);
+      m_kind->addItem(capitalised(labelOf(kind)), i);
     }
     m_kind->setCurrentIndex(m_kind->findData(static_cast<int>(PenaltyKind::Incapable)));
     penaltyRow(0)->addWidget(m_kind, 1);
@@ -262,10 +262,10 @@ class RefereePanel : public QScrollArea {
     const std::array<std::pair<const char*, const char*>, 3> cards{
         {{"Warning", "Ctrl+Alt+W"}, {"Yellow card", "Ctrl+Alt+Y"}, {"Red card", "Ctrl+Alt+Z"}}};
     for (int value = 0; value < 3; ++value) {
-      const QString words = QString::fromUtf8(cards[static_cast<std::size_t>(value)].first);
-      addKey(words, cards[static_cast<std::size_t>(value)].second, [this, value, words] {
+      const QString text = QString::fromUtf8(cards[static_cast<std::size_t>(value)].first);
+      addKey(text, cards[static_cast<std::size_t>(value)].second, [this, value, text] {
         callReferee(edits(), {.kind = CallKind::Card, .value = value}, chosen().robots,
-                    words.toLower());
+                    text.toLower());
       });
       menu->addAction(actions().constLast());
     }
@@ -284,13 +284,13 @@ class RefereePanel : public QScrollArea {
 
   void addForChosen(const char* text, const char* key, const char* tip,
                     const std::function<RefereeCall()>& call) {
-    const QString words = QString::fromUtf8(text);
-    const auto pressed = [this, call, words] {
-      callReferee(edits(), call(), chosen().robots, words.toLower());
+    const QString label = QString::fromUtf8(text);
+    const auto pressed = [this, call, label] {
+      callReferee(edits(), call(), chosen().robots, label.toLower());
     };
-    QPushButton* made = button(m_penalties, words, pressed);
+    QPushButton* made = button(m_penalties, label, pressed);
     penaltyRow(1)->addWidget(made);
-    addKey(words, key, pressed);
+    addKey(label, key, pressed);
     m_forChosen.push_back(
         {made, call,
          QStringLiteral("%1 (%2)").arg(QString::fromUtf8(tip), QString::fromUtf8(key))});
@@ -306,7 +306,7 @@ class RefereePanel : public QScrollArea {
     m_play->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     m_play->setMinimumContentsLength(8);
     for (int i = 1; i <= static_cast<int>(lastOf(SetPlay{})); ++i) {
-      m_play->addItem(asLabel(labelOf(static_cast<SetPlay>(i))), i);
+      m_play->addItem(capitalised(labelOf(static_cast<SetPlay>(i))), i);
     }
     const auto give = [this] { callReferee(edits(), setPlay(), m_play->currentText()); };
     m_give = button(m_setPlays, QStringLiteral("Give"), give);
@@ -327,13 +327,13 @@ class RefereePanel : public QScrollArea {
   Chosen chosen() const {
     Chosen all;
     const FramePtr frame = m_context.controller->frame();
-    if (!frame || !frame->desk) return all;
+    if (!frame || !frame->refereedGame) return all;
     const auto add = [&all](const link::RobotFrame& robot) {
       all.robots.push_back(robot.slot());
       all.names << robotName(robot);
     };
     for (const TeamColumn* column : m_columns) {
-      const auto& team = frame->desk->game.teams[static_cast<std::size_t>(column->team())];
+      const auto& team = frame->refereedGame->game.teams[static_cast<std::size_t>(column->team())];
       for (const int number : column->chosen()) {
         for (const link::RobotFrame& robot : frame->robots) {
           if (robot.identity.team == team.colour && robot.identity.number == number) add(robot);
@@ -406,10 +406,10 @@ class RefereePanel : public QScrollArea {
     if (view.timedOut) {
       parts << QStringLiteral("last packet %1 ago").arg(durationText(view.age));
     }
-    const QString play = frame->desk ? playText(*frame->desk) : QString();
+    const QString play = frame->refereedGame ? playText(*frame->refereedGame) : QString();
     if (!play.isEmpty()) parts << play;
-    const QString said = refereeSetPlayText(view);
-    if (play.isEmpty() && !said.isEmpty()) parts << said;
+    const QString announced = refereeSetPlayText(view);
+    if (play.isEmpty() && !announced.isEmpty()) parts << announced;
     QString detail = parts.join(QStringLiteral(" · "));
     if (!m_why.isEmpty()) detail += QLatin1Char('\n') + m_why;
     m_detail->setText(detail);
@@ -419,7 +419,7 @@ class RefereePanel : public QScrollArea {
 
   void showNextSteps() {
     const FramePtr present = m_context.controller->frame();
-    if (present && present->desk) m_offered = nextSteps(*present->desk);
+    if (present && present->refereedGame) m_offered = nextSteps(*present->refereedGame);
     for (std::size_t i = 0; i < m_steps.size(); ++i) {
       QPushButton* one = m_steps[i];
       one->setVisible(i < m_offered.size());
@@ -477,10 +477,10 @@ class RefereePanel : public QScrollArea {
 
   void showSetPlays(const QString& why) {
     const FramePtr frame = m_context.controller->frame();
-    if (!frame || !frame->desk) return;
+    if (!frame || !frame->refereedGame) return;
     for (int team = 0; team < 2; ++team) {
-      m_for->setItemText(
-          team, QStringLiteral("For ") + teamWords(frame->desk->game.teams[std::size_t(team)]));
+      m_for->setItemText(team, QStringLiteral("For ") +
+                                   teamText(frame->refereedGame->game.teams[std::size_t(team)]));
     }
     for (QComboBox* box : {m_for, m_play}) box->setEnabled(why.isEmpty());
     const QString refusal = why.isEmpty() ? whyRefused(frame.get(), setPlay()) : why;

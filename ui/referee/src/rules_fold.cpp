@@ -6,7 +6,7 @@
 #include <QVBoxLayout>
 
 #include <robotlink/scenario/referee_rule_sets.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/referee_calls.h>
@@ -138,7 +138,7 @@ void RulesFold::addBall() {
     connect(action, &QAction::triggered, this, [this, where] { placeBall(where()); });
     addAction(action);
   };
-  place("Place", "Puts the ball there, at rest", "Ctrl+Alt+B", [this] {
+  place("Place", "Places the ball there without motion", "Ctrl+Alt+B", [this] {
     return Point{m_x->value(), m_y->value()};
   });
   place("To centre", "Puts the ball on the centre mark", "Ctrl+Alt+C", [] { return Point{}; });
@@ -175,10 +175,10 @@ void RulesFold::loadFormation(bool left) {
                                  return put(match.simulation(), robots, before->ball,
                                             before->ballVelocity);
                                }}};
-  if (m_asSetPlay->isChecked() && frame->desk && places.setPlay != sim::SetPlay::None) {
+  if (m_asSetPlay->isChecked() && frame->refereedGame && places.setPlay != sim::SetPlay::None) {
     steps.push_back(
         refereeStep(m_match->edits(), {.kind = CallKind::SetPlay,
-                                       .team = frame->desk->game.teamOf(places.attackers),
+                                       .team = frame->refereedGame->game.teamOf(places.attackers),
                                        .setPlay = places.setPlay,
                                        .place = places.ball}));
   }
@@ -198,7 +198,7 @@ void RulesFold::show(const link::MatchFrame* shown, const QString& why) {
   }
   set(m_rules, "Restarts the game in INITIAL with these rules. Undo brings the old game back.");
   set(m_automatic, "When off, only your calls and the end of READY change the game.");
-  set(m_formation, "Where both teams and the ball stand");
+  set(m_formation, "Positions of both teams and the ball");
   set(m_asSetPlay,
       "During PLAYING, also awards the corner kick, throw-in, … to the attacking side");
   for (auto* button : m_inside->findChildren<QPushButton*>()) button->setEnabled(why.isEmpty());
@@ -211,7 +211,7 @@ void RulesFold::show(const link::MatchFrame* shown, const QString& why) {
     const int index = m_rules->findData(name.isEmpty() ? QStringLiteral("published") : name);
     if (index != m_rules->currentIndex()) m_rules->setCurrentIndex(index);
   }
-  if (shown->desk) m_automatic->setChecked(shown->desk->rules.automatic);
+  if (shown->refereedGame) m_automatic->setChecked(shown->refereedGame->rules.automatic);
   QStringList off;
   for (const link::RobotFrame& robot : shown->robots) {
     if (robot.penalty) off << robotName(robot);

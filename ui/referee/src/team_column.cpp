@@ -6,7 +6,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include <ui/base/referee_words.h>
+#include <ui/base/referee_text.h>
 #include <ui/base/table_style.h>
 #include <ui/sources/referee_calls.h>
 
@@ -91,7 +91,8 @@ std::vector<link::RefereePlayerView> playersOf(const link::MatchFrame& frame,
   std::vector<link::RefereePlayerView> players;
   for (const link::RobotFrame& robot : frame.robots) {
     if (robot.identity.team != team.colour) continue;
-    const sim::GamePlayer* one = frame.desk->game.player(team.colour, robot.identity.number);
+    const sim::GamePlayer* one =
+        frame.refereedGame->game.player(team.colour, robot.identity.number);
     if (one == nullptr) continue;
     link::RefereePlayerView& player = players.emplace_back();
     player.number = robot.identity.number;
@@ -111,11 +112,12 @@ std::vector<link::RefereePlayerView> playersOf(const link::MatchFrame& frame,
 void TeamColumn::show(const link::MatchFrame& frame, bool refereed) {
   const link::RefereeView& view = *frame.referee;
   link::RefereeTeamView team = view.teams[m_right ? 1 : 0];
-  if (frame.desk) {
-    const auto left = static_cast<int>(frame.desk->game.leftTeam());
+  if (frame.refereedGame) {
+    const auto left = static_cast<int>(frame.refereedGame->game.leftTeam());
     m_team = m_right ? 1 - left : left;
     if (refereed) {
-      team.players = playersOf(frame, frame.desk->game.teams[static_cast<std::size_t>(m_team)]);
+      team.players =
+          playersOf(frame, frame.refereedGame->game.teams[static_cast<std::size_t>(m_team)]);
     }
   }
   const auto drawn = teamColorNamed(team.colour);

@@ -21,7 +21,7 @@ class RefereeModel;
 
 class TeamColumn : public QWidget {
  public:
-  using Call = std::function<void(const sim::RefereeCall& call, const QString& words)>;
+  using Call = std::function<void(const sim::RefereeCall& call, const QString& text)>;
 
   /// `right`: the team that defends the right goal. `called`: a button was pressed.
   TeamColumn(bool right, Call called, QWidget* parent);

@@ -9,8 +9,8 @@
 #include <robotlink/processes/process_manager.h>
 #include <robotlink/scenario/scenario.h>
 #include <simcore/world/published_frame.h>
-#include <ui/base/referee_words.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/referee_text.h>
+#include <ui/base/robot_text.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -50,7 +50,7 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
     }
     if (one.state == link::ProcessState::NotResponding) {
       card.tagKind = TagKind::Warning;
-      card.tag = QStringLiteral("%1 silent").arg(name);
+      card.tag = QStringLiteral("%1 not responding").arg(name);
     } else if (card.tag.isEmpty() && keepsRealTime(one)) {
       card.tagKind = TagKind::Warning;
       card.tag = QStringLiteral("%1 keeps real time").arg(name);
@@ -103,7 +103,7 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
     card.tagKind = kind;
     card.tag = text;
   };
-  const auto silent = std::ranges::find(card.lamps, LampState::NotResponding, &Lamp::state);
+  const auto notResponding = std::ranges::find(card.lamps, LampState::NotResponding, &Lamp::state);
   const sim::RobotStatistics& statistics = robot.statistics;
   if (robot.timedOut()) {
     put(TagKind::Error,
@@ -111,15 +111,16 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
   } else if (robot.link && robot.link->conflict) {
     put(TagKind::Error, QStringLiteral("two senders"));
   } else if (robot.penalty) {
-    put(TagKind::Warning, penaltyTag(robot.penalty->words, robot.penalty->secondsLeft));
-  } else if (silent != card.lamps.end()) {
+    put(TagKind::Warning, penaltyTag(robot.penalty->text, robot.penalty->secondsLeft));
+  } else if (notResponding != card.lamps.end()) {
     const QLatin1Char letter(
-        CardState::letters[static_cast<std::size_t>(silent - card.lamps.begin())]);
-    if (silent->stopped)
+        CardState::letters[static_cast<std::size_t>(notResponding - card.lamps.begin())]);
+    if (notResponding->stopped)
       put(TagKind::Warning, QStringLiteral("%1 stopped").arg(letter));
     else
-      put(TagKind::Error,
-          QStringLiteral("%1 silent %2").arg(letter).arg(durationText(silent->seconds)));
+      put(TagKind::Error, QStringLiteral("%1 no response %2")
+                              .arg(letter)
+                              .arg(durationText(notResponding->seconds)));
   } else if (card.batteryLow()) {
     put(TagKind::Error, QStringLiteral("battery low"));
     card.tagIsBattery = true;
@@ -225,9 +226,9 @@ CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
   for (std::size_t i = 0; i < card.lamps.size(); ++i) {
     const telemetry::ProcessHeartbeat& lamp = robot.lamps[i];
     const double seconds = std::min(telemetry::secondsOf(lamp.since), 1e6);
-    const bool isSilent = lamp.state == LampState::NotResponding;
-    card.lamps[i] = {lamp.state, isSilent ? static_cast<int>(seconds) : 0,
-                     isSilent && isStopped(robot, card.process(i))};
+    const bool isNotResponding = lamp.state == LampState::NotResponding;
+    card.lamps[i] = {lamp.state, isNotResponding ? static_cast<int>(seconds) : 0,
+                     isNotResponding && isStopped(robot, card.process(i))};
   }
   if (robot.decided || !robot.link) card.action = actionText(robot.decided.value_or(robot.action));
   if (card.timedOut && !card.action.isEmpty()) {

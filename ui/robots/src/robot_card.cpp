@@ -7,7 +7,7 @@
 #include <QMouseEvent>
 #include <QToolTip>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -31,9 +31,9 @@ void RobotCard::setState(const CardState& state) {
   m_state = state;
   if (taller) updateGeometry();
   setAccessibleName(state.name);
-  QStringList said{state.teamName, state.subtitle, state.action, state.tag};
-  said.removeAll(QString());
-  setAccessibleDescription(said.join(QStringLiteral(", ")));
+  QStringList texts{state.teamName, state.subtitle, state.action, state.tag};
+  texts.removeAll(QString());
+  setAccessibleDescription(texts.join(QStringLiteral(", ")));
   if (!footOnly)
     update();
   else if (!m_collapsed && !footSame)
@@ -127,7 +127,7 @@ QString RobotCard::lampTip(int lamp) const {
   if (state.state == LampState::Working) return QStringLiteral("%1: working").arg(process);
   if (state.stopped) return QStringLiteral("%1: stopped").arg(process);
   if (state.state == LampState::NotResponding) {
-    return QStringLiteral("%1: silent for %2").arg(process, durationText(state.seconds));
+    return QStringLiteral("%1: not responding for %2").arg(process, durationText(state.seconds));
   }
   return m_state.live ? QStringLiteral("%1: unknown").arg(process)
                       : QStringLiteral("%1: no message yet").arg(process);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include <ui/base/quick_painting.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/robots/robot_card.h>
 
@@ -41,7 +41,7 @@ int RobotCard::rowHeight(int row) const {
   return 16;
 }
 
-/// Lamps and battery make room for words and volts.
+/// Lamps and battery make room for text and volts.
 bool RobotCard::isNarrow() const {
   return width() < scaled(this, 232);
 }
@@ -96,8 +96,8 @@ QRect RobotCard::tagRect() const {
 }
 
 bool RobotCard::showsTag() const {
-  const bool saidByBar = m_collapsed && m_state.tagIsBattery && m_parts.battery;
-  return m_state.tagKind != TagKind::None && !saidByBar;
+  const bool shownByBar = m_collapsed && m_state.tagIsBattery && m_parts.battery;
+  return m_state.tagKind != TagKind::None && !shownByBar;
 }
 
 void RobotCard::paintEvent(QPaintEvent* event) {
@@ -145,7 +145,7 @@ void RobotCard::paintHead(QPainter& painter) const {
   drawRoundBox(painter, badge, corner, theme().team(m_state.team));
   painter.setFont(themeFont(TypeRole::Body, true));
   painter.setPen(Qt::white);
-  drawWords(painter, badge, Qt::AlignCenter, QString::number(m_state.number));
+  drawTextLine(painter, badge, Qt::AlignCenter, QString::number(m_state.number));
   painter.setPen(theme().text);
   int end = chevronRect().left();
   if (m_collapsed) {
@@ -156,7 +156,7 @@ void RobotCard::paintHead(QPainter& painter) const {
   }
   QRect name = row.adjusted(row.height() + scaled(this, 8), 0, 0, 0);
   name.setRight(end - scaled(this, 4));
-  drawWords(painter, name, Qt::AlignLeft | Qt::AlignVCenter, m_state.name, Qt::ElideRight);
+  drawTextLine(painter, name, Qt::AlignLeft | Qt::AlignVCenter, m_state.name, Qt::ElideRight);
   if (!m_collapsed && !m_state.subtitle.isEmpty()) {
     const int taken = painter.fontMetrics().horizontalAdvance(m_state.name) + scaled(this, 8);
     const QRect room(name.left() + taken, name.top(), end - name.left() - taken, name.height());
@@ -166,14 +166,14 @@ void RobotCard::paintHead(QPainter& painter) const {
                                                            room.width() - scaled(this, 4));
     constexpr qsizetype legible = 8;  // fewer letters of a longer name say nothing
     if (shown == m_state.subtitle || shown.size() > legible)
-      drawWords(painter, room, Qt::AlignLeft | Qt::AlignVCenter, shown);
+      drawTextLine(painter, room, Qt::AlignLeft | Qt::AlignVCenter, shown);
   }
 
   painter.setOpacity(1.0);
   painter.setPen(theme().secondaryText);
   painter.setFont(themeFont(TypeRole::Small));
-  drawWords(painter, chevronRect(), Qt::AlignCenter,
-            m_collapsed ? QStringLiteral("▸") : QStringLiteral("▾"));
+  drawTextLine(painter, chevronRect(), Qt::AlignCenter,
+               m_collapsed ? QStringLiteral("▸") : QStringLiteral("▾"));
 
   if (!m_state.battery || !m_parts.battery) return;
   painter.setOpacity(greyed);
@@ -198,7 +198,7 @@ void RobotCard::paintHead(QPainter& painter) const {
   painter.setOpacity(greyed);
   painter.setFont(font);
   painter.setPen(low ? theme().errorText : theme().text);
-  drawWords(painter, voltsRect(), Qt::AlignRight | Qt::AlignVCenter, volts);
+  drawTextLine(painter, voltsRect(), Qt::AlignRight | Qt::AlignVCenter, volts);
   painter.setOpacity(1.0);
 }
 
@@ -227,7 +227,7 @@ void RobotCard::paintLamps(QPainter& painter) const {
     }
     if (m_collapsed) continue;
     painter.setFont(themeFont(TypeRole::Small, true));
-    drawWords(painter, box, Qt::AlignCenter, QString(QLatin1Char(CardState::letters[index])));
+    drawTextLine(painter, box, Qt::AlignCenter, QString(QLatin1Char(CardState::letters[index])));
     if (state != LampState::NotResponding) continue;
     const int inset = box.width() / 4;
     const int middle = box.center().y();
@@ -242,7 +242,8 @@ void RobotCard::paintTag(QPainter& painter) const {
   drawRoundBox(painter, box, 2, error ? theme().errorGround : theme().warningGround);
   painter.setPen(error ? theme().errorText : theme().warningText);
   const int edge = scaled(this, 3);
-  drawWords(painter, box.adjusted(edge, 0, -edge, 0), Qt::AlignCenter, m_state.tag, Qt::ElideRight);
+  drawTextLine(painter, box.adjusted(edge, 0, -edge, 0), Qt::AlignCenter, m_state.tag,
+               Qt::ElideRight);
 }
 
 void RobotCard::paintFoot(QPainter& painter) const {
@@ -250,19 +251,19 @@ void RobotCard::paintFoot(QPainter& painter) const {
   painter.setFont(themeFont(TypeRole::Secondary));
   painter.setPen(theme().secondaryText);
   const QString detail = m_parts.health ? m_state.detail : QString();
-  drawWords(painter, row, Qt::AlignRight | Qt::AlignVCenter, detail);
+  drawTextLine(painter, row, Qt::AlignRight | Qt::AlignVCenter, detail);
   if (!m_parts.action) return;
   const int taken =
-      static_cast<int>(std::ceil(wordsWidth(painter.font(), detail))) + scaled(this, 8);
+      static_cast<int>(std::ceil(textLineWidth(painter.font(), detail))) + scaled(this, 8);
   painter.setFont(themeFont(TypeRole::Body));
   painter.setPen(m_state.timedOut ? theme().disabledText : theme().text);
   const QRect room = row.adjusted(0, 0, -taken, 0);
-  // Advice gives way as a whole, because its value without the words says nothing.
+  // Advice is left out as a whole, because its value says nothing without the text.
   QString action = m_state.action;
   if (painter.fontMetrics().horizontalAdvance(action) > room.width()) {
     action = action.section(adviceMark, 0, 0);
   }
-  drawWords(painter, room, Qt::AlignLeft | Qt::AlignVCenter, action, Qt::ElideRight);
+  drawTextLine(painter, room, Qt::AlignLeft | Qt::AlignVCenter, action, Qt::ElideRight);
 }
 
 const CardValue* RobotCard::value(const QString& name) const {
@@ -280,15 +281,15 @@ void RobotCard::paintValues(QPainter& painter) const {
     const CardValue* known = value(m_parts.values[i]);
     const bool greyed = known == nullptr || m_state.timedOut;
     painter.setPen(theme().secondaryText);
-    drawWords(painter, QRect(row.topLeft(), QSize(row.width() * 6 / 10, row.height())),
-              Qt::AlignLeft | Qt::AlignVCenter, known ? known->name : m_parts.values[i],
-              Qt::ElideMiddle);
+    drawTextLine(painter, QRect(row.topLeft(), QSize(row.width() * 6 / 10, row.height())),
+                 Qt::AlignLeft | Qt::AlignVCenter, known ? known->name : m_parts.values[i],
+                 Qt::ElideMiddle);
     if (known == nullptr) continue;
-    drawWords(painter, row.adjusted(row.width() - unitWidth + scaled(this, 4), 0, 0, 0),
-              Qt::AlignLeft | Qt::AlignVCenter, known->unit);
+    drawTextLine(painter, row.adjusted(row.width() - unitWidth + scaled(this, 4), 0, 0, 0),
+                 Qt::AlignLeft | Qt::AlignVCenter, known->unit);
     painter.setPen(greyed ? theme().disabledText : theme().text);
-    drawWords(painter, row.adjusted(0, 0, -unitWidth, 0), Qt::AlignRight | Qt::AlignVCenter,
-              known->text);
+    drawTextLine(painter, row.adjusted(0, 0, -unitWidth, 0), Qt::AlignRight | Qt::AlignVCenter,
+                 known->text);
   }
 }
 

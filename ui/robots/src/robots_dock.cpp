@@ -10,7 +10,7 @@
 #include <algorithm>
 
 #include <base/angles.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/sources/live_overlay.h>
 #include <ui/sources/match_controller.h>
@@ -80,9 +80,9 @@ std::vector<CardState> RobotsDock::states() {
     if (const link::RobotFrame* robot = frame->robot(card.id)) {
       const auto difference = poseDifference(*other, *robot);
       if (!difference) continue;
-      const QString words = differenceText(*difference);
-      card.detail = words + QStringLiteral(" · ") + card.detail;
-      card.detailTip += QStringLiteral("\nSimulated and live pose differ by %1").arg(words);
+      const QString text = differenceText(*difference);
+      card.detail = text + QStringLiteral(" · ") + card.detail;
+      card.detailTip += QStringLiteral("\nSimulated and live pose differ by %1").arg(text);
       card.values.push_back({QStringLiteral("BELIEF_ERROR"),
                              numberText(difference->metres * 100, 1), QStringLiteral("cm")});
       card.values.push_back({QStringLiteral("BELIEF_ERROR_THETA"),

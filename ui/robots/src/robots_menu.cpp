@@ -4,7 +4,7 @@
 #include <QSettings>
 #include <algorithm>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/sources/live_controller.h>

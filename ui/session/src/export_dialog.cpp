@@ -86,7 +86,7 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   m_end->setObjectName(QStringLiteral("exportEnd"));
   m_rate->setObjectName(QStringLiteral("exportRate"));
   m_progress->setObjectName(QStringLiteral("exportProgress"));
-  for (const ExportForm& form : exportForms()) m_format->addItem(QString::fromUtf8(form.words));
+  for (const ExportForm& form : exportForms()) m_format->addItem(QString::fromUtf8(form.title));
   for (const QSize size :
        {QSize(1280, 720), QSize(1920, 1080), QSize(640, 360), QSize(3840, 2160)}) {
     m_size->addItem(QStringLiteral("%1 × %2").arg(size.width()).arg(size.height()), size);

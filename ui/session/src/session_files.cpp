@@ -8,7 +8,7 @@
 
 #include <telemetry/session/session_repair.h>
 #include <ui/base/notice_bar.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>

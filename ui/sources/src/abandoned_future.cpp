@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>

@@ -178,7 +178,7 @@ QVariant EventList::data(const QModelIndex& index, int role) const {
                  ? QVariant(e.time)
                  : QVariant(momentText(e.time, 3, m_clock ? m_clock() : std::nullopt));
     case What:
-      return isBookmark(e) ? QString::fromUtf8(link::info(e.kind).words)
+      return isBookmark(e) ? QString::fromUtf8(link::info(e.kind).predicate)
                            : QString::fromStdString(sentenceOf(e));
     case Note:
       return isBookmark(e) ? QString::fromStdString(e.detail) : QString();

@@ -8,7 +8,7 @@
 
 namespace pitchboard::ui {
 namespace {
-constexpr Beat::Milliseconds manyPeriod{32};  // between frames, while many are heard
+constexpr Beat::Milliseconds manyPeriod{32};  // between frames, while many are received
 constexpr std::size_t fewRobots = 8;
 }  // namespace
 

@@ -7,7 +7,7 @@
 #include <robotlink/processes/process_manager.h>
 #include <robotlink/session/moment_reader.h>
 #include <robotlink/session/state_archive.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
 #include <ui/sources/retired_match.h>
@@ -68,7 +68,7 @@ struct MatchController::Opening {
 void MatchController::Opening::start(
     const link::Scenario& scenario, const link::MatchOptions& options, bool paused,
     CatalogPtr catalog, const std::vector<std::shared_ptr<link::TickObserver>>& observers) {
-  const auto words = [](const Error& reason) { return QString::fromStdString(reason.text()); };
+  const auto textOf = [](const Error& reason) { return QString::fromStdString(reason.text()); };
   cognition = options.cognition;
   auto made = link::MatchRunner::start(scenario, options, paused, *catalog, observers);
   if (!made && options.cognition != link::Cognition::Inline) {
@@ -83,13 +83,13 @@ void MatchController::Opening::start(
                   "Cannot run separate robot processes: %1. They run inside the studio instead, "
                   "and other programs cannot open their blackboards. Close the other program, then "
                   "restart the match.")
-                  .arg(words(reason));
+                  .arg(textOf(reason));
     }
   }
   if (made)
     runner = holding(std::move(catalog), std::move(*made));
   else
-    error = QStringLiteral("Cannot play the match: %1").arg(words(made.error()));
+    error = QStringLiteral("Cannot play the match: %1").arg(textOf(made.error()));
 }
 
 void MatchController::Opening::resume(
@@ -216,7 +216,7 @@ std::shared_ptr<RetiredMatch> MatchController::bringBack(
   m_nextCatalog = back.catalog;
   openAfter(back.scenario, back.paused, {}, std::make_shared<RetiredMatch>(back));
   if (hadRows) emit eventsRecorded(back.events);
-  if (back.moment) m_memory->tellWhatIsLost(*back.moment, m_options.cognition);
+  if (back.moment) m_memory->reportLosses(*back.moment, m_options.cognition);
   return replaced;
 }
 
@@ -258,7 +258,7 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
 
 void MatchController::take(Opening& opening) {
   m_opening = false;
-  m_toldWhoWillNotFollow = false;
+  m_warnedAboutRealTime = false;
   m_cognition = opening.cognition;
   m_runner = std::move(opening.runner);
   if (!m_runner) m_whyNotOpened = std::exchange(opening.error, {});
@@ -292,7 +292,7 @@ void MatchController::poll() {
   // A receiver may have opened another match.
   if (!m_runner) return;
   if (const auto events = m_runner->takeEvents(); !events.empty()) {
-    tellWhoKeepsRealTime(events);
+    reportRealTimePrograms(events);
     emit eventsReceived(events);
   }
   if (!m_runner) return;
@@ -323,21 +323,21 @@ void MatchController::setWaitForTeamPrograms(bool on) {
   emit transportChanged();
 }
 
-void MatchController::tellWhoWillNotFollow() {
-  if (m_toldWhoWillNotFollow || !m_frame) return;
+void MatchController::warnAboutRealTimePrograms() {
+  if (m_warnedAboutRealTime || !m_frame) return;
   QStringList names;
   for (const link::RobotFrame& robot : m_frame->robots) {
     if (robot.ofOthers) names << robotName(robot.identity);
   }
   if (names.empty()) return;
-  m_toldWhoWillNotFollow = true;
+  m_warnedAboutRealTime = true;
   emit errorOccurred(QStringLiteral("The processes of %1 were not started by this match, so they "
                                     "keep running at ×1 when it pauses or changes speed. To make "
                                     "them follow, choose their programs under Runtime on the card.")
                          .arg(names.join(QStringLiteral(", "))));
 }
 
-void MatchController::tellWhoKeepsRealTime(std::span<const link::MatchEvent> events) {
+void MatchController::reportRealTimePrograms(std::span<const link::MatchEvent> events) {
   std::map<std::string, QStringList> programs;  // by reason
   for (const link::MatchEvent& event : events) {
     if (event.kind != link::MatchEventKind::ProcessRealTime) continue;
@@ -356,7 +356,7 @@ void MatchController::refuse(const QString& sentence) {
 
 void MatchController::setPaused(bool paused) {
   if (!m_runner && !m_opening) return;
-  if (paused) tellWhoWillNotFollow();
+  if (paused) warnAboutRealTimePrograms();
   m_paused = paused;
   m_runTo.reset();
   if (m_runner) m_runner->setPaused(paused);
@@ -393,7 +393,7 @@ void MatchController::skip(std::function<bool(const link::MatchEvent&)> wanted) 
 }
 
 void MatchController::skipToKickOff() {
-  if (m_frame && !m_frame->desk) {
+  if (m_frame && !m_frame->refereedGame) {
     refuse(QStringLiteral("This match has no referee, so there is no kick-off to skip to."));
     return;
   }
@@ -443,7 +443,7 @@ void MatchController::answerSpeed(double timesRealTime, RealTimePrograms what) {
 }
 
 void MatchController::changeSpeed(double timesRealTime) {
-  if (timesRealTime != 1.0) tellWhoWillNotFollow();
+  if (timesRealTime != 1.0) warnAboutRealTimePrograms();
   m_speed = timesRealTime;
   if (m_runner) m_runner->setSpeed(timesRealTime);
   emit transportChanged();

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/sources/retired_match.h>
 
 namespace pitchboard::ui {
@@ -80,7 +80,7 @@ const link::ScenarioRobot* MatchEdits::robot(RobotId id) const {
 void MatchEdits::setLocked(bool on) {
   if (on == m_locked) return;
   m_locked = on;
-  m_toldLocked = false;
+  m_reportedLocked = false;
   emit lockedChanged(on);
 }
 
@@ -89,7 +89,7 @@ QString MatchEdits::lockedText() {
 }
 
 bool MatchEdits::allowsChange() {
-  if (m_locked && !std::exchange(m_toldLocked, true)) emit failed(lockedText());
+  if (m_locked && !std::exchange(m_reportedLocked, true)) emit failed(lockedText());
   return !m_locked;
 }
 
@@ -379,7 +379,7 @@ void MatchEdits::setTeam(const std::vector<RobotId>& ids, TeamColor team) {
   }
   const std::string_view name = info(team).name;
   change(identityField, std::move(after),
-         QStringLiteral("Put %1 in team ") +
+         QStringLiteral("Move %1 to team ") +
              QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())));
 }
 
@@ -389,13 +389,14 @@ void MatchEdits::setNumber(RobotId id, int number) {
   sim::RobotIdentity after = known->identity;
   after.number = number;
   if (wearsAnother(after)) return;
-  change(identityField, {{id, after}}, QStringLiteral("Make %1 ") + robotName(after));
+  change(identityField, {{id, after}}, QStringLiteral("Renumber %1 as ") + robotName(after));
 }
 
 void MatchEdits::setBehaviour(const std::vector<RobotId>& ids, const QString& behaviour) {
   Values<std::string> after;
   for (const RobotId id : ids) after.emplace_back(id, behaviour.toStdString());
-  change(behaviourField, std::move(after), QStringLiteral("Make %1 ") + behaviour);
+  change(behaviourField, std::move(after),
+         QStringLiteral("Change the behaviour of %1 to ") + behaviour);
 }
 
 void MatchEdits::setModel(const std::vector<RobotId>& ids, const sim::RobotModel& model) {
@@ -439,9 +440,9 @@ void MatchEdits::setAdvised(TeamColor team, bool on) {
   }
   const std::string_view name = info(team).name;
   const QString who = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
-  perform({on ? QStringLiteral("Turn on the advisor of team ") + who
-              : QStringLiteral("Turn off the advisor of team ") + who,
-           [this, team, after] { adviseTeam(team, after); },
+  const QString text = on ? QStringLiteral("Turn on the %1 team's advisor")
+                          : QStringLiteral("Turn off the %1 team's advisor");
+  perform({text.arg(who), [this, team, after] { adviseTeam(team, after); },
            [this, team, before] { adviseTeam(team, before); }});
 }
 

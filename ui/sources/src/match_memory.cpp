@@ -7,7 +7,7 @@
 #include <robotlink/frame/drawing_origin.h>
 #include <robotlink/session/match_sampler.h>
 #include <robotlink/session/moment_reader.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/sources/match_edits.h>
 
 #include "match_rows.h"
@@ -102,7 +102,7 @@ FramePtr MatchMemory::frameAt(double time) const {
   return past;
 }
 
-void MatchMemory::tellWhatIsLost(const link::Moment& moment, link::Cognition where) {
+void MatchMemory::reportLosses(const link::Moment& moment, link::Cognition where) {
   if (moment.past || where == link::Cognition::None) return;
   const double time = static_cast<double>(moment.state.tick) / moment.state.settings.tickRate;
   emit continuedWithout(
@@ -151,7 +151,7 @@ void MatchMemory::continueFrom(double time) {
                    emit branching(*left);
                    emit m_match->rewound(left->from);
                    emit branched(*left);
-                   tellWhatIsLost(*entering, m_match->cognition());
+                   reportLosses(*entering, m_match->cognition());
                  }});
 }
 

@@ -7,6 +7,7 @@
 
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <simcore/rules/check_call.h>
+#include <ui/base/robot_text.h>
 #include <ui/sources/match_controller.h>
 
 namespace pitchboard::ui {
@@ -92,12 +93,12 @@ EditStep refereeStep(MatchEdits* edits, sim::RefereeCall call) {
       call.cause, [call](link::SimulatedMatch& match) { return match.simulation().call(call); });
 }
 
-void callReferee(MatchEdits* edits, const sim::RefereeCall& call, const QString& words) {
-  edits->performOrder(words, notCarriedOut(), {refereeStep(edits, call)});
+void callReferee(MatchEdits* edits, const sim::RefereeCall& call, const QString& text) {
+  edits->performOrder(text, notCarriedOut(), {refereeStep(edits, call)});
 }
 
 void callReferee(MatchEdits* edits, sim::RefereeCall call, const std::vector<RobotId>& robots,
-                 const QString& words) {
+                 const QString& text) {
   if (robots.empty()) return;
   call.cause = edits->newCause();
   std::vector<EditStep> steps;
@@ -105,7 +106,7 @@ void callReferee(MatchEdits* edits, sim::RefereeCall call, const std::vector<Rob
     call.robot = robot;
     steps.push_back(refereeStep(edits, call));
   }
-  edits->performOrder(words, notCarriedOut(), std::move(steps));
+  edits->performOrder(text, notCarriedOut(), std::move(steps));
 }
 
 void chooseReferee(MatchEdits* edits, const std::string& ruleSet, const QString& title) {
@@ -119,19 +120,14 @@ void chooseReferee(MatchEdits* edits, const std::string& ruleSet, const QString&
 }
 
 QString whyRefused(const link::MatchFrame* frame, const sim::RefereeCall& call) {
-  if (frame == nullptr || !frame->desk) {
+  if (frame == nullptr || !frame->refereedGame) {
     return QStringLiteral("This match has no referee. Choose rules to get one.");
   }
   std::vector<sim::RobotIdentity> robots;
   for (const link::RobotFrame& robot : frame->robots) robots.push_back(robot.identity);
-  const auto checked = sim::checkCall(frame->desk->game, frame->desk->rules, robots, call);
+  const auto checked =
+      sim::checkCall(frame->refereedGame->game, frame->refereedGame->rules, robots, call);
   return checked ? QString() : QString::fromStdString(checked.error().message);
-}
-
-QString asLabel(std::string_view words) {
-  QString text = QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
-  if (!text.isEmpty()) text[0] = text[0].toUpper();
-  return text;
 }
 
 namespace {
@@ -162,7 +158,7 @@ QAction* addCall(QMenu* menu, MatchController* match, const QString& text,
 
 void addRefereeMenu(QMenu* menu, MatchController* match, const std::vector<RobotId>& robots) {
   const FramePtr frame = match->frame();
-  if (robots.empty() || !frame || !frame->desk) return;
+  if (robots.empty() || !frame || !frame->refereedGame) return;
   QMenu* own = menu->addMenu(QStringLiteral("Referee"));
   own->setObjectName(QStringLiteral("refereeMenu"));
   QMenu* penalise = own->addMenu(QStringLiteral("Penalise"));
@@ -172,7 +168,7 @@ void addRefereeMenu(QMenu* menu, MatchController* match, const std::vector<Robot
     if (kind == PenaltyKind::SentOff) continue;  // the red card
     addCall(penalise, match,
             kind == PenaltyKind::Substitute ? QStringLiteral("Take off as a substitute")
-                                            : asLabel(labelOf(kind)),
+                                            : capitalised(labelOf(kind)),
             {.kind = CallKind::Penalise, .penalty = kind}, robots);
   }
   addCall(own, match, QStringLiteral("Pardon"), {.kind = CallKind::Pardon}, robots)
@@ -188,12 +184,12 @@ void addRefereeMenu(QMenu* menu, MatchController* match, const std::vector<Robot
 
 void addRefereeGround(QMenu* menu, MatchController* match, Point place) {
   const FramePtr frame = match->frame();
-  if (!frame || !frame->desk) return;
+  if (!frame || !frame->refereedGame) return;
   QMenu* own = menu->addMenu(QStringLiteral("Referee"));
   own->setObjectName(QStringLiteral("refereeMenu"));
   for (int team = 0; team < 2; ++team) {
-    const auto& playing = frame->desk->game.teams[static_cast<std::size_t>(team)];
-    const QString colour = asLabel(info(playing.colour).name).toUpper();
+    const auto& playing = frame->refereedGame->game.teams[static_cast<std::size_t>(team)];
+    const QString colour = capitalised(info(playing.colour).name).toUpper();
     addCall(own, match, QStringLiteral("Goal for %1").arg(colour),
             {.kind = CallKind::Goal, .team = team, .value = 1}, {})
         ->setObjectName(QStringLiteral("refereeGoal%1").arg(team));

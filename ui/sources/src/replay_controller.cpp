@@ -10,7 +10,7 @@
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_events.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/sources/playback.h>
 
 #include "replay_pages.h"
@@ -240,12 +240,12 @@ void ReplayController::open(const QString& path) {
     if (!file || !file->paged) return;
     file->readEvents();
     m_toUi.post([this, mine] {
-      if (mine == m_generation) tellRecorded();
+      if (mine == m_generation) reportRecorded();
     });
   });
 }
 
-void ReplayController::tellRecorded() {
+void ReplayController::reportRecorded() {
   emit eventsRecorded(m_file->events);
   if (!m_file->log.empty()) emit logReceived(m_file->log);
 }
@@ -277,7 +277,7 @@ void ReplayController::take(std::shared_ptr<File> file) {
   m_playback->seek(m_file->start);
   emit restarted();
   emit frameReceived(m_frame);
-  if (!m_file->paged) tellRecorded();
+  if (!m_file->paged) reportRecorded();
   emit opened();
   if (!m_file->notes.isEmpty()) emit noted(m_file->notes);
   if (m_file->paged) {

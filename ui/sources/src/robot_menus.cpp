@@ -10,7 +10,7 @@
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/scenario/scenario.h>
 #include <simcore/world/action_codes.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/referee_calls.h>
 
@@ -49,7 +49,7 @@ void addOrderMenu(QMenu* menu, MatchController* controller, const std::vector<Ro
   if (ids.empty()) return;
   QMenu* orders = menu->addMenu(QStringLiteral("Order"));
   const auto offer = [&](const ActionInfo& action) {
-    orders->addAction(capitalised(action.words), controller, [controller, ids, action] {
+    orders->addAction(capitalised(action.label), controller, [controller, ids, action] {
       for (const RobotId id : ids) controller->edits()->commandAction(id, action.code);
     });
   };

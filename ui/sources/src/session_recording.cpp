@@ -22,7 +22,7 @@ namespace {
 const QString folderKey = QStringLiteral("session/folder");
 constexpr std::size_t maxLogLines = 10'000;
 
-QString words(const Error& error) {
+QString textOf(const Error& error) {
   return QString::fromStdString(error.text());
 }
 
@@ -199,12 +199,12 @@ void SessionRecording::begin(const QString& path) {
   if (!made) {
     emit failed(QStringLiteral(
                     "Cannot record: %1. Choose another folder in Timeline > Folder for recordings…")
-                    .arg(words(made.error())));
+                    .arg(textOf(made.error())));
     return;
   }
   m_recorder = std::move(*made);
   m_path = path;
-  m_told.clear();
+  m_reported.clear();
   m_timer->start();
   emit changed();
 }
@@ -225,7 +225,7 @@ void SessionRecording::finish(bool matchEnds) {
         emit failed(
             QStringLiteral(
                 "The recording %1 is incomplete: %2. You can open the part that was written.")
-                .arg(path, words(done.error())));
+                .arg(path, textOf(done.error())));
         return;
       }
       if (matchEnds) emit noted(QStringLiteral("The recording ended with the match: %1").arg(path));
@@ -263,7 +263,7 @@ void SessionRecording::checkHealth() {
 // Once for each kind; the status bar says it all the time.
 void SessionRecording::warnOf(const telemetry::SessionStatus& status) {
   const telemetry::RecordingTrouble trouble = telemetry::troubleOf(status);
-  if (trouble == telemetry::RecordingTrouble::None || !m_told.insert(trouble).second) return;
+  if (trouble == telemetry::RecordingTrouble::None || !m_reported.insert(trouble).second) return;
   emit noted(QString::fromStdString(telemetry::troubleText(status)));
 }
 
@@ -319,7 +319,7 @@ void SessionRecording::saveLast(double seconds) {
       if (done)
         emit saved(path);
       else
-        emit failed(QStringLiteral("Could not save: %1").arg(words(done.error())));
+        emit failed(QStringLiteral("Could not save: %1").arg(textOf(done.error())));
     });
   });
 }

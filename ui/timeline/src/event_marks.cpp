@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -177,16 +177,16 @@ std::vector<EventMark> layOutMarks(const std::deque<link::MatchEvent>& events, c
     if (mark.merged > 0) kept.push_back(std::move(mark));
   }
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    const QString words =
+    const QString predicate =
         QString::fromStdString(labelOf(events[static_cast<std::size_t>(kept[i].row)]));
-    if (words.isEmpty()) continue;
+    if (predicate.isEmpty()) continue;
     const double stop =
         i + 1 < kept.size() ? kept[i + 1].x - sizes.spacing * 0.6 : axis.left + axis.width;
     const int room = static_cast<int>(stop - kept[i].x - sizes.labelGap);
     constexpr int longest = 160;
-    constexpr int shortest = 5;  // characters: less of a longer word says nothing
-    const QString shown = elidedWords(font, words, std::min(room, longest));
-    if (room > 0 && (shown == words || shown.size() >= shortest)) kept[i].label = shown;
+    constexpr int shortest = 5;  // characters: less of a longer text says nothing
+    const QString shown = elideText(font, predicate, std::min(room, longest));
+    if (room > 0 && (shown == predicate || shown.size() >= shortest)) kept[i].label = shown;
   }
   return kept;
 }

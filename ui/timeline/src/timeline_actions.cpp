@@ -9,7 +9,7 @@
 #include <set>
 
 #include <telemetry/session/session_time.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/sources/abandoned_future.h>
 #include <ui/sources/linked_time.h>
@@ -157,9 +157,9 @@ void TimelineActions::fillFilter(QMenu* menu) {
   all->setEnabled(now.isOn());
   menu->addSeparator();
   for (const auto& [kind, count] : kinds) {
-    const std::string_view words = link::info(kind).words;
-    const QString name =
-        kind == link::MatchEventKind::GameState ? QStringLiteral("Game state") : capitalised(words);
+    const std::string_view predicate = link::info(kind).predicate;
+    const QString name = kind == link::MatchEventKind::GameState ? QStringLiteral("Game state")
+                                                                 : capitalised(predicate);
     QAction* action = menu->addAction(QStringLiteral("%1 (%2)").arg(name).arg(count));
     action->setCheckable(true);
     action->setChecked(!now.hidden.contains(kind));

@@ -141,8 +141,8 @@ void TimelineStrip::paintAxis(QPainter& painter) const {
     const bool atEdge = place.left() < edge;
     if (atEdge) place.moveLeft(edge);
     if (place.right() > width()) place.moveRight(width());
-    drawWords(painter, place, (atEdge ? Qt::AlignLeft : Qt::AlignHCenter) | Qt::AlignVCenter,
-              tick.label);
+    drawTextLine(painter, place, (atEdge ? Qt::AlignLeft : Qt::AlignHCenter) | Qt::AlignVCenter,
+                 tick.label);
   }
 }
 
@@ -162,8 +162,8 @@ void TimelineStrip::paintMarks(QPainter& painter) {
       drawMark(painter, shape, {mark.x, centre}, size);
       if (mark.label.isEmpty()) continue;
       painter.setPen(theme().secondaryText);
-      drawWords(painter, QRectF(mark.x + gap, centre - size, width(), 2 * size),
-                Qt::AlignLeft | Qt::AlignVCenter, mark.label);
+      drawTextLine(painter, QRectF(mark.x + gap, centre - size, width(), 2 * size),
+                   Qt::AlignLeft | Qt::AlignVCenter, mark.label);
     }
     painter.setOpacity(1.0);
   };

@@ -9,8 +9,8 @@
 
 namespace pitchboard::ui {
 
-void ValueWatch::add(const WrittenValue& written) {
-  std::erase_if(m_watched, [&written](const WrittenValue& other) {
+void ValueWatch::add(const UserWrite& written) {
+  std::erase_if(m_watched, [&written](const UserWrite& other) {
     return other.group == written.group && other.column == written.column;
   });
   m_watched.push_back(written);
@@ -49,15 +49,15 @@ std::optional<OverwrittenValue> ValueWatch::check(const telemetry::SeriesStore& 
 
 QString overwrittenText(const OverwrittenValue& value, const telemetry::ColumnInfo& column) {
   const auto text = [&column](double number) {
-    const QString words = wordsOf(column, number);
+    const QString label = labelOf(column, number);
     return valueText(column, number) +
-           (words.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(words));
+           (label.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(label));
   };
-  const WrittenValue& written = value.written;
+  const UserWrite& written = value.written;
   const QString name = written.group + QLatin1Char('/') + written.column;
   const QString after = ageText(value.after);
   return (value.found == written.before
-              ? QStringLiteral("%1 was %2 again %3 after you wrote %4")
+              ? QStringLiteral("%1 returned to %2 %3 after you wrote %4")
                     .arg(name, text(value.found), after, text(written.value))
               : QStringLiteral("%1 was overwritten with %2 %3 after you wrote %4")
                     .arg(name, text(value.found), after, text(written.value))) +

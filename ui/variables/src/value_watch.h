@@ -12,7 +12,7 @@
 
 namespace pitchboard::ui {
 
-struct WrittenValue {
+struct UserWrite {
   QString group, column;
   double before = 0.0;  ///< what stood there
   double value = 0.0;   ///< what was written
@@ -20,14 +20,14 @@ struct WrittenValue {
 };
 
 struct OverwrittenValue {
-  WrittenValue written;
+  UserWrite written;
   double found = 0.0;  ///< the first other value
   double after = 0.0;  ///< s of the source
 };
 
 class ValueWatch {
  public:
-  void add(const WrittenValue& written);
+  void add(const UserWrite& written);
   void clear() { m_watched.clear(); }
   bool empty() const { return m_watched.empty(); }
   /// The first written value that did not stay, if one was overwritten within a second of the
@@ -35,7 +35,7 @@ class ValueWatch {
   std::optional<OverwrittenValue> check(const telemetry::SeriesStore& store);
 
  private:
-  std::vector<WrittenValue> m_watched;
+  std::vector<UserWrite> m_watched;
 };
 
 /// What to tell the person.

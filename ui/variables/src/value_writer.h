@@ -36,7 +36,7 @@ class ValueWriter : public QObject {
 
   struct Pending {
     RobotId robot;
-    WrittenValue value;
+    UserWrite value;
   };
   MatchController* m_controller;
   VariablesModel* m_model;

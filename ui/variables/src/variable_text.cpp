@@ -6,7 +6,7 @@
 #include <limits>
 
 #include <ui/base/number_box.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -95,9 +95,9 @@ QString attachedKey(const telemetry::GroupInfo& group) {
   return attached ? QStringLiteral("key ") + QString::fromStdString(key->second) : QString();
 }
 
-QString wordsOf(const ColumnInfo& column, double value) {
-  const bool hasWords = column.kind == ColumnKind::Enumeration || column.kind == ColumnKind::Text;
-  if (!hasWords || !std::isfinite(value)) return {};
+QString labelOf(const ColumnInfo& column, double value) {
+  const bool hasLabels = column.kind == ColumnKind::Enumeration || column.kind == ColumnKind::Text;
+  if (!hasLabels || !std::isfinite(value)) return {};
   const auto found = column.labels.find(static_cast<std::int32_t>(value));
   return found != column.labels.end() ? QString::fromStdString(found->second) : QString();
 }

@@ -22,8 +22,8 @@ QString rateText(const telemetry::ColumnInfo& column, double perSecond);
 QString ageText(double seconds);
 /// "key 700" of an attached blackboard; empty for other groups.
 QString attachedKey(const telemetry::GroupInfo& group);
-/// What a code means; empty without words for it.
-QString wordsOf(const telemetry::ColumnInfo& column, double value);
+/// Returns the label of a code; empty if it has none.
+QString labelOf(const telemetry::ColumnInfo& column, double value);
 
 /// Reads what a person typed for a variable of the blackboard: a number of its type, or the words
 /// of a code. The error is a sentence to show beside the value.

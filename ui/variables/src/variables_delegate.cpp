@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 #include <ui/base/quick_painting.h>
 #include <ui/base/theme.h>
 
@@ -58,7 +58,7 @@ QPainterPath sparkPath(const QList<telemetry::SeriesBucket>& buckets, const QRec
   return path;
 }
 
-/// Beside the words of a cell, px.
+/// Beside the text of a cell, px.
 int marginOf(const QStyleOptionViewItem& option) {
   return option.widget->style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, option.widget) +
          1;
@@ -90,8 +90,8 @@ void VariablesDelegate::initStyleOption(QStyleOptionViewItem* option,
   }
   // Words of a code begin with what matters: "walk forward, fast".
   if (index.column() != VariablesModel::Name && option->rect.isValid()) {
-    option->text = elidedWords(QFontMetricsF(option->font), option->text,
-                               option->rect.width() - 2 * marginOf(*option));
+    option->text = elideText(QFontMetricsF(option->font), option->text,
+                             option->rect.width() - 2 * marginOf(*option));
   }
   if (index.column() == VariablesModel::Unit && flowsOver(*option, index)) option->text.clear();
 }
@@ -110,8 +110,8 @@ bool VariablesDelegate::flowsOver(const QStyleOptionViewItem& option,
   for (int between = unit + 1; between < spark; ++between) {
     if (!header->isSectionHidden(header->logicalIndex(between))) return false;
   }
-  const QString words = index.siblingAtColumn(VariablesModel::Unit).data().toString();
-  return wordsWidth(themeFont(TypeRole::Secondary), words) >
+  const QString shown = index.siblingAtColumn(VariablesModel::Unit).data().toString();
+  return textLineWidth(themeFont(TypeRole::Secondary), shown) >
          header->sectionSize(VariablesModel::Unit) - scaled(tree, 6);
 }
 
@@ -129,8 +129,8 @@ void VariablesDelegate::paintFlowing(QPainter* painter, const QStyleOptionViewIt
   painter->setFont(font);
   const QVariant color = unit.data(Qt::ForegroundRole);
   painter->setPen(color.isValid() ? color.value<QColor>() : theme().secondaryText);
-  drawWords(*painter, line, Qt::AlignVCenter | Qt::AlignLeft, unit.data().toString(),
-            Qt::ElideRight);
+  drawTextLine(*painter, line, Qt::AlignVCenter | Qt::AlignLeft, unit.data().toString(),
+               Qt::ElideRight);
   painter->restore();
 }
 
@@ -160,12 +160,12 @@ void VariablesDelegate::paint(QPainter* painter, const QStyleOptionViewItem& opt
   }
 }
 
-// Most cells are words on the row's ground. What is in sight is painted ten times a second, and
+// Most cells are text on the row's ground. What is in sight is painted ten times a second, and
 // Qt's way through options, style sheet and text layout takes several times as long.
 void VariablesDelegate::paintPlain(QPainter* painter, const QStyleOptionViewItem& option,
                                    const QModelIndex& index) const {
-  const QString words = index.data().toString();
-  if (words.isEmpty()) return;
+  const QString shown = index.data().toString();
+  if (shown.isEmpty()) return;
   const QVariant font = index.data(Qt::FontRole), color = index.data(Qt::ForegroundRole);
   painter->setFont(font.isValid() ? font.value<QFont>() : option.font);
   const auto group = option.state & QStyle::State_Active ? QPalette::Normal : QPalette::Inactive;
@@ -174,9 +174,9 @@ void VariablesDelegate::paintPlain(QPainter* painter, const QStyleOptionViewItem
   const int margin = marginOf(option);
   const QRect room = option.rect.adjusted(margin, 0, -margin, 0);
   const bool isName = index.column() == VariablesModel::Name;
-  drawWords(*painter, room, Qt::Alignment(index.data(Qt::TextAlignmentRole).toInt()),
-            isName ? nameFor(index, painter->font(), room.width()) : words,
-            isName ? option.textElideMode : Qt::ElideRight);
+  drawTextLine(*painter, room, Qt::Alignment(index.data(Qt::TextAlignmentRole).toInt()),
+               isName ? nameFor(index, painter->font(), room.width()) : shown,
+               isName ? option.textElideMode : Qt::ElideRight);
 }
 
 void VariablesDelegate::paintSpark(QPainter* painter, const QStyleOptionViewItem& option,

@@ -17,7 +17,7 @@
 
 #include <ui/base/in_place_message.h>
 #include <ui/base/plot_target.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 #include <ui/sources/attached_boards.h>
@@ -105,15 +105,15 @@ class VariablesDock : public QWidget {
   }
 
   QHBoxLayout* makeTools() {
-    m_words = new QLineEdit(this);
-    m_words->setObjectName(QStringLiteral("variablesFilter"));
-    m_words->setPlaceholderText(QStringLiteral("Filter, e.g. ball dist"));
-    m_words->setToolTip(
+    m_filterText = new QLineEdit(this);
+    m_filterText->setObjectName(QStringLiteral("variablesFilter"));
+    m_filterText->setPlaceholderText(QStringLiteral("Filter, e.g. ball dist"));
+    m_filterText->setToolTip(
         QStringLiteral("Show rows that contain all words in robot, process, name or unit"));
-    m_words->setClearButtonEnabled(true);
-    m_words->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
-    connect(m_words, &QLineEdit::textChanged, this, [this](const QString& text) {
-      m_filter->setWords(text);
+    m_filterText->setClearButtonEnabled(true);
+    m_filterText->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
+    connect(m_filterText, &QLineEdit::textChanged, this, [this](const QString& text) {
+      m_filter->setFilterText(text);
       filterChanged();
     });
     m_stars = makeButton("favouritesOnly", "starred-symbolic",
@@ -145,7 +145,7 @@ class VariablesDock : public QWidget {
     const int gap = scaled(this, 4);
     row->setContentsMargins(gap, gap, gap, gap);
     row->setSpacing(gap);
-    row->addWidget(m_words, 1);
+    row->addWidget(m_filterText, 1);
     for (QToolButton* button : {m_stars, m_changed, m_lock, more}) row->addWidget(button);
     return row;
   }
@@ -285,7 +285,7 @@ class VariablesDock : public QWidget {
     m_stars->setChecked(false);
     m_changed->setChecked(false);
     // With the slash B1 is not B11, too.
-    m_words->setText(robotName(robot->identity) + QLatin1Char('/'));
+    m_filterText->setText(robotName(robot->identity) + QLatin1Char('/'));
     if (robot->boardKey) m_message->say(InPlaceMessage::Tone::Note, whereText(*robot->boardKey));
     if (auto* dock = qobject_cast<QDockWidget*>(parentWidget())) {
       dock->show();
@@ -364,7 +364,7 @@ class VariablesDock : public QWidget {
                  ? QStringLiteral("No variables yet. They appear with the first values of a robot.")
                  : why;
     }
-    if (!m_words->text().trimmed().isEmpty()) return QStringLiteral("No matching variables.");
+    if (!m_filterText->text().trimmed().isEmpty()) return QStringLiteral("No matching variables.");
     if (m_stars->isChecked() && m_model->favourites().isEmpty()) {
       return QStringLiteral("No favourites yet. Select a variable and press * to add it.");
     }
@@ -385,7 +385,7 @@ class VariablesDock : public QWidget {
   ValueWriter* m_writer;
   CatalogChoice* m_catalog = nullptr;
   VariablesMenu* m_menu = nullptr;
-  QLineEdit* m_words = nullptr;
+  QLineEdit* m_filterText = nullptr;
   QToolButton *m_stars = nullptr, *m_changed = nullptr, *m_lock = nullptr;
   std::shared_ptr<const telemetry::SeriesStore> m_store;
   std::set<int> m_attached;  // keys of blackboards that could be read

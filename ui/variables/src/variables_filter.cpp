@@ -16,7 +16,7 @@ VariablesFilter::VariablesFilter(VariablesModel* model, QObject* parent)
   });
 }
 
-void VariablesFilter::setWords(const QString& text) {
+void VariablesFilter::setFilterText(const QString& text) {
   m_words = text.toLower().split(QLatin1Char(' '), Qt::SkipEmptyParts);
   for (QString& word : m_words) word.replace(QLatin1Char('/'), QLatin1Char('\n'));
   invalidateFilter();

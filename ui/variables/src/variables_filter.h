@@ -20,7 +20,7 @@ class VariablesFilter : public QSortFilterProxyModel {
  public:
   explicit VariablesFilter(VariablesModel* model, QObject* parent = nullptr);
 
-  void setWords(const QString& text);
+  void setFilterText(const QString& text);
   void setFavouritesOnly(bool only);
   /// Only what changed within the last `seconds` of the source's time; nothing: all.
   void setChangedWithin(std::optional<double> seconds);

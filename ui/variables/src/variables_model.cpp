@@ -6,7 +6,7 @@
 
 #include <telemetry/series/group_order.h>
 #include <ui/base/plot_target.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 
 #include "variable_node.h"
 #include "variable_text.h"

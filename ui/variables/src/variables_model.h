@@ -47,7 +47,7 @@ class VariablesModel : public QAbstractItemModel {
   explicit VariablesModel(QObject* parent = nullptr);
   ~VariablesModel() override;
 
-  /// Everything anew, even for the same store. A null store is an empty tree.
+  /// Everything again, even for the same store. A null store is an empty tree.
   void setStore(std::shared_ptr<const telemetry::SeriesStore> store, SourceKind kind);
   const telemetry::SeriesStore* store() const { return m_store.get(); }
   /// Takes up groups that came since; cheap when none did.

@@ -14,9 +14,9 @@ namespace pitchboard::ui {
 
 QString VariablesModel::restText(const VariableNode& row) const {
   const int count = row.parent->neverSet;
-  const QString words = count == 1 ? QStringLiteral("1 variable never set")
+  const QString label = count == 1 ? QStringLiteral("1 variable never set")
                                    : QStringLiteral("%1 variables never set").arg(count);
-  return m_restShown.contains(row.parent->path) ? QStringLiteral("Fold ") + words : words;
+  return m_restShown.contains(row.parent->path) ? QStringLiteral("Fold ") + label : label;
 }
 
 double VariablesModel::rateOf(const VariableNode& group) const {
@@ -43,8 +43,8 @@ QVariant VariablesModel::display(const VariableNode& row, int column) const {
     case Value:
       return row.known ? valueText(row.info, row.value) : QString();
     case Unit: {
-      const QString words = row.known ? wordsOf(row.info, row.value) : QString();
-      return words.isEmpty() ? QString::fromStdString(row.info.unit) : words;
+      const QString label = row.known ? labelOf(row.info, row.value) : QString();
+      return label.isEmpty() ? QString::fromStdString(row.info.unit) : label;
     }
     case Rate:
       return rateText(row.info, row.ratePerSecond);
@@ -130,9 +130,9 @@ QString VariablesModel::toolTip(const QModelIndex& index) const {
     lines << QString::fromUtf8(text.data(), qsizetype(text.size()));
   }
   if (row.known) {
-    const QString words = wordsOf(row.info, row.value);
+    const QString label = labelOf(row.info, row.value);
     lines << exactText(row.info, row.value) + QLatin1Char(' ') +
-                 (words.isEmpty() ? QString::fromStdString(row.info.unit) : words);
+                 (label.isEmpty() ? QString::fromStdString(row.info.unit) : label);
     if (const QString rate = rateText(row.info, row.ratePerSecond); !rate.isEmpty()) {
       lines << QStringLiteral("changes by %1 per second").arg(rate);
     }

@@ -205,7 +205,7 @@ void VariablesView::fitNumbers() {
       const QModelIndex cell = row.siblingAtColumn(column);
       const QVariant own = cell.data(Qt::FontRole);
       const double words =
-          wordsWidth(own.isValid() ? own.value<QFont>() : font(), cell.data().toString());
+          textLineWidth(own.isValid() ? own.value<QFont>() : font(), cell.data().toString());
       wanted = std::max(wanted, static_cast<int>(std::ceil(words)) + scaled(this, 10));
     }
     // Names keep something, whatever a value says.

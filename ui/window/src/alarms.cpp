@@ -10,7 +10,7 @@
 #include <QWidget>
 #include <algorithm>
 
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 #include <ui/base/theme.h>
 #include <ui/sources/source_switch.h>
 
@@ -24,7 +24,7 @@ const QString soundKey = QStringLiteral("alarms/sound");
 
 struct Offer {
   Kind kind;
-  const char* words;
+  const char* text;
 };
 // What somebody at a match has to act on; a further one is a line here.
 constexpr Offer offers[] = {
@@ -83,7 +83,7 @@ class AlarmFrame : public QWidget {
     const QFont font = themeFont(TypeRole::Body, true);
     const QFontMetricsF metrics(font);
     const double most = width() - scaled(this, 64);
-    const QString text = elidedWords(metrics, accessibleName(), most);
+    const QString text = elideText(metrics, accessibleName(), most);
     QRectF plate(0, scaled(this, 44), metrics.horizontalAdvance(text) + scaled(this, 24),
                  scaled(this, 28));
     plate.moveLeft((width() - plate.width()) / 2);
@@ -134,7 +134,7 @@ void Alarms::keep() {
 
 void Alarms::fill(QMenu* menu) {
   for (const Offer& offer : offers) {
-    QAction* action = menu->addAction(QString::fromUtf8(offer.words));
+    QAction* action = menu->addAction(QString::fromUtf8(offer.text));
     action->setCheckable(true);
     action->setChecked(m_chosen.contains(offer.kind));
     connect(action, &QAction::toggled, this, [this, kind = offer.kind](bool on) {

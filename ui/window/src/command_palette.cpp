@@ -11,8 +11,8 @@
 #include <utility>
 
 #include <ui/base/table_style.h>
+#include <ui/base/text_filter.h>
 #include <ui/base/theme.h>
-#include <ui/base/words_filter.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -43,16 +43,16 @@ class EntryDelegate : public QStyledItemDelegate {
 CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* window)
     : QDialog(window, Qt::Dialog | Qt::FramelessWindowHint),
       m_entries(std::move(entries)),
-      m_words(new QLineEdit(this)),
+      m_search(new QLineEdit(this)),
       m_list(new QListView(this)),
       m_model(new QStandardItemModel(this)),
-      m_filter(new WordsFilter(this)) {
+      m_filter(new TextFilter(this)) {
   setObjectName(QStringLiteral("commandPalette"));
   setWindowTitle(QStringLiteral("Find anything"));
   setAttribute(Qt::WA_DeleteOnClose);
-  m_words->setObjectName(QStringLiteral("paletteWords"));
-  m_words->setPlaceholderText(QStringLiteral("Search actions, variables, robots and events"));
-  m_words->setAccessibleName(m_words->placeholderText());
+  m_search->setObjectName(QStringLiteral("paletteSearch"));
+  m_search->setPlaceholderText(QStringLiteral("Search actions, variables, robots and events"));
+  m_search->setAccessibleName(m_search->placeholderText());
   for (std::size_t i = 0; i < m_entries.size(); ++i) {
     // Menus write keys of the field behind a tab.
     const QString& text = m_entries[i].text;
@@ -74,7 +74,7 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* windo
   column->setContentsMargins(gap, gap, gap, gap);
   m_list->setFrameShape(QFrame::NoFrame);
   column->setSpacing(gap);
-  column->addWidget(m_words);
+  column->addWidget(m_search);
   column->addWidget(m_list, 1);
   auto* empty = makeEmptyLabel(this, QStringLiteral("paletteEmpty"));
   column->addWidget(empty, 1);
@@ -82,27 +82,27 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* windo
     const bool found = m_filter->rowCount() > 0;
     m_list->setVisible(found);
     empty->setVisible(!found);
-    empty->setText(QStringLiteral("Nothing matches “%1”.").arg(m_words->text().trimmed()));
+    empty->setText(QStringLiteral("Nothing matches “%1”.").arg(m_search->text().trimmed()));
     m_list->setCurrentIndex(m_filter->index(best(), 0));
   };
-  connect(m_words, &QLineEdit::textChanged, this, [this, first](const QString& text) {
-    m_filter->setWords(text);
+  connect(m_search, &QLineEdit::textChanged, this, [this, first](const QString& text) {
+    m_filter->setFilterText(text);
     first();
   });
-  connect(m_words, &QLineEdit::returnPressed, this, &CommandPalette::runCurrent);
+  connect(m_search, &QLineEdit::returnPressed, this, &CommandPalette::runCurrent);
   connect(m_list, &QListView::clicked, this, &CommandPalette::runCurrent);
-  m_words->installEventFilter(this);
+  m_search->installEventFilter(this);
   first();
   const int wide = std::min(scaled(this, 560), window->width());
   resize(wide, std::min(scaled(this, 360), window->height()));
   move(window->mapToGlobal(QPoint((window->width() - wide) / 2, scaled(this, 64))));
-  m_words->setFocus();
+  m_search->setFocus();
 }
 
 bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::KeyPress) {
     const int key = static_cast<QKeyEvent*>(event)->key();
-    // The list is moved in while the words keep the focus.
+    // The list is moved in while the text field keeps the focus.
     if (key == Qt::Key_Up || key == Qt::Key_Down || key == Qt::Key_PageUp ||
         key == Qt::Key_PageDown) {
       QCoreApplication::sendEvent(m_list, event);
@@ -127,7 +127,7 @@ void CommandPalette::changeEvent(QEvent* event) {
 // The first that is exactly what was typed, or ends with it: "log" means "View: Log" rather than
 // "Save log", and "export" means "Timeline: Export…" rather than "Export picture…".
 int CommandPalette::best() const {
-  const QString typed = m_words->text().trimmed();
+  const QString typed = m_search->text().trimmed();
   if (typed.isEmpty()) return 0;
   for (int row = 0; row < m_filter->rowCount(); ++row) {
     QString text = m_filter->index(row, 0).data().toString();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One field that finds everything by words: what menus offer, variables, robots, events. Enter does
+// One search field for everything: actions of the menus, variables, robots, events. Enter does
 // it: runs the action, plots the variable, selects the robot, shows the moment of the event. Made
 // when it is asked for; closes after that. UI thread only.
 
@@ -15,7 +15,7 @@ class QStandardItemModel;
 
 namespace pitchboard::ui {
 
-class WordsFilter;
+class TextFilter;
 
 /// Something that can be found.
 struct PaletteEntry {
@@ -39,10 +39,10 @@ class CommandPalette : public QDialog {
   int best() const;
 
   std::vector<PaletteEntry> m_entries;
-  QLineEdit* m_words;
+  QLineEdit* m_search;
   QListView* m_list;
   QStandardItemModel* m_model;
-  WordsFilter* m_filter;
+  TextFilter* m_filter;
 };
 
 }  // namespace pitchboard::ui

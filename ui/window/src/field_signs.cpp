@@ -165,7 +165,8 @@ QWidget* makeFinalWhistleSign(SourceSwitch* source, QWidget* canvas) {
     if (!over) return QString();
     const ScoreboardState board = scoreboardOf(*frame);
     return QStringLiteral("%1: %2 %3 : %4 %5. Space plays again, or look back on the timeline.")
-        .arg(frame->desk ? QStringLiteral("Final whistle") : QStringLiteral("The match is over"),
+        .arg(frame->refereedGame ? QStringLiteral("Final whistle")
+                                 : QStringLiteral("The match is over"),
              board.leftName)
         .arg(board.left)
         .arg(board.right)

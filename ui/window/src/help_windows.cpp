@@ -12,8 +12,8 @@
 #include <QVBoxLayout>
 
 #include <ui/base/table_style.h>
+#include <ui/base/text_filter.h>
 #include <ui/base/theme.h>
-#include <ui/base/words_filter.h>
 
 #include "key_map.h"
 
@@ -35,13 +35,13 @@ void showShortcuts(QWidget* parent, const KeyMap& keys) {
       model->setItem(row, column, new QStandardItem(texts[column]));
     }
   }
-  auto* filter = new WordsFilter(dialog);
+  auto* filter = new TextFilter(dialog);
   filter->setSourceModel(model);
   auto* words = new QLineEdit(dialog);
   words->setObjectName(QStringLiteral("shortcutWords"));
   words->setPlaceholderText(QStringLiteral("Search, e.g. bookmark"));
   words->setClearButtonEnabled(true);
-  QObject::connect(words, &QLineEdit::textChanged, filter, &WordsFilter::setWords);
+  QObject::connect(words, &QLineEdit::textChanged, filter, &TextFilter::setFilterText);
   auto* table = new QTableView(dialog);
   table->setModel(filter);
   styleTable(table);

@@ -20,7 +20,7 @@
 #include <telemetry/series/group_order.h>
 #include <ui/base/notice_bar.h>
 #include <ui/base/plot_target.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/time_axis.h>
 #include <ui/base/undo_history.h>
 #include <ui/base/wheel_guard.h>
@@ -243,7 +243,7 @@ void MainWindow::showPalette() {
   std::vector<PaletteEntry> entries, deep;
   for (const MenuAction& each : menuActions(*menuBar())) {
     if (!each.action->isEnabled()) continue;
-    // What stands three menus deep is hardly meant by words that a variable has as well.
+    // An action three menus deep is hardly meant if a variable has the same text.
     const bool isDeep = each.menu.count(QStringLiteral(": ")) > 1;
     (isDeep ? deep : entries)
         .push_back({QStringLiteral("%1: %2").arg(each.menu, each.text),
@@ -431,8 +431,8 @@ void MainWindow::connectNotices() {
   const auto tell = [this](const QString& topic) {
     return [this, topic](const QString& sentence) { m_notices->show({topic}, sentence); };
   };
-  for (const auto said : {&SessionRecording::failed, &SessionRecording::noted}) {
-    connect(m_recording, said, m_notices, tell(recording));
+  for (const auto message : {&SessionRecording::failed, &SessionRecording::noted}) {
+    connect(m_recording, message, m_notices, tell(recording));
   }
   connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
   connect(m_recording, &SessionRecording::changed, m_notices, [this] {
@@ -472,7 +472,7 @@ void MainWindow::connectNotices() {
     for (const QString& topic : {match, refused, finished, continued, speedTopic}) {
       m_notices->settle(topic);
     }
-    m_toldFinished = false;
+    m_notifiedFinished = false;
   });
   // What cannot stand still or go faster goes on with a match in real time.
   connect(m_controller, &MatchController::transportChanged, m_notices, [this] {
@@ -531,7 +531,7 @@ void MainWindow::connectNotices() {
   connect(m_tests, &SituationTests::saved, m_notices, [this] { m_notices->settle(test); });
   connect(m_files, &ScenarioFiles::failed, m_notices, tell(scenario));
   connect(m_controller, &MatchController::frameReceived, this,
-          [this](const FramePtr& frame) { tellFinished(*frame); });
+          [this](const FramePtr& frame) { notifyFinished(*frame); });
 }
 
 void MainWindow::askForSpeed(const QStringList& programs, double wanted) {
@@ -552,12 +552,12 @@ void MainWindow::askForSpeed(const QStringList& programs, double wanted) {
 }
 
 // A match that stands still should not look as if it hung.
-void MainWindow::tellFinished(const link::MatchFrame& frame) {
+void MainWindow::notifyFinished(const link::MatchFrame& frame) {
   if (!frame.finished) {
-    if (std::exchange(m_toldFinished, false)) m_notices->settle(QStringLiteral("finished"));
+    if (std::exchange(m_notifiedFinished, false)) m_notices->settle(QStringLiteral("finished"));
     return;
   }
-  if (std::exchange(m_toldFinished, true)) return;
+  if (std::exchange(m_notifiedFinished, true)) return;
   m_notices->show(
       {QStringLiteral("finished"), NoticeTone::Success},
       QStringLiteral("The match is over, %1 : %2. Look back on the timeline, export it, or play it "

@@ -23,17 +23,18 @@ void MainWindow::makeKeys() {
   };
   make(QStringLiteral("escape"), QStringLiteral("Cancel, or back to now"),
        [this] { cancelStepByStep(); });
-  struct Way {
+  struct Direction {
     const char* name;
     double x, y;
   };
-  for (const Way& way : {Way{"Left", -1, 0}, {"Right", 1, 0}, {"Up", 0, 1}, {"Down", 0, -1}}) {
-    const QString name = QLatin1String(way.name);
+  for (const Direction& direction :
+       {Direction{"Left", -1, 0}, {"Right", 1, 0}, {"Up", 0, 1}, {"Down", 0, -1}}) {
+    const QString name = QLatin1String(direction.name);
     constexpr double fine = 0.01, coarse = 0.1;  // m
     make(QStringLiteral("nudge") + name, QStringLiteral("Nudge selected robots"),
-         [this, way] { m_field->nudge(QPointF(way.x, way.y) * fine); });
+         [this, direction] { m_field->nudge(QPointF(direction.x, direction.y) * fine); });
     make(QStringLiteral("push") + name, QStringLiteral("Nudge selected robots far"),
-         [this, way] { m_field->nudge(QPointF(way.x, way.y) * coarse); });
+         [this, direction] { m_field->nudge(QPointF(direction.x, direction.y) * coarse); });
   }
   for (int number = 1; number <= 9; ++number) {
     make(QStringLiteral("select%1").arg(number), QStringLiteral("Select robot %1").arg(number),

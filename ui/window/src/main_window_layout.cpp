@@ -51,10 +51,10 @@ void MainWindow::showTitles() {
   }
   changed = std::exchange(m_neededHeight, needed) != needed || changed;
   // A title that comes or goes gives its height to the panel beside it, or takes it from there. The
-  // panels' least sizes are known when the layout has heard of it.
+  // panels report their least sizes after the layout has been activated.
   if (!changed) return;
   QTimer::singleShot(0, this, [this] {
-    if (m_followsSize && !m_fieldOnly->isOn()) shareRoomOut();
+    if (m_followsSize && !m_fieldOnly->isOn()) distributeSpace();
   });
 }
 
@@ -119,10 +119,10 @@ bool MainWindow::event(QEvent* event) {
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
   QMainWindow::resizeEvent(event);
-  if (m_followsSize && !m_fieldOnly->isOn()) shareRoomOut();
+  if (m_followsSize && !m_fieldOnly->isOn()) distributeSpace();
 }
 
-void MainWindow::shareRoomOut() {
+void MainWindow::distributeSpace() {
   const double unit = scaled(this, 1000) / 1000.0;
   Extents extents = extentsFor(size() / unit);
   // At most two fifths of the window.
@@ -152,7 +152,7 @@ void MainWindow::showEvent(QShowEvent* event) {
   QTimer::singleShot(0, this, [this] {
     fitScreen();
     // Docks that were never laid out have no sizes that could be given to them.
-    if (m_followsSize) shareRoomOut();
+    if (m_followsSize) distributeSpace();
     for (QDockWidget* dock : m_docks) {
       if (!dock->isFloating() || !dock->isVisible()) continue;
       dock->hide();
@@ -221,11 +221,11 @@ void MainWindow::resetLayout() {
   for (std::size_t i = 0; i < infos.size(); ++i) m_docks[i]->setVisible(infos[i].shownAtFirst);
   for (const auto& [area, first] : lastTab) first->raise();
   m_followsSize = true;
-  shareRoomOut();
+  distributeSpace();
   setUpdatesEnabled(true);
 }
 
-// What the keyboard reaches can be said: by its own words, or by those of the dock it is in.
+// Screen readers need a name for everything that the keyboard reaches: its own, or its dock's.
 void MainWindow::nameForScreenReaders() {
   centralWidget()->setAccessibleName(QStringLiteral("Field"));
   for (QWidget* each : findChildren<QWidget*>()) {

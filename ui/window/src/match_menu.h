@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The part of the menu Simulation that says what the match was begun with, and begins it anew with
+// The part of the menu Simulation that says what the match was begun with, and begins it again with
 // something else: seed, who decides for the robots, its number on this computer. UI thread only.
 
 #include <functional>

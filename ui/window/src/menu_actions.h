@@ -2,7 +2,7 @@
 #pragma once
 
 // Every action that the menu bar offers, with the menus that lead to it: for the list of shortcuts
-// and for finding an action by words. UI thread only.
+// and for searching actions by text. UI thread only.
 
 #include <QPointer>
 #include <QString>

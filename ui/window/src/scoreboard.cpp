@@ -4,7 +4,7 @@
 #include <QFontMetrics>
 #include <QPainter>
 
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -69,7 +69,7 @@ void Scoreboard::paintEvent(QPaintEvent*) {
   const auto word = [&](const QRect& place, const QString& text, const QFont& font, int align) {
     painter.setFont(font);
     painter.setPen(theme().text);
-    const QString shown = elidedWords(QFontMetricsF(font), text, place.width());
+    const QString shown = elideText(QFontMetricsF(font), text, place.width());
     painter.drawText(place, align | Qt::AlignVCenter, shown);
     return QFontMetrics(font).horizontalAdvance(shown);
   };

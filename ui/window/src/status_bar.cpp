@@ -10,8 +10,8 @@
 #include <algorithm>
 
 #include <base/angles.h>
-#include <ui/base/elided_words.h>
-#include <ui/base/robot_words.h>
+#include <ui/base/elide_text.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/scoreboard_state.h>
 #include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
@@ -26,7 +26,7 @@
 namespace pitchboard::ui {
 namespace {
 
-/// Narrower than its words it ends in "…", instead of asking for a wider window.
+/// If it is narrower than its text it ends in "…", instead of asking for a wider window.
 class StatusLabel : public QLabel {
  public:
   using QLabel::QLabel;
@@ -47,7 +47,7 @@ class StatusLabel : public QLabel {
     QPainter painter(this);
     painter.setPen(palette().color(foregroundRole()));
     painter.drawText(room, Qt::AlignVCenter | Qt::AlignLeft,
-                     elidedWords(QFontMetricsF(font()), text(), room.width()));
+                     elideText(QFontMetricsF(font()), text(), room.width()));
   }
 };
 

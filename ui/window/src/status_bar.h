@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The line at the bottom: how the simulation runs or the network is heard, what is recorded, where
-// the cursor is, what is selected. Numbers change five times a second, so that they can be read.
+// The line at the bottom: how the simulation runs or the network is received, what is recorded,
+// where the cursor is, what is selected. Numbers change five times a second, so that they can be
+// read.
 
 #include <QElapsedTimer>
 #include <QPointF>

@@ -12,7 +12,7 @@
 #include <limits>
 #include <tuple>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/live/live_bar.h>
 #include <ui/sources/match_controller.h>
@@ -303,9 +303,9 @@ void TransportBar::resizeEvent(QResizeEvent* event) {
   m_scenarios->setFixedWidth(scaled(this, isNarrow                        ? 104
                                           : width() < scaled(this, roomy) ? 196
                                                                           : 266));
-  m_liveBar->setRoom(isNarrow                        ? LiveBar::Room::Least
-                     : width() < scaled(this, roomy) ? LiveBar::Room::Narrow
-                                                     : LiveBar::Room::Wide);
+  m_liveBar->setAvailableWidth(isNarrow                        ? LiveBar::Width::Least
+                               : width() < scaled(this, roomy) ? LiveBar::Width::Narrow
+                                                               : LiveBar::Width::Wide);
   m_record->setToolButtonStyle(isNarrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
   m_record->setFixedWidth(scaled(this, isNarrow ? 44 : 96));
   m_speed->setFixedWidth(scaled(this, isNarrow ? 62 : 68));

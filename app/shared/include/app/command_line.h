@@ -26,6 +26,9 @@ std::optional<int> parse(CLI::App& app, int argc, char** argv);
 
 /// Reads all of the text as a number with a decimal point; empty if it is not one.
 std::optional<double> numberFrom(std::string_view text);
+/// Reads the value of --speed: simulated seconds per second from 0.01 to 1000, or "max", for which
+/// it returns 0. Fails with InvalidArgument.
+Result<double> speedFrom(const std::string& text);
 
 /// Adds an option for a duration above 0 and at most 1e9 s, in the formats of secondsFromText().
 /// `seconds` is empty if the option is not given; it must live as long as the command.

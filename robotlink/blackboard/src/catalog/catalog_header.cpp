@@ -127,7 +127,7 @@ std::vector<std::string> words(std::string_view text) {
   return found;
 }
 
-std::optional<VariableType> typeOfWord(const std::string& word) {
+std::optional<VariableType> typeNamed(const std::string& word) {
   if (word == "int" || word == "ints" || word == "integer" || word == "integers")
     return VariableType::Int;
   if (word == "float" || word == "floats") return VariableType::Float;
@@ -137,17 +137,17 @@ std::optional<VariableType> typeOfWord(const std::string& word) {
 // Rule 1.
 std::optional<VariableType> typeBehind(std::string_view comment) {
   const auto all = words(comment);
-  return all.empty() ? std::nullopt : typeOfWord(all.front());
+  return all.empty() ? std::nullopt : typeNamed(all.front());
 }
 
 // Rule 2.
 std::optional<VariableType> typeOfSection(std::string_view comment) {
-  constexpr std::size_t titleWords = 4;
+  constexpr std::size_t headingWords = 4;
   const auto all = words(comment);
-  if (all.size() > titleWords) return std::nullopt;
+  if (all.size() > headingWords) return std::nullopt;
   std::optional<VariableType> found;
   for (const std::string& word : all) {
-    const auto type = typeOfWord(word);
+    const auto type = typeNamed(word);
     if (type && found && *type != *found) return std::nullopt;
     if (type) found = type;
   }

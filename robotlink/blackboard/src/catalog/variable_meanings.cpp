@@ -156,8 +156,8 @@ void VariableMeanings::describe(telemetry::ColumnInfo& column) const {
 }
 
 void VariableMeanings::describeLost(telemetry::GroupInfo& group) const {
-  const auto isSaid = [](const telemetry::ColumnInfo& column) { return !column.lostBy.empty(); };
-  if (std::ranges::any_of(group.columns, isSaid)) return;
+  const auto isGiven = [](const telemetry::ColumnInfo& column) { return !column.lostBy.empty(); };
+  if (std::ranges::any_of(group.columns, isGiven)) return;
   for (telemetry::ColumnInfo& column : group.columns) {
     telemetry::ColumnInfo known;
     known.name = column.name;

@@ -65,7 +65,7 @@ class Localization final : public CognitiveProcess {
     }
     for (Particle& particle : cloud->particles)
       particle.weight = sum > 0.0 ? particle.weight / sum : 0.0;
-    const Belief& belief = m_filter.belief();
+    const PoseBelief& belief = m_filter.belief();
     cloud->count = count;
     cloud->pose = belief.pose;
     cloud->sigma = belief.sigma;
@@ -118,7 +118,7 @@ class Localization final : public CognitiveProcess {
   }
 
   void publish(Blackboard& board) {
-    const Belief& belief = m_filter.belief();
+    const PoseBelief& belief = m_filter.belief();
     const auto pose = sim::published_frame::localizationFromStudio(m_field, belief.pose);
     const double sigma_cm = sim::published_frame::cmFromMetres(belief.sigma);
     board.write(m_variables.localizationX, static_cast<int>(std::lround(pose.x)));

@@ -83,7 +83,7 @@ struct LocalizationInput {
   std::optional<double> imuYaw;  ///< as IMU_EULER_Z, relative to the IMU's zero
 };
 
-struct Belief {
+struct PoseBelief {
   Pose pose;           ///< mean of the strongest cluster
   double sigma = 0.0;  ///< m, standard deviation of all particles' positions
   int particles = 0;
@@ -110,7 +110,7 @@ class MonteCarloLocalization {
   /// nothing after the first call.
   void update(const LocalizationInput& input);
 
-  const Belief& belief() const { return m_belief; }
+  const PoseBelief& belief() const { return m_belief; }
   /// Share of the particles that the last update drew from the sensors, 0..1.
   double resetShare() const { return m_resetShare; }
 
@@ -183,7 +183,7 @@ class MonteCarloLocalization {
   std::vector<std::uint32_t> m_cellStamp;
   std::uint32_t m_stamp = 0;
   std::vector<float> m_cellWeight;
-  Belief m_belief;
+  PoseBelief m_belief;
 };
 
 }  // namespace pitchboard::link

@@ -75,20 +75,20 @@ std::optional<Act> Walk::step(const Surroundings& world, const Target& target) {
 Act Walk::gaitTowards(const Surroundings& world, const Target& target, double left) {
   const double bearing = wrapToPi(direction(world.pose.position, m_path.next()) - world.pose.yaw);
   const double facing = wrapToPi(target.pose.yaw - world.pose.yaw);
-  const double way = std::max(m_path.length, left);
+  const double pathLength = std::max(m_path.length, left);
 
   // The time each gait needs: turning into it, walking, turning to face what the target asks.
   constexpr double keepGait = 0.8;  // s that another gait must be better by
   const double turnSpeed = sim::gaitSpeed(m_body, acts::turnLeft.action, 0).turn;
   int best = 0;
   double least = 1e9;
-  constexpr double longWay = 0.5;  // m
-  const std::size_t allowed = target.forwards && left > longWay ? 1 : gaits.size();
+  constexpr double longWalk = 0.5;  // m
+  const std::size_t allowed = target.forwards && left > longWalk ? 1 : gaits.size();
   for (std::size_t i = 0; i < allowed; ++i) {
     const double before = wrapToPi(bearing - gaits[i].direction);
     const double after = wrapToPi(facing - before);
-    double time =
-        (std::abs(before) + std::abs(after)) / turnSpeed + way / speedOf(m_body, gaits[i].act);
+    double time = (std::abs(before) + std::abs(after)) / turnSpeed +
+                  pathLength / speedOf(m_body, gaits[i].act);
     if (static_cast<int>(i) == m_gait) time -= keepGait;
     if (time < least) {
       least = time;

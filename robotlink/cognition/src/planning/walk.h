@@ -41,7 +41,7 @@ class Walk {
 
   /// Nothing when the robot is there.
   std::optional<Act> step(const Surroundings& world, const Target& target);
-  /// Nobody walks: the next target begins anew.
+  /// Nobody walks: the next target begins again.
   void rest();
   /// The path in use, from the next bend on; no points while nobody walks.
   const Path& path() const { return m_path; }

@@ -16,9 +16,9 @@ using std::numbers::pi;
 
 constexpr double unknownTurn = pi / 4;  // half of the turn that most need
 
-double secondsFor(const WorldModel& world, double turn, double way) {
+double secondsFor(const WorldModel& world, double turn, double metres) {
   const double turns = sim::gaitSpeed(world.body(), acts::turnLeft.action, 0).turn;
-  return std::abs(turn) / std::max(0.05, turns) + way / walkingSpeed(world);
+  return std::abs(turn) / std::max(0.05, turns) + metres / walkingSpeed(world);
 }
 
 }  // namespace
@@ -36,10 +36,10 @@ double pathLengthAround(const Point& robot, const Point& ball) {
 
 double secondsTo(const WorldModel& world, const Point& place) {
   const Pose& from = world.pose();
-  const double way = distance(from.position, place);
+  const double metres = distance(from.position, place);
   constexpr double there = 0.3;  // m: who is so near has no way to turn to
-  const double turn = way < there ? 0.0 : wrapToPi(direction(from.position, place) - from.yaw);
-  return secondsFor(world, turn, way);
+  const double turn = metres < there ? 0.0 : wrapToPi(direction(from.position, place) - from.yaw);
+  return secondsFor(world, turn, metres);
 }
 
 double secondsFrom(const WorldModel& world, const Point& from, const Point& place) {

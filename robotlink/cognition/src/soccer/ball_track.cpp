@@ -56,15 +56,15 @@ Point BallTrack::stopsAt(const Point& place, const sim::FieldSpec& field, double
   const Velocity v = velocity(now);
   const double speed = length({v.x, v.y});
   if (speed <= 0.0) return place;
-  double way = sim::rollingDistance(field.surface, speed);
-  const auto clip = [&way, speed](double from, double along, double most) {
+  double range = sim::rollingDistance(field.surface, speed);
+  const auto clip = [&range, speed](double from, double along, double most) {
     if (along == 0.0) return;
     const double left = (along > 0.0 ? most - from : most + from) * speed / std::abs(along);
-    way = std::min(way, std::max(0.0, left));
+    range = std::min(range, std::max(0.0, left));
   };
   clip(place.x, v.x, field.halfLength());
   clip(place.y, v.y, field.halfWidth());
-  return {place.x + way * v.x / speed, place.y + way * v.y / speed};
+  return {place.x + range * v.x / speed, place.y + range * v.y / speed};
 }
 
 }  // namespace pitchboard::link

@@ -143,7 +143,7 @@ Choice Behaviour::lookForBall(const WorldModel& world) {
 /// `ball`: where it will lie.
 Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
   if (world.seesBall()) {
-    m_told = world.now();
+    m_ballConfirmed = world.now();
     m_search.restart();
     constexpr double rolls = 0.6;  // m: it is met where it stops
     const Point here = world.toField(world.ballInFront());
@@ -159,8 +159,8 @@ Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
   // Seen by a team-mate or remembered. If it is not there, it is looked for.
   if (!world.localized()) return lookForBall(world);
   const bool shouldSee = distance(world.pose().position, ball) < 1.5;
-  if (!shouldSee) m_told = world.now();
-  if (world.now() - m_told > m_numbers.patience) return lookForBall(world);
+  if (!shouldSee) m_ballConfirmed = world.now();
+  if (world.now() - m_ballConfirmed > m_numbers.patience) return lookForBall(world);
   const Pose there{ball, direction(world.pose().position, ball)};
   const auto target = walkTo(world, there, 0.5, 0.5, Ball::Ignore);
   return {target ? Move(*target) : acts::turnRight, Intention::Ball, ball, true};
@@ -299,11 +299,11 @@ bool Supporter::mateHolds(const WorldModel& world, const Point& place) {
   const Point own = world.pose().position;
   return std::ranges::any_of(world.mates(), [&](const auto& mate) {
     if (!mate || mate->intention != Intention::Support) return false;
-    const double way = distance(mate->position, place);
-    const double farther = distance(own, place) - way;  // this robot, than the mate
+    const double gap = distance(mate->position, place);
+    const double farther = distance(own, place) - gap;  // this robot, than the mate
     // Both as near: the one on the left stays, whoever asks.
     const bool stays = farther > asNear || (farther > -asNear && mate->position.y > own.y);
-    return way < there && stays;
+    return gap < there && stays;
   });
 }
 
@@ -312,10 +312,10 @@ std::size_t Supporter::nearestNotHeld(const WorldModel& world, std::span<const P
   std::size_t nearest = otherwise;
   double least = 1e9;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const double way = distance(world.pose().position, places[i]);
-    if (way >= least || mateHolds(world, places[i])) continue;
+    const double gap = distance(world.pose().position, places[i]);
+    if (gap >= least || mateHolds(world, places[i])) continue;
     nearest = i;
-    least = way;
+    least = gap;
   }
   return nearest;
 }
@@ -365,9 +365,9 @@ Choice Keeper::play(const WorldModel& world) {
   }
   Pose stands = keeperPlace(world.field(), m_numbers, *ball);
   if (isAdvised(world, AdviceKind::Stand)) {
-    const Point told = inField(world, world.advice()->place.position);
+    const Point advised = inField(world, world.advice()->place.position);
     constexpr double leaves = 1.5;  // m that a keeper may stand before its goal
-    if (distance(told, world.ownGoal()) < leaves) stands.position = told;
+    if (distance(advised, world.ownGoal()) < leaves) stands.position = advised;
   }
   Choice choice = goTo(world, stands, Intention::Keep, 0.12);
   choice.search = !world.seesBall();

@@ -53,7 +53,7 @@ class Behaviour {
   Search m_search;
   Attack m_attack;
   bool m_comesBack = false;
-  double m_told = -1e9;  // when the ball was last where it was said to be
+  double m_ballConfirmed = -1e9;  // when the ball was last where it was said to be
 };
 
 /// Goes for the ball when nobody of its team is there sooner; else takes one of the places of those

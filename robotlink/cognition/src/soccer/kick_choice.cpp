@@ -45,20 +45,20 @@ double below(double z) {
   return 1.0 / (1.0 + repeatable::exp(-1.702 * z));
 }
 
-Point along(const Point& from, double yaw, double way) {
+Point along(const Point& from, double yaw, double heading) {
   const auto [s, c] = repeatable::sinCos(yaw);
-  return {from.x + way * c, from.y + way * s};
+  return {from.x + heading * c, from.y + heading * s};
 }
 
 /// An opponent that stands where the ball comes past.
 bool isCovered(const WorldModel& world, const Point& from, const Point& to, double wide) {
-  const double way = distance(from, to);
-  if (way <= 0.0) return false;
-  const double dx = (to.x - from.x) / way, dy = (to.y - from.y) / way;
+  const double heading = distance(from, to);
+  if (heading <= 0.0) return false;
+  const double dx = (to.x - from.x) / heading, dy = (to.y - from.y) / heading;
   return std::ranges::any_of(world.opponents(), [&](const Point& at) {
     const double ahead = (at.x - from.x) * dx + (at.y - from.y) * dy;
     const double beside = std::abs((at.y - from.y) * dx - (at.x - from.x) * dy);
-    return ahead > 0.0 && ahead < way + wide && beside < wide;
+    return ahead > 0.0 && ahead < heading + wide && beside < wide;
   });
 }
 
@@ -94,10 +94,10 @@ double chanceOfGoal(const WorldModel& world, const Point& ball, double yaw, doub
   const auto [s, c] = repeatable::sinCos(yaw);
   const double toLine = field.halfLength() - ball.x;
   if (c <= 0.1 || toLine <= 0.0) return 0.0;
-  const double way = toLine / c;
-  if (way > 0.85 * range) return 0.0;
-  const double y = ball.y + way * s;
-  const double error = repeatable::hypot(kickError * way / c, posError);
+  const double heading = toLine / c;
+  if (heading > 0.85 * range) return 0.0;
+  const double y = ball.y + heading * s;
+  const double error = repeatable::hypot(kickError * heading / c, posError);
   const double chance =
       below((part.middle + part.half - y) / error) - below((part.middle - part.half - y) / error);
   const double bodies = world.field().robotRadius + field.ballRadius;
@@ -151,14 +151,14 @@ std::optional<Act> adviseKick(const WorldModel& world, const Advice& advice, con
     if (isStrong != (advice.kind == AdviceKind::StrongKick)) continue;
     const double range = kickRange(world, one.act, feet);
     if (range <= squarely * kickRange(world, one.act)) continue;
-    const double way = wrapToPi(world.pose().yaw + one.turned);
-    const double off = std::abs(wrapToPi(way - wanted));
-    const Point stops = along(ball, way, range);
-    if (off >= least || isTowardsOwnGoal(world, ball, way, stops)) continue;
+    const double heading = wrapToPi(world.pose().yaw + one.turned);
+    const double off = std::abs(wrapToPi(heading - wanted));
+    const Point stops = along(ball, heading, range);
+    if (off >= least || isTowardsOwnGoal(world, ball, heading, stops)) continue;
     const bool leaves = std::abs(stops.x) > field.halfLength() - inside ||
                         std::abs(stops.y) > field.halfWidth() - inside;
     constexpr double goodChance = 0.1;
-    if (leaves && chanceOfGoal(world, ball, way, range, goalPart(world, 0.0)) < goodChance) {
+    if (leaves && chanceOfGoal(world, ball, heading, range, goalPart(world, 0.0)) < goodChance) {
       continue;
     }
     best = one.act;
@@ -180,10 +180,10 @@ std::optional<KickWorth> chooseKick(const WorldModel& world, const BehaviourPara
     const double range = sim::rollingDistance(field.surface, speed);
     constexpr double squarely = 0.8;
     if (range <= squarely * kickRange(world, one.act)) continue;
-    const double way = wrapToPi(yaw + one.turned);
-    const Point stops = along(ball, way, range);
-    if (isTowardsOwnGoal(world, ball, way, stops)) continue;
-    const double goal = chanceOfGoal(world, ball, way, range, part);
+    const double heading = wrapToPi(yaw + one.turned);
+    const Point stops = along(ball, heading, range);
+    if (isTowardsOwnGoal(world, ball, heading, stops)) continue;
+    const double goal = chanceOfGoal(world, ball, heading, range, part);
     constexpr double inside = 0.1;  // m
     const bool leaves = std::abs(stops.x) > field.halfLength() - inside ||
                         std::abs(stops.y) > field.halfWidth() - inside;

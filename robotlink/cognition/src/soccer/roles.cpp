@@ -14,9 +14,9 @@ constexpr double insideLines = 0.5;  // m
 constexpr double beforeGoal = 1.2;   // m: the keeper's own room
 constexpr double keeps = 0.4;        // m that the place until now counts less
 
-Point around(const Point& ball, double way, double angle) {
+Point around(const Point& ball, double metres, double angle) {
   const auto [s, c] = repeatable::sinCos(angle);
-  return {ball.x + way * c, ball.y + way * s};
+  return {ball.x + metres * c, ball.y + metres * s};
 }
 
 }  // namespace
@@ -39,10 +39,10 @@ Placings placingsFor(const sim::FieldSpec& field, const Point& ball, double side
   // stops the ball.
   constexpr double beforeItsEnd = 0.6, behind = 1.2, wingFarther = 0.2;  // m
   constexpr double beside = radiansFromDegrees(75);
-  const double way = std::max(placesApart, passRange) - beforeItsEnd;
-  offer(Role::PassOffer, around(ball, way, side * beside));
+  const double metres = std::max(placesApart, passRange) - beforeItsEnd;
+  offer(Role::PassOffer, around(ball, metres, side * beside));
   offer(Role::Cover, {ball.x - behind, 0.8 * ball.y});
-  offer(Role::Wing, around(ball, way + wingFarther, -side * beside));
+  offer(Role::Wing, around(ball, metres + wingFarther, -side * beside));
   // Everybody else behind the ball, in rows from touch line to touch line.
   constexpr std::array<double, 5> across{0.0, 0.22, -0.22, 0.44, -0.44};
   for (int row = 0; row < 8; ++row) {
@@ -64,15 +64,15 @@ std::size_t placeOf(std::span<const Point> robots, std::span<const Point> places
     double least = 1e9;
     for (std::size_t robot = 0; robot < robots.size(); ++robot) {
       for (std::size_t f = 0; f < free.size() && !placed[robot]; ++f) {
-        const double way = distance(robots[robot], places[free[f]]) -
-                           (robot == 0 && kept == free[f] ? keeps : 0.0);
+        const double metres = distance(robots[robot], places[free[f]]) -
+                              (robot == 0 && kept == free[f] ? keeps : 0.0);
         // Two of the same way: the one on the left first, whoever asks.
         const bool nearer =
-            way < least - 1e-9 || (way < least + 1e-9 && robots[robot].y > robots[who].y);
+            metres < least - 1e-9 || (metres < least + 1e-9 && robots[robot].y > robots[who].y);
         if (!nearer) continue;
         who = robot;
         where = f;
-        least = way;
+        least = metres;
       }
     }
     if (who == 0) return free[where];

@@ -202,10 +202,10 @@ std::optional<Act> Attack::kick(const WorldModel& world) const {
   constexpr double follows = 1.0;  // m
   const bool right = world.ballBearing() <= 0.0;
   const Act strong = right ? acts::kickRight : acts::kickLeft;
-  const bool ownWay = std::abs(world.localized() ? world.pose().yaw : world.imuYaw()) > 1.7;
+  const bool facesOwnGoal = std::abs(world.localized() ? world.pose().yaw : world.imuYaw()) > 1.7;
   if (kickRange(world, strong) <= follows) {
     const bool placed = m_aligned && std::abs(world.ballBearing()) <= m_numbers->kickBearing;
-    return placed && !ownWay ? std::optional(strong) : std::nullopt;
+    return placed && !facesOwnGoal ? std::optional(strong) : std::nullopt;
   }
   if (!world.localized()) return std::nullopt;
   const KickSituation situation{world.toField(world.ballInFront()), m_clears,
@@ -240,11 +240,11 @@ Point aimFrom(const WorldModel& world, const Point& ball, double aimSide) {
   const bool onTheLine =
       ball.x > field.halfLength() - close && std::abs(ball.y) < field.goalWidth / 2;
   const double depth = onTheLine ? 2 * close : 0.0;
-  const auto inTheWay = [&](double way) {
+  const auto opponentsAhead = [&](double kickYaw) {
     double cost = 0.0;
     for (const Point& opponent : opponents) {
       const double d = distance(ball, opponent);
-      const double off = std::abs(wrapToPi(direction(ball, opponent) - way));
+      const double off = std::abs(wrapToPi(direction(ball, opponent) - kickYaw));
       if (d > 0.3 && d < 2.0 && off < 0.5) cost += 2.0 * (0.5 - off);
     }
     return cost;
@@ -254,12 +254,12 @@ Point aimFrom(const WorldModel& world, const Point& ball, double aimSide) {
   if (distance(ball, world.opponentGoal()) > far) {
     const double straight = direction(ball, {field.halfLength(), middle});
     for (int i = -2; i <= 2; ++i) {
-      const double way = straight + 0.4 * i;
-      const auto [s, c] = repeatable::sinCos(way);
+      const double kickYaw = straight + 0.4 * i;
+      const auto [s, c] = repeatable::sinCos(kickYaw);
       const Point aim{ball.x + 2.0 * c, ball.y + 2.0 * s};
       const bool inside = std::abs(aim.y) < field.halfWidth() - 0.4;
-      const double cost = 0.15 * std::abs(i) + 0.3 * std::abs(wrapToPi(way - heading)) +
-                          inTheWay(way) + (inside ? 0.0 : 1.0);
+      const double cost = 0.15 * std::abs(i) + 0.3 * std::abs(wrapToPi(kickYaw - heading)) +
+                          opponentsAhead(kickYaw) + (inside ? 0.0 : 1.0);
       if (cost >= least) continue;
       least = cost;
       best = aim;
@@ -268,8 +268,9 @@ Point aimFrom(const WorldModel& world, const Point& ball, double aimSide) {
   }
   for (int i = -2; i <= 2; ++i) {
     const Point aim{field.halfLength() + depth, i * 0.16 * field.goalWidth * part + middle};
-    const double way = direction(ball, aim);
-    const double cost = 0.3 * std::abs(i) + std::abs(wrapToPi(way - heading)) + inTheWay(way);
+    const double kickYaw = direction(ball, aim);
+    const double cost =
+        0.3 * std::abs(i) + std::abs(wrapToPi(kickYaw - heading)) + opponentsAhead(kickYaw);
     if (cost < least) {
       least = cost;
       best = aim;

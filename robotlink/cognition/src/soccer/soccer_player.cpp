@@ -55,7 +55,7 @@ Result<SoccerPlayer> SoccerPlayer::create(const SoccerPlayerOptions& options) {
             {}}));
 }
 
-void SoccerPlayer::copyMind(const SoccerPlayer& other) {
+void SoccerPlayer::copyState(const SoccerPlayer& other) {
   *m_parts = *other.m_parts;
 }
 

@@ -42,8 +42,8 @@ void WorldModel::update(const SoccerInput& input, double now) {
   for (const Sighting& sighting : m_opponents) {
     if (m_now - sighting.time < m_opponentMemory) m_opponentPlaces.push_back(sighting.position);
   }
-  hearMates(input);
-  hearAdvice(input);
+  readMates(input);
+  readAdvice(input);
   m_looksForOpponents = ++m_cycle % cyclesBetweenLooks == 0;
 }
 
@@ -87,7 +87,7 @@ void WorldModel::seeRobots(const SoccerInput& input) {
   }
 }
 
-void WorldModel::hearMates(const SoccerInput& input) {
+void WorldModel::readMates(const SoccerInput& input) {
   m_mates = input.mates;
   for (auto& mate : m_mates) {
     if (!mate) continue;
@@ -99,7 +99,7 @@ void WorldModel::hearMates(const SoccerInput& input) {
 }
 
 /// The blackboard has no clock: advice is as old as the last change of its stamp.
-void WorldModel::hearAdvice(const SoccerInput& input) {
+void WorldModel::readAdvice(const SoccerInput& input) {
   constexpr double fresh = 1.5;        // s
   constexpr double beyondLines = 0.7;  // m, of an aim in the goal
   if (m_adviceStamp != input.adviceStamp) {
@@ -125,17 +125,17 @@ double WorldModel::ballBearing() const {
 std::optional<Point> WorldModel::ball() const {
   if (seesBall()) return toField(m_ballLocal);
   // The nearest team-mate that sees it knows best.
-  std::optional<Point> told;
+  std::optional<Point> reported;
   double nearest = 1e9;
   for (const auto& mate : m_mates) {
     if (!mate || !mate->ball) continue;
     const double d = distance(*mate->ball, mate->position);
     if (d < nearest) {
       nearest = d;
-      told = mate->ball;
+      reported = mate->ball;
     }
   }
-  if (told) return told;
+  if (reported) return reported;
   if (ballAge() < m_ballMemory) return m_ballField;
   return std::nullopt;
 }

@@ -100,8 +100,8 @@ class WorldModel {
   void findSide(double theta);
   void seeBall(const SeenAt& ball);
   void seeRobots(const SoccerInput& input);
-  void hearMates(const SoccerInput& input);
-  void hearAdvice(const SoccerInput& input);
+  void readMates(const SoccerInput& input);
+  void readAdvice(const SoccerInput& input);
   void moveWithBody(const Act& doing, double seconds);
 
   sim::FieldSpec m_field;

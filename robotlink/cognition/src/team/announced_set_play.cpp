@@ -46,14 +46,14 @@ sim::SetPlay setPlayOf(League league, int version, int size, int code) {
 
 AnnouncedSetPlay setPlayIn(const telemetry::RefereeState& packet) {
   const int code = packet.setPlay.value_or(packet.secState.value_or(0));
-  AnnouncedSetPlay told;
-  told.kind = setPlayOf(packet.league, packet.version, packet.size, code);
-  if (told.kind == sim::SetPlay::None) return told;
+  AnnouncedSetPlay announced;
+  announced.kind = setPlayOf(packet.league, packet.version, packet.size, code);
+  if (announced.kind == sim::SetPlay::None) return announced;
   // Of 2021 on the Humanoid League says whose it is beside it; others by the kick-off.
   constexpr int sizeWithTaker = 688;
-  const bool says = packet.secStateInfo && packet.size == sizeWithTaker;
-  told.team = says ? (*packet.secStateInfo)[0] : packet.kickOffTeam;
-  return told;
+  const bool hasDetails = packet.secStateInfo && packet.size == sizeWithTaker;
+  announced.team = hasDetails ? (*packet.secStateInfo)[0] : packet.kickOffTeam;
+  return announced;
 }
 
 }  // namespace pitchboard::link

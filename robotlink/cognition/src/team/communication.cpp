@@ -101,7 +101,7 @@ class Communication final : public CognitiveProcess {
   void step(Blackboard& board, const Clock& clock) override {
     if (m_referee) {
       if (const auto order = m_referee->newOrder()) {
-        m_refereeVariables.write(board, *order, m_options.tellSetPlay);
+        m_refereeVariables.write(board, *order, m_options.announceSetPlay);
       }
     }
     constexpr double rounding = 1e-6;
@@ -114,14 +114,14 @@ class Communication final : public CognitiveProcess {
     if (m_nextTelemetry <= clock.seconds)
       m_nextTelemetry = clock.seconds + m_options.telemetryPeriod;
     board.write(m_variables.robotNumber, m_options.robot.value);
-    tellTeam(board);
+    writeTeam(board);
     sendTelemetry(board);
   }
 
   double period() const override { return listenPeriod; }
 
  private:
-  void tellTeam(Blackboard& board) {
+  void writeTeam(Blackboard& board) {
     const bool asked = m_request && board.read(*m_request) == distanceMessage;
     if (!asked && board.read(m_variables.visionLost) != 0) return;
     const float distance =

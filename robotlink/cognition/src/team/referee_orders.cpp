@@ -18,7 +18,7 @@ bool isIn(const telemetry::RefereeState& state, int phase) {
 
 /// Restarts: who has the ball plays. The others walk to their places until a set play is taken, and
 /// stand until the ball is free.
-int RefereeOrders::wordInPlay(const telemetry::RefereeState& state, int team) {
+int RefereeOrders::codeInPlay(const telemetry::RefereeState& state, int team) {
   constexpr int firstSetPlay = 4, lastSetPlay = 9;  // of secState
   constexpr int size2021 = 688;
   const int secondary = state.secState.value_or(0);
@@ -44,29 +44,29 @@ std::optional<RefereeOrder> RefereeOrders::take(const telemetry::RefereeState& s
   if (state.trueData()) return std::nullopt;
   const telemetry::RefereeTeam* own = state.team(team);
   if (own == nullptr) return std::nullopt;
-  const AnnouncedSetPlay told = setPlayIn(state);
-  RefereeOrder order{refereeStop, told.kind, told.team == team, own->score};
+  const AnnouncedSetPlay announced = setPlayIn(state);
+  RefereeOrder order{refereeStop, announced.kind, announced.team == team, own->score};
   for (const telemetry::RefereeTeam& one : state.teams) {
     if (one.number != team) order.goalsTheirs = one.score;
   }
   order.secondsLeft = state.secsRemaining;
   if (state.state == Playing) {
-    order.word = wordInPlay(state, team);
+    order.code = codeInPlay(state, team);
   } else {
     m_ballTeam.reset();
-    if (state.state == Ready) order.word = refereeReady;
-    if (state.state == Set) order.word = refereeSet;
+    if (state.state == Ready) order.code = refereeReady;
+    if (state.state == Set) order.code = refereeSet;
   }
   const auto players = own->players();
   const bool penalised = player >= 1 && static_cast<std::size_t>(player) <= players.size() &&
                          players[static_cast<std::size_t>(player) - 1].penalty != 0;
   const bool stands = penalised || isIn(state, timeout) || state.stopped.value_or(0) != 0;
-  if (stands) order.word = refereeStop;
+  if (stands) order.code = refereeStop;
   return order;
 }
 
 RefereeVariables::RefereeVariables(const VariableCatalog& map)
-    : m_word(map.intVar("COM_REFEREE").value_or(IntVar{-1})),
+    : m_code(map.intVar("COM_REFEREE").value_or(IntVar{-1})),
       m_setPlay(map.intVar("COM_SET_PLAY").value_or(IntVar{-1})),
       m_setPlayIsOurs(map.intVar("COM_SET_PLAY_OURS").value_or(IntVar{-1})),
       m_goalsOwn(map.intVar("COM_GOALS_OWN").value_or(IntVar{-1})),
@@ -74,7 +74,7 @@ RefereeVariables::RefereeVariables(const VariableCatalog& map)
       m_secondsLeft(map.intVar("COM_SECONDS_LEFT").value_or(IntVar{-1})) {}
 
 void RefereeVariables::write(Blackboard& board, const RefereeOrder& order, bool extended) const {
-  writeIfPresent(board, m_word, order.word);
+  writeIfPresent(board, m_code, order.code);
   if (!extended) return;
   writeIfPresent(board, m_setPlay, static_cast<int>(order.setPlay));
   writeIfPresent(board, m_setPlayIsOurs, order.setPlayIsOurs ? 1 : 0);

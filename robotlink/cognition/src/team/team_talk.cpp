@@ -12,8 +12,8 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double talkPeriod = 0.2;  // s
-constexpr double silence = 3.0;     // s after which a team-mate is unknown
+constexpr double talkPeriod = 0.2;   // s
+constexpr double mateTimeout = 3.0;  // s after which a team-mate is unknown
 constexpr std::string_view header = "PB1";
 
 // One extended team message: "PB1 robot x y theta belief intention state ball", whole numbers; x, y
@@ -63,10 +63,10 @@ class TeamTalk final : public CognitiveProcess {
   void step(Blackboard& board, const Clock& clock) override {
     m_channel->post(m_robot, ownMessage(board).text());
     for (const std::string& text : m_channel->take(m_robot)) {
-      if (const auto message = TeamMessage::parse(text)) hear(*message, clock.seconds);
+      if (const auto message = TeamMessage::parse(text)) receive(*message, clock.seconds);
     }
     std::erase_if(m_mates,
-                  [&](const Mate& mate) { return clock.seconds - mate.received > silence; });
+                  [&](const Mate& mate) { return clock.seconds - mate.received > mateTimeout; });
     writePlaces(board);
     const std::vector<const TeamMessage*> chosen = mostImportant(board);
     for (std::size_t i = 0; i < mostTeamMates; ++i) {
@@ -112,7 +112,7 @@ class TeamTalk final : public CognitiveProcess {
     return m;
   }
 
-  void hear(const TeamMessage& message, double now) {
+  void receive(const TeamMessage& message, double now) {
     if (message.robot == m_robot.value) return;
     auto mate = std::ranges::find_if(
         m_mates, [&](const Mate& known) { return known.message.robot >= message.robot; });

@@ -18,7 +18,7 @@ namespace pitchboard {
 class RandomBatch {
  public:
   /// The numbers of one robot, in order; at most as many as were made.
-  class Draws {
+  class Sequence {
    public:
     /// Returns a uniform number in [0, 1).
     double uniform();
@@ -27,7 +27,7 @@ class RandomBatch {
 
    private:
     friend class RandomBatch;
-    Draws(const double* wholes, const double* normals) : m_wholes(wholes), m_normals(normals) {}
+    Sequence(const double* wholes, const double* normals) : m_wholes(wholes), m_normals(normals) {}
     const double* m_wholes;
     const double* m_normals;
   };
@@ -36,7 +36,7 @@ class RandomBatch {
   void make(std::uint64_t seed, NoiseStream stream, std::uint64_t tick, std::span<const int> robots,
             int count);
   /// Returns the numbers of the robot with this index in `robots`.
-  Draws of(std::size_t robot) const {
+  Sequence of(std::size_t robot) const {
     return {m_wholes.data() + robot * m_stride, m_normals.data() + robot * m_stride};
   }
 

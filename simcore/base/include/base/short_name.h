@@ -2,7 +2,7 @@
 #pragma once
 
 // Checks the short names of scenarios, experiments and runtime profiles, which are also names of
-// files and words on command lines. Pure functions; any thread.
+// files and arguments on command lines. Pure functions; any thread.
 
 #include <algorithm>
 #include <cstddef>

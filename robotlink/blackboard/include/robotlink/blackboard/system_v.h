@@ -2,8 +2,8 @@
 #pragma once
 
 // System V shared memory of blackboards: attach, create, list, remove. The published convention is
-// key 100 × robot number, 2048 bytes, mode 0600, and whoever comes first creates it. Errors name
-// the key and say what to do. Any thread.
+// key 100 × robot number, 2048 bytes, mode 0600, and the first process that needs it creates it.
+// Errors name the key and say what to do. Any thread.
 
 #include <sys/types.h>
 #include <string>

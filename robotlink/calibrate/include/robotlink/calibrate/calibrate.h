@@ -66,7 +66,7 @@ struct Calibration {
   std::vector<CalibratedValue> values;
   std::map<std::string, std::string> kept;  ///< keys that were not estimated, with the reason
   /// Results that are not part of a model: time to reach and leave a speed, spread between actions.
-  std::vector<CalibratedValue> told;
+  std::vector<CalibratedValue> estimates;
   std::map<std::string, double> leftOut;  ///< seconds that were not used, by reason
   std::vector<std::string> sessions;
   std::vector<std::string> notes;

@@ -56,7 +56,7 @@ struct TeamMateSighting {
   std::string mate;       ///< "B2"
   Point place;            ///< m, of this robot
   double distance = 0.0;  ///< m, between the two
-  double sigma = 0.0;     ///< m, of the team-mate's place, as it told it
+  double sigma = 0.0;     ///< m, of the team-mate's position, as it reported it
 };
 
 struct CalibrationLog {

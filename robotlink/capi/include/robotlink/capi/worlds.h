@@ -24,7 +24,7 @@ namespace pitchboard::link {
 /// A column of an array.
 struct WorldColumn {
   std::string_view name;
-  std::string_view words;  ///< meaning and unit
+  std::string_view description;  ///< meaning and unit
 };
 
 /// The arrays that can be read, as rows of doubles.
@@ -81,7 +81,7 @@ class Worlds {
   Result<void> reset(int world, std::uint64_t seed);
   /// Restarts some worlds, each with its own seed.
   Result<void> reset(std::span<const int> worlds, std::span<const std::uint64_t> seeds);
-  /// Advances all worlds by this many ticks. A world whose scenario has ended stands still.
+  /// Advances all worlds by this many ticks. A world whose scenario has ended no longer changes.
   Result<void> step(int ticks);
   /// Returns "goal", "ball_out", "duration" or "full_time"; empty while the scenario continues.
   std::string_view finishedBy(std::size_t world) const;

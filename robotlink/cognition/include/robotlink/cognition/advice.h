@@ -42,7 +42,7 @@ constexpr bool isForBall(AdviceKind kind) {
 }
 
 /// The values of ADVISOR_STATE, described in resources/variables.json.
-enum class AdvisorState : int { Off = 0, NothingToDecide = 1, Thinks = 2, KnowsTooLittle = 3 };
+enum class AdvisorState : int { Off = 0, NothingToDecide = 1, Thinks = 2, TooLittleKnown = 3 };
 
 inline constexpr std::size_t mostCandidates = 6;
 inline constexpr int heatColumns = 16, heatRows = 10, heatWords = 20;

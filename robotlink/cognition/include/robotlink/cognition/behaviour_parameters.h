@@ -128,7 +128,7 @@ inline constexpr auto behaviourParameters = std::to_array<BehaviourParameter>({
       "Danger", "Kicks a ball away that is closer than this to the own goal while an opponent is near"}, behaviour_sets::players},
     {{"keeper_out", &BehaviourParameters::keeperOut, sim::units::metres, 0, 20,
       "Comes out", "Comes out to a ball closer than this to the goal's centre, if nobody else reaches it earlier"}, behaviour_sets::keeper},
-    {{"distance_to_kick", &BehaviourParameters::distanceToKick, sim::Unit{"centimetres", "cm"}, 0, 10000,
+    {{"distance_to_kick", &BehaviourParameters::distanceToKick, sim::ParameterUnit{"centimetres", "cm"}, 0, 10000,
       "Distance to kick", "Kicks a ball that it sees closer than this; published: 25 in simulation, 40 on the real robot"}, behaviour_sets::naive},
 });
 // clang-format on

@@ -84,7 +84,7 @@ struct ProcessOptions {
   /// communication: our team's number at the referee; empty: do not listen to a referee.
   std::optional<int> refereeTeam;
   /// communication: also write the current set play, which our decision process uses.
-  bool tellSetPlay = false;
+  bool announceSetPlay = false;
   std::optional<int> shirt;  ///< number in the GameController; empty: the robot's id
   int refereePort = 3838;
   int channelPortBase = 10000;  ///< team: robots of a team use the port this + `team`

@@ -17,7 +17,7 @@ inline constexpr int refereeStop = 1, refereePlay = 2, refereeReady = 11, refere
 
 /// What a packet tells a robot to do.
 struct RefereeOrder {
-  int word = refereeStop;                     ///< value of COM_REFEREE
+  int code = refereeStop;                     ///< value of COM_REFEREE
   sim::SetPlay setPlay = sim::SetPlay::None;  ///< the current set play
   bool setPlayIsOurs = false;                 ///< the robot's team takes the set play
   int goalsOwn = 0, goalsTheirs = 0;
@@ -35,7 +35,7 @@ class RefereeVariables {
   void write(Blackboard& board, const RefereeOrder& order, bool extended) const;
 
  private:
-  IntVar m_word, m_setPlay, m_setPlayIsOurs, m_goalsOwn, m_goalsTheirs, m_secondsLeft;
+  IntVar m_code, m_setPlay, m_setPlayIsOurs, m_goalsOwn, m_goalsTheirs, m_secondsLeft;
 };
 
 /// Follows the packets of a referee, of any version, for one robot. It remembers which team has the
@@ -52,7 +52,7 @@ class RefereeOrders {
   bool operator==(const RefereeOrders&) const = default;
 
  private:
-  int wordInPlay(const telemetry::RefereeState& state, int team);
+  int codeInPlay(const telemetry::RefereeState& state, int team);
 
   std::optional<int> m_ballTeam;  // in the current restart; empty: the packet's kickOffTeam
 };

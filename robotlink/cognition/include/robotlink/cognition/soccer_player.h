@@ -45,7 +45,7 @@ class SoccerPlayer {
 
   /// Copies everything that `other`, which must have the same options, remembers. Allocates
   /// nothing.
-  void copyMind(const SoccerPlayer& other);
+  void copyState(const SoccerPlayer& other);
   /// Updates the world model without a decision. Called before the first step to pass what the
   /// player already knows.
   void observe(const SoccerInput& input, double now);

@@ -93,6 +93,6 @@ Result<std::vector<double>> valuesOf(std::string_view expression, const ResultTa
                                      std::size_t condition);
 
 /// Returns the metrics worth showing: some run has a value, and not all values are 0.
-std::vector<std::size_t> tellingMetrics(const ExperimentSummary& summary);
+std::vector<std::size_t> informativeMetrics(const ExperimentSummary& summary);
 
 }  // namespace pitchboard::link

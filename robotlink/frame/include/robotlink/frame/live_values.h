@@ -19,7 +19,7 @@ namespace pitchboard::link {
 
 /// A robot's penalty in the referee's packet.
 struct Penalty {
-  std::string words;    ///< such as "pickup or incapable"
+  std::string text;     ///< such as "pickup or incapable"
   int secondsLeft = 0;  ///< as sent; some packet versions do not count down
   bool operator==(const Penalty&) const = default;
 };

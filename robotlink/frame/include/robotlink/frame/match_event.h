@@ -107,8 +107,8 @@ inline constexpr std::size_t eventShapeCount = 13;
 
 struct MatchEventInfo {
   MatchEventKind kind;
-  std::string_view name;   ///< identifier in files and JSON; must never change
-  std::string_view words;  ///< predicate of the sentence: what the robot, process or game did
+  std::string_view name;       ///< identifier in files and JSON; must never change
+  std::string_view predicate;  ///< predicate of the sentence: what the robot, process or game did
   EventShape shape;
   int importance;           ///< where marks overlap, only the most important one is drawn
   bool labelled;            ///< the mark has a label if there is room

@@ -41,7 +41,7 @@ struct FrameSettings {
 
 /// The game and its rules, from which the studio finds out which calls are possible
 /// (sim::checkCall).
-struct RefereeDesk {
+struct RefereedGame {
   sim::GameState game;
   sim::RefereeRules rules;
 };
@@ -59,11 +59,11 @@ struct MatchFrame {
   std::string drawingProblem;                      ///< why the last drawing was refused; or empty
   std::optional<RefereeView> referee;              ///< once a referee was received
   std::string refereeRules;  ///< rule set of a simulated match; empty without referee
-  std::shared_ptr<const RefereeDesk> desk;  ///< null if calls are not possible
-  std::vector<TeamBall> teamBalls;          ///< of teams in which at least two robots agree
-  double speed = 0.0;             ///< simulated seconds per second, measured over the last second
-  double ticksPerSecond = 0.0;    ///< measured
-  double tickMicroseconds = 0.0;  ///< mean time of a tick, measured
+  std::shared_ptr<const RefereedGame> refereedGame;  ///< null if calls are not possible
+  std::vector<TeamBall> teamBalls;  ///< of teams in which at least two robots agree
+  double speed = 0.0;               ///< simulated seconds per second, measured over the last second
+  double ticksPerSecond = 0.0;      ///< measured
+  double tickMicroseconds = 0.0;    ///< mean time of a tick, measured
   bool paused = false;
   bool finished = false;  ///< a stop condition is met; the match has stopped
   std::shared_ptr<const FrameSettings> settings =

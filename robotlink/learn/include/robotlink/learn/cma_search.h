@@ -3,7 +3,7 @@
 
 // Searches for the point of a unit cube where an unknown, noisy function is largest, with CMA-ES
 // (Hansen 2006) from pagmo and an ask-and-tell interface. The state of a search depends only on its
-// settings and the values it was told, so replaying them restores it. One thread at a time.
+// settings and the values that it got so far, so replaying them restores it. One thread at a time.
 
 #include <cstddef>
 #include <cstdint>
@@ -47,13 +47,15 @@ class CmaSearch {
 
   /// Returns the centre of the distribution from which the next points are drawn.
   std::vector<double> mean() const;
-  std::size_t told() const { return m_told; }  ///< number of generations so far
+  std::size_t generationsDone() const {
+    return m_generationsDone;
+  }  ///< number of generations so far
 
  private:
   struct State;
   explicit CmaSearch(std::unique_ptr<State> state);
   std::unique_ptr<State> m_state;
-  std::size_t m_told = 0;
+  std::size_t m_generationsDone = 0;
 };
 
 /// Returns pagmo's version, for the header of files.

@@ -46,7 +46,7 @@ class LiveRows {
   static constexpr std::size_t maxColumns = 200;  ///< per robot, over all its profiles
   /// Values of a message beyond its profile.
   static constexpr std::size_t maxExtras = DecodedText::maxExtras;
-  static constexpr std::size_t maxWords = 64;  ///< different texts; all others are "other"
+  static constexpr std::size_t maxTexts = 64;  ///< different texts; all others are "other"
 
   /// Counts what exceeded the limits since the beginning.
   struct Refused {

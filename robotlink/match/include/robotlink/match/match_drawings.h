@@ -28,7 +28,7 @@ class MatchDrawings {
   explicit MatchDrawings(int port);
 
   /// Takes the datagrams since the last call and stamps them with this time. Never waits.
-  void hear(double time, std::vector<ReceivedDrawing>& out);
+  void receive(double time, std::vector<ReceivedDrawing>& out);
   const telemetry::DrawingStore& store() const { return m_store; }
   /// Returns why nothing is received or the last drawing was refused; empty if all is well.
   const std::string& problem() const;

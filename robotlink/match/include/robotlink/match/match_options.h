@@ -39,7 +39,7 @@ struct MatchOptions {
   /// Slow the match down to what team programs manage.
   bool waitForTeamPrograms = true;
   /// Tell reference processes where their team attacks; otherwise they find out.
-  bool tellSides = true;
+  bool announceSides = true;
   /// The runtime of robots for which neither scenario nor behaviour names one.
   RuntimeChoice runtime;
   /// With Inline: let the referee send packets to process.refereePort of this computer, as it

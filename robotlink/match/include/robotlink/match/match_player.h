@@ -58,7 +58,7 @@ class MatchPlayer {
   void lookAfterProcesses(Clock::time_point now);
   /// Tells observers what happened between ticks: ended processes, edits by hand, and drawings.
   /// Call it after such changes.
-  void tellEvents();
+  void reportEvents();
   /// Shows observers the present moment without a tick.
   void showMoment();
   /// Tells observers that the next tick does not follow from what they have seen.
@@ -68,7 +68,7 @@ class MatchPlayer {
   bool await(ProcessPace::Await whom, Clock::time_point now);
   void setPace(double timesRealTime, Clock::time_point now);
   void followPrograms(Clock::time_point now);
-  void tellLines(Clock::time_point now);
+  void reportLines(Clock::time_point now);
 
   SimulatedMatch m_match;
   Pacer m_pacer;
@@ -76,7 +76,7 @@ class MatchPlayer {
   Clock::time_point m_followed{};
   bool m_awaits = false;
   std::vector<std::shared_ptr<TickObserver>> m_observers;
-  std::vector<MatchEvent> m_events;  // scratch of tellEvents()
+  std::vector<MatchEvent> m_events;  // scratch of reportEvents()
   std::vector<ReceivedDrawing> m_drawings;
 };
 

@@ -48,7 +48,7 @@ class MatchRunner {
   /// Plays at full speed up to this tick, then pauses; for tests and repeatable pictures.
   void runTo(std::uint64_t tick);
   /// Plays at full speed until an event that `wanted` accepts, for `mostTicks` at most, and then
-  /// goes on as before: paused, or at its speed. setPaused(), stepOnce() and runTo() end it.
+  /// continues as before: paused, or at its speed. setPaused(), stepOnce() and runTo() end it.
   /// `wanted` is called on the runner's thread.
   void skip(std::function<bool(const MatchEvent&)> wanted, std::uint64_t mostTicks);
   /// Waits until the match is paused or over. Returns false if it still plays after that time.
@@ -68,8 +68,8 @@ class MatchRunner {
   void stopObserving(const std::shared_ptr<TickObserver>& observer);
 
   /// `tell` is called on the runner's thread when there is a new frame, event or log line, once
-  /// until latest(), takeEvents() or takeLog() is called. Empty: nobody is told, but a call may be
-  /// under way.
+  /// until latest(), takeEvents() or takeLog() is called. Empty: there is no notification, but a
+  /// call may be under way.
   void setNews(std::function<void()> tell);
   /// Returns the newest frame, or null if `knownSerial` is the newest.
   std::shared_ptr<const MatchFrame> latest(std::uint64_t knownSerial = 0);

@@ -60,7 +60,7 @@ class ProcessPace {
     Cooperating  ///< only programs that report the end of each cycle
   };
   /// Returns true while the match has to wait for a program to get ready. A cooperating program is
-  /// ready once it has said so; the clocks of programs run at ×1 meanwhile. Call it and
+  /// ready once it has reported so; the clocks of programs run at ×1 meanwhile. Call it and
   /// lookAfterProcesses() until it returns false: then all programs are ready, have ended, or were
   /// given up after their `silent_after` (at least 10 s), which an event reports.
   bool awaitsPrograms(Await whom, Time now);
@@ -74,14 +74,14 @@ class ProcessPace {
     std::string process;
     Time at;
   };
-  void tellWait(Wait wait) { m_wait = std::move(wait); }
+  void setWait(Wait wait) { m_wait = std::move(wait); }
   /// Returns the last such wait if it was less than three seconds ago, otherwise null.
   const Wait* waitedFor(Time now) const {
     constexpr std::chrono::seconds shown{3};
     return m_wait && now - m_wait->at < shown ? &*m_wait : nullptr;
   }
   /// Reports, as an event, that the robot's program did not finish its cycle in time.
-  void tellLateCycle(const RobotSlot& slot);
+  void reportLateCycle(const RobotSlot& slot);
   bool standsStill() const { return m_still; }
 
  private:
@@ -89,7 +89,7 @@ class ProcessPace {
   bool awaitsFirstCycle(RobotSlot& slot, Time now);
   bool cooperates(const ProcessStatus& program) const;
   void measureFrom(Time now);
-  void tellTime(Time now);
+  void publishTime(Time now);
   double playedSeconds() const;
 
   MatchBase& m_base;

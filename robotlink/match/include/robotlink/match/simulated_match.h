@@ -50,7 +50,7 @@ class SimulatedMatch {
   /// Returns "goal", "ball_out", "duration" or "full_time"; empty while none is met.
   std::string_view finishedBy() const;
   /// Returns true if a match without a referee is at least five seconds old and no robot has walked
-  /// or been told to play (COM_REFEREE), which is usually a mistake in the scenario.
+  /// or been ordered to play (COM_REFEREE), which is usually a mistake in the scenario.
   bool nobodyPlays() const;
 
   /// Appends the events since the last call, at most the newest 1000: those of the simulation, the
@@ -89,7 +89,7 @@ class SimulatedMatch {
   /// Restores a recorded moment exactly: adds and removes robots as needed, sets their behaviours,
   /// and writes the known blackboard words. If the moment has a past, reference processes inside
   /// this program get their memory back, and the match continues as it did then. Otherwise they
-  /// start anew with the belief on their blackboards, as separate ones do in their next cycle. An
+  /// restart with the belief on their blackboards, as separate ones do in their next cycle. An
   /// error leaves the match unchanged.
   Result<void> restore(const Moment& moment);
 

@@ -26,8 +26,8 @@ struct Kept {
 /// Starts a program with its keeper, which `robotProgram` runs. Fails as spawn() does.
 Result<Kept> spawnKept(const SpawnRequest& request, const std::string& robotProgram);
 
-/// Runs the keeper; `words` come from spawnKept(). It is the only thread of its process, and
+/// Runs the keeper; `arguments` come from spawnKept(). It is the only thread of its process, and
 /// returns only if the program cannot be started.
-void keep(const std::vector<std::string>& words);
+void keep(const std::vector<std::string>& arguments);
 
 }  // namespace pitchboard::link

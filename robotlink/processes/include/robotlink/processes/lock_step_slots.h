@@ -5,7 +5,7 @@
 // cycle. The memory is anonymous (memfd): a process inherits it as file descriptor 3, and the
 // kernel frees it with the last process. Each process has one slot. The match starts a cycle and
 // passes the match time; the process runs the cycle and reports that it is done. In lock-step the
-// match waits for that, otherwise it goes on. No cycle is started while the match is paused or
+// match waits for that, otherwise it continues. No cycle is started while the match is paused or
 // shows the past.
 //
 // In lock-step the messages of a team are passed through the slots as well, in the order of the

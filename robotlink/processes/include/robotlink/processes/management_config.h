@@ -35,7 +35,7 @@ struct ManagementConfig {
 Result<ManagementConfig> managementFromIni(const IniFile& file,
                                            const std::vector<std::string>& reference);
 
-/// Splits a text at blanks; "double quotes" keep a word with blanks together.
+/// Splits a text at blanks; "double quotes" keep an argument with blanks together.
 std::vector<std::string> splitCommand(std::string_view text);
 
 /// Returns NAME_WORKING of a process "name"; absent if the catalog has none.

@@ -11,7 +11,7 @@
 //             A process is judged only once it has set the variable for the first time, because it
 //             may block before its first cycle.
 //   Sleeps    The kernel's count of the process's sleeps has to grow.
-//   Caller    The caller runs the cycles of the process and tells: setResponding().
+//   Caller    The caller runs the cycles of the process and reports: setResponding().
 //   Nobody    The process is not watched.
 // A process that somebody else stopped (SIGSTOP) does not respond either. For team programs whose
 // clocks follow the match, the time limit is in match time.
@@ -164,7 +164,7 @@ class ProcessManager {
   void stop(int id);
   void restart(int id, Time now);
   void kill(int id);
-  /// For Watch::Caller: tells whether the process responds in time.
+  /// For Watch::Caller: reports whether the process responds in time.
   void setResponding(int id, bool responding, Time now);
 
   /// Stops or continues team programs together with the match. Clocks that show real time advance
@@ -221,7 +221,7 @@ class ProcessManager {
   Entry* find(int id);
   Result<void> startDue(Time now);
   Result<void> startNow(Entry& entry, Time now);
-  void takeTold();
+  void takeEpollEvents();
   std::optional<ChildProcess::End> poll(Entry& entry);
   void end(const std::vector<Entry*>& entries);
   void ended(Entry& entry, Time now, bool died, const std::string& detail, bool byHand);
@@ -239,11 +239,11 @@ class ProcessManager {
   void lookForLibrary(Entry& entry, Time now);
   void reportOverdue(Entry& entry, Time now, const std::string& detail);
   void addNews(const Entry& entry, ProcessNewsKind kind, const std::string& detail = {});
-  void tellGuard(const std::string& line);
+  void sendToGuard(const std::string& line);
   void changed() { ++m_version; }
 
   std::string m_program;
-  UniqueFd m_epoll;  // told by children
+  UniqueFd m_epoll;  // readable when a child has written or ended
   UniqueFd m_guard;  // to the guard; empty: there is none
   pid_t m_guardPid = 0;
   std::vector<Entry> m_entries;

@@ -67,7 +67,7 @@ struct RuntimeProfile {
   std::string name, title, description;
   std::map<std::string, std::string> values;  ///< defaults for ${...}; a choice may replace them
   std::vector<ProfileProcess> processes;      ///< in the order of starting
-  bool hearsReferee = false;  ///< a process writes COM_REFEREE; false: a refereed match writes it
+  bool readsReferee = false;  ///< a process writes COM_REFEREE; false: a refereed match writes it
   /// Variable in which a process reports the end of each cycle, so that the match waits for it
   /// (docs/robot-programs.md). May contain ${...}; empty: the match waits for no process.
   std::string cycle;

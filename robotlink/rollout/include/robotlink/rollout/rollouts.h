@@ -43,11 +43,11 @@ enum class Column : std::uint8_t {
   Count
 };
 inline constexpr std::size_t columnCount = static_cast<std::size_t>(Column::Count);
-struct ColumnInfo {
-  std::string_view name;   ///< such as "time_to_goal"
-  std::string_view words;  ///< meaning and unit
+struct OutcomeColumn {
+  std::string_view name;         ///< such as "time_to_goal"
+  std::string_view description;  ///< meaning and unit
 };
-std::span<const ColumnInfo, columnCount> columns();
+std::span<const OutcomeColumn, columnCount> columns();
 
 /// The values of Column::EndedBy.
 enum class Ended : std::uint8_t { Time, Goal, BallOut };

@@ -19,7 +19,7 @@ struct Share {
 /// Of `hits` in `count` trials.
 Share shareOf(double hits, double count);
 
-struct Summary {
+struct OutcomeSummary {
   std::size_t rollouts = 0;
   Share goalLeft, goalRight;    ///< rollouts in which the team on this side scored
   double goalDifference = 0.0;  ///< mean, left minus right
@@ -29,7 +29,7 @@ struct Summary {
 };
 
 /// Rows of rollouts that were not played (NaN) are ignored.
-Summary summaryOf(std::span<const double> outcomes);
+OutcomeSummary summaryOf(std::span<const double> outcomes);
 
 /// Returns in which share of rollouts the ball was in each cell at PlayOptions::look. Cells are
 /// listed row by row from the bottom, each row from left to right. A ball outside the lines counts

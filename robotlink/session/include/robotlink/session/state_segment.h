@@ -55,8 +55,8 @@ class StateSegment {
   std::uint64_t m_ticks = 0;
   double m_tickRate = 60.0;
   std::string m_state;  // encodeState()
-  // How many ticks said the same as before, then what changed, and so on: (count, {robot + 1, mask
-  // of changed values, the values}..., 0).
+  // How many ticks had the same commands as the one before, then what changed, and so on: (count,
+  // {robot + 1, mask of changed values, the values}..., 0).
   std::string m_commands;
   std::uint64_t m_same = 0;  // ticks since the last change that are not in m_commands yet
   std::vector<sim::RobotCommand> m_previous;

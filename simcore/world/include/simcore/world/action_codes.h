@@ -18,7 +18,7 @@ enum class ActionKind : std::uint8_t { Stop, Walk, Kick, InPlace, GetUp };
 struct ActionInfo {
   int code = 0;
   ActionKind kind = ActionKind::Stop;
-  std::string_view words;
+  std::string_view label;
 };
 
 /// Every known code; its index is the code.

@@ -193,7 +193,7 @@ struct GameState {
   ClockUse clockUse = ClockUse::Full;
   int stateTicks = 0;  ///< since the state or the step of the set play began
   Countdown countdown;
-  int hidden = 0;     ///< ticks until robots are told that play has begun
+  int hidden = 0;     ///< ticks until robots are informed that play has begun
   int breakLeft = 0;  ///< ticks left of the break between halves
   DropIn dropIn;
   Touch touch;                      ///< the last touch of the ball

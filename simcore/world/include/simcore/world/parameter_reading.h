@@ -16,7 +16,7 @@ namespace pitchboard::sim {
 
 template <class Values, class Number>
 NumberRange rangeOf(const Parameter<Values, Number>& parameter) {
-  return {parameter.least, parameter.most, parameter.unit.words};
+  return {parameter.least, parameter.most, parameter.unit.name};
 }
 
 /// Returns `keys` and the keys of the parameters.

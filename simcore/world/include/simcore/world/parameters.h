@@ -16,8 +16,8 @@
 namespace pitchboard::sim {
 
 /// The unit of a value as people write it.
-struct Unit {
-  const char* words = "";   ///< plural, for sentences; empty for a plain number
+struct ParameterUnit {
+  const char* name = "";    ///< plural, for sentences; empty for a plain number
   const char* symbol = "";  ///< symbol, for tables
   bool angle = false;       ///< people write degrees, memory holds radians
 };
@@ -36,7 +36,7 @@ template <class Values, class Number = double>
 struct Parameter {
   const char* key;  ///< its key in files
   Number Values::*member;
-  Unit unit;
+  ParameterUnit unit;
   double least;         ///< allowed minimum, in `unit`
   double most;          ///< allowed maximum, in `unit`
   const char* name;     ///< its name in tables and panels
@@ -48,20 +48,21 @@ struct Parameter {
 };
 
 namespace units {
-inline constexpr Unit plain{};
-inline constexpr Unit metres{"metres", "m"};
-inline constexpr Unit metresPerFrame{"metres per 1/60 s", "m per 1/60 s"};
-inline constexpr Unit metresPerSecond{"metres per second", "m/s"};
-inline constexpr Unit metresPerSecondSquared{"metres per second squared", "m/s²"};
-inline constexpr Unit degrees{"degrees", "degrees", true};
-inline constexpr Unit degreesPerFrame{"degrees per 1/60 s", "degrees per 1/60 s", true};
-inline constexpr Unit degreesPerSecond{"degrees per second", "degrees/s", true};
-inline constexpr Unit degreesPerSecondSquared{"degrees per second squared", "degrees/s²", true};
-inline constexpr Unit seconds{"seconds", "s"};
-inline constexpr Unit kilograms{"kilograms", "kg"};
-inline constexpr Unit newtonSeconds{"newton seconds", "N·s"};
-inline constexpr Unit volts{"volts", "V"};
-inline constexpr Unit ticksPerSecond{"ticks per second", "ticks/s"};
+inline constexpr ParameterUnit plain{};
+inline constexpr ParameterUnit metres{"metres", "m"};
+inline constexpr ParameterUnit metresPerFrame{"metres per 1/60 s", "m per 1/60 s"};
+inline constexpr ParameterUnit metresPerSecond{"metres per second", "m/s"};
+inline constexpr ParameterUnit metresPerSecondSquared{"metres per second squared", "m/s²"};
+inline constexpr ParameterUnit degrees{"degrees", "degrees", true};
+inline constexpr ParameterUnit degreesPerFrame{"degrees per 1/60 s", "degrees per 1/60 s", true};
+inline constexpr ParameterUnit degreesPerSecond{"degrees per second", "degrees/s", true};
+inline constexpr ParameterUnit degreesPerSecondSquared{"degrees per second squared", "degrees/s²",
+                                                       true};
+inline constexpr ParameterUnit seconds{"seconds", "s"};
+inline constexpr ParameterUnit kilograms{"kilograms", "kg"};
+inline constexpr ParameterUnit newtonSeconds{"newton seconds", "N·s"};
+inline constexpr ParameterUnit volts{"volts", "V"};
+inline constexpr ParameterUnit ticksPerSecond{"ticks per second", "ticks/s"};
 }  // namespace units
 
 // Standard deviations (σ) are of zero-mean normal noise. What holds for 1/60 s is scaled with the

@@ -44,7 +44,7 @@ inline constexpr auto refereeParameters = std::to_array<Parameter<RefereeRules>>
     {"set_time", &RefereeRules::setTime, units::seconds, 0, 3600, "SET", "Until the whistle"},
     {"shot_set_time", &RefereeRules::shotSetTime, units::seconds, 0, 3600, "SET before a shot", "In a shoot-out"},
     {"kick_off_time", &RefereeRules::kickOffTime, units::seconds, 0, 600, "Kick-off", "Only the side with the ball may touch it"},
-    {"playing_hidden", &RefereeRules::playingHidden, units::seconds, 0, 600, "PLAYING hidden", "Robots are told of PLAYING this long after the whistle"},
+    {"playing_hidden", &RefereeRules::playingHidden, units::seconds, 0, 600, "PLAYING hidden", "Packets announce PLAYING this long after the whistle"},
     {"shot_time", &RefereeRules::shotTime, units::seconds, 1, 600, "Shot", "In a shoot-out"},
     {"timeout_time", &RefereeRules::timeoutTime, units::seconds, 0, 3600, "Timeout", ""},
     {"referee_timeout_time", &RefereeRules::refereeTimeoutTime, units::seconds, 0, 3600, "Referee's timeout", ""},

@@ -53,7 +53,7 @@ class McapWriter {
 
   std::uint64_t bytes() const;  ///< size of the file so far
   /// Returns for how long the running flush has taken, in s. Any thread, until finish().
-  double owedSeconds() const;
+  double syncLatency() const;
   const McapStatistics& statistics() const;
 
  private:

@@ -26,7 +26,7 @@ struct Pb2Limits {
   static constexpr std::int64_t whole = 1LL << 53;  ///< largest magnitude of a whole number
 };
 
-/// Robot N sends to this port + N, unless told otherwise.
+/// Robot N sends to this port + N, by default.
 inline constexpr int pb2PortBase = 1340;
 
 /// Returns whether a name has only letters, digits and _, does not begin with a digit, and is at

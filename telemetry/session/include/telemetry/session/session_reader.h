@@ -107,7 +107,7 @@ class SessionReader {
   /// The same for rows only.
   bool walkRows(TimeRange range, const std::function<bool(const SessionItem&)>& visit,
                 const std::function<bool(double)>& progress = {}) const;
-  /// Visits every message in the closed range as it stands in the file, also of unknown channels.
+  /// Visits every message in the closed range as it is in the file, also of unknown channels.
   /// The range from −1e18 to 1e18 includes messages with impossible times.
   bool walkFile(TimeRange range, const std::function<bool(const McapMessage&)>& visit,
                 const std::function<bool(double)>& progress = {}) const;
@@ -132,7 +132,7 @@ class SessionReader {
 /// Reads a message of the stream Log, or of Telemetry and RefereeRaw. Nothing if it is not valid.
 std::optional<LogLine> sessionLogLine(std::string_view json);
 std::optional<SessionDatagram> sessionDatagram(std::string_view json);
-/// Returns an event as JSON, as it stands in a file.
+/// Returns an event as JSON, as it is in a file.
 std::string sessionEventJson(const SessionEvent& event);
 
 }  // namespace pitchboard::telemetry

@@ -47,7 +47,7 @@ struct SessionStatus {
   std::uint64_t dropped = 0;   ///< rows and messages for which the queue had no room
   /// For how long the current flush has taken, in s. The file keeps growing meanwhile, but a power
   /// failure would lose what was not flushed.
-  double owedSeconds = 0.0;
+  double syncLatency = 0.0;
   std::optional<std::uint64_t> freeBytes;  ///< free space of the disk, if known
   double bytesPerSecond = 0.0;             ///< recent growth of the file; 0 if not known yet
 };

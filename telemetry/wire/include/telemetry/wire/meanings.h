@@ -14,7 +14,7 @@ namespace pitchboard::telemetry {
 
 struct MeaningInfo {
   FieldMeaning meaning = FieldMeaning::None;
-  std::string_view word;  ///< its name in profile files; never change it
+  std::string_view profileKey;  ///< its name in profile files; never change it
   std::string_view
       variable;              ///< blackboard variable; empty if none. VISION_LOST means the opposite
   std::string_view oldName;  ///< its name in Live up to version 0.8, see presentName()
@@ -74,7 +74,8 @@ constexpr std::string_view presentName(std::string_view name) {
 static_assert(
     [] {
       for (std::size_t i = 0; i < meaningTable.size(); ++i) {
-        if (meaningTable[i].meaning != static_cast<FieldMeaning>(i) || meaningTable[i].word.empty())
+        if (meaningTable[i].meaning != static_cast<FieldMeaning>(i) ||
+            meaningTable[i].profileKey.empty())
           return false;
       }
       return true;

@@ -2,7 +2,7 @@
 #pragma once
 
 // Tells which formats of messages are text: lines that a person can read and type, and that may end
-// with a word of the profile. Pure functions; any thread.
+// with a name in the profile. Pure functions; any thread.
 
 #include <telemetry/wire/profile.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A profile describes a team's messages: which value stands where, what it means, and in which unit
+// A profile describes a team's messages: where each value is, what it means, and in which unit
 // and frame (docs/live.md, "Profiles"). Plain values; any thread.
 
 #include <cstddef>
@@ -20,7 +20,7 @@ enum class FieldType : std::uint8_t {
   Int,    ///< whole number that fits 32 bits
   Float,  ///< number that fits IEEE single
   Flag,   ///< 0 or 1
-  Text    ///< a word; a number only if `labels` have one for it
+  Text    ///< a text; a number only if `labels` have one for it
 };
 
 /// How a datagram is written.
@@ -132,7 +132,7 @@ struct RobotFrom {
   bool operator==(const RobotFrom&) const = default;
 };
 
-/// A binary message belongs to this profile only if one of these values stands here.
+/// A binary message belongs to this profile only if one of these values is here.
 struct WireCondition {
   int at = 0;
   WireType as = WireType::U8;
@@ -145,14 +145,15 @@ struct WireCondition {
 struct Profile {
   static constexpr std::size_t maxFields = 100;
   std::string name;
-  std::string end = "OUT";  ///< last word of a message of words; empty: the end of the datagram
+  std::string end =
+      "OUT";  ///< last value of a message without keys; empty: the end of the datagram
   std::vector<ProfileField> fields;
   MessageFormat format = MessageFormat::Words;
   MessageFrame frame;
   RobotFrom robotFrom;
-  char separator = ' ';   ///< between words or pairs; ' ': any white space
-  bool utf8 = false;      ///< allow UTF-8 in messages of words; other texts always may
-  bool tolerant = false;  ///< use what stands before an error in JSON or Lua
+  char separator = ' ';   ///< between values or pairs; ' ': any white space
+  bool utf8 = false;      ///< allow UTF-8 in messages without keys; other texts always may
+  bool tolerant = false;  ///< use what precedes an error in JSON or Lua
   std::string begins;     ///< bytes that a binary message begins with
   std::vector<WireCondition> when;
   std::string message;  ///< of the format protobuf: "robocup", "nubots", "rhoban", "utra"

@@ -2,7 +2,7 @@
 #pragma once
 
 // Counts lost, duplicate and late messages by the sequence numbers of a robot. Counters of 8, 16
-// and 32 bits may wrap, and a robot that restarts begins anew. Plain values; not thread-safe.
+// and 32 bits may wrap, and a robot that restarts begins again. Plain values; not thread-safe.
 
 #include <cstdint>
 #include <optional>

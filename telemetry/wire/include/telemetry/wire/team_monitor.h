@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// All robots that send datagrams: which ones there are, what each last said, and how good its link
+// All robots that send datagrams: which ones there are, what each sent last, and how good its link
 // is. A robot is identified by its number in its team and keeps its key if its address changes;
 // when teams are set up, it continues under a new key. Another program with the same number is a
-// robot of its own while it says something else. Times are arguments; no clock is read. Memory is
+// robot of its own while it sends other values. Times are arguments; no clock is read. Memory is
 // bounded by the limits below, and what exceeds them is counted.
 
 #include <algorithm>
@@ -64,7 +64,7 @@ struct RobotStatus : LinkHealth {
   ErrorTally errors;
   std::shared_ptr<const TextDecoder> decoder;  ///< names and types of the values
   std::vector<double> values;                  ///< in the order of the profile; NaN if missing
-  std::vector<std::string> words;              ///< as sent
+  std::vector<std::string> texts;              ///< as sent
   std::vector<std::string> extras;             ///< keys of the values after those of the profile
 
   /// Returns the last value with this meaning, in the unit of the profile (cm, degrees, ...).
@@ -151,7 +151,7 @@ class TeamMonitor {
   RobotKey freeKey(int team, int number) const;
   void foldAway(WallTime time);
   bool isGone(const Robot& robot, WallTime time) const;
-  bool saysTheSame(const Robot& robot) const;
+  bool sendsTheSame(const Robot& robot) const;
   bool isOverdue(const Robot& robot, WallTime time) const;
   void giveBack(Robot& robot, const Sender& sender, WallTime time);
   SenderRecord* findSender(Address address);

@@ -21,7 +21,7 @@
 namespace pitchboard::telemetry {
 
 /// A decoded datagram. Its memory is reused for the next one, so ignore what lies beyond `count`.
-/// `words` and `extraKeys` point into the datagram or into `made`; in a copy of this they dangle.
+/// `texts` and `extraKeys` point into the datagram or into `made`; in a copy of this they dangle.
 struct DecodedText {
   static constexpr std::size_t maxValues = 128;
   static constexpr std::size_t maxExtras = 32;  ///< values that the profile does not name
@@ -32,11 +32,11 @@ struct DecodedText {
   std::size_t badField = 0;  ///< index of the first field with an error, if there are errors
   std::size_t count = 0;     ///< number of fields and extras that were read
   std::array<double, maxValues> values;               ///< NaN if the field could not be used
-  std::array<std::string_view, maxValues> words;      ///< the same fields as sent
+  std::array<std::string_view, maxValues> texts;      ///< the same fields as sent
   std::array<std::string_view, maxExtras> extraKeys;  ///< keys of the extras, in order
-  std::size_t namedExtras = 0;  ///< number of keys; extras of a message of words have none
+  std::size_t namedExtras = 0;  ///< number of keys; extras of a message without keys have none
   std::size_t dropped = 0;      ///< number of values beyond maxExtras
-  std::string made;             ///< memory of words and keys that were not sent as text
+  std::string made;             ///< memory of texts and keys that were not sent as text
 
   /// Returns whether the message can be used; a bad field is only missing.
   bool accepted() const { return !errors.refused(); }

@@ -13,11 +13,11 @@
 namespace pitchboard::ui {
 
 /// Draws a line of text with the painter's font and pen, elided as `elide` says. Qt::ElideRight
-/// uses elidedWords(), which keeps numbers whole; use Qt::ElideMiddle for names only.
-void drawWords(QPainter& painter, const QRectF& box, Qt::Alignment alignment, const QString& words,
-               Qt::TextElideMode elide = Qt::ElideNone);
-/// Returns the width that drawWords() needs.
-double wordsWidth(const QFont& font, const QString& words);
+/// uses elideText(), which keeps numbers whole; use Qt::ElideMiddle for names only.
+void drawTextLine(QPainter& painter, const QRectF& box, Qt::Alignment alignment,
+                  const QString& text, Qt::TextElideMode elide = Qt::ElideNone);
+/// Returns the width that drawTextLine() needs.
+double textLineWidth(const QFont& font, const QString& text);
 
 /// Draws what QPainter::drawRoundedRect() draws, with an edge of one pixel inside `box` in the
 /// opaque colour `edge` (invalid: no edge). The box is rounded to whole pixels.

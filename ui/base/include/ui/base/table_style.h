@@ -10,12 +10,12 @@
 #include <QStyledItemDelegate>
 #include <QTableView>
 
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
 
-/// Shortens texts that do not fit from their words: Qt would cut off the number at their end.
+/// Shortens texts that do not fit, and keeps their numbers: Qt would cut off the end.
 class CellDelegate : public QStyledItemDelegate {
  public:
   using QStyledItemDelegate::QStyledItemDelegate;
@@ -27,7 +27,7 @@ class CellDelegate : public QStyledItemDelegate {
     const QStyle* style = cell.widget ? cell.widget->style() : QApplication::style();
     const int margin = style->pixelMetric(QStyle::PM_FocusFrameHMargin, &cell, cell.widget) + 1;
     const QRect room = style->subElementRect(QStyle::SE_ItemViewItemText, &cell, cell.widget);
-    cell.text = elidedWords(QFontMetricsF(cell.font), cell.text, room.width() - 2 * margin);
+    cell.text = elideText(QFontMetricsF(cell.font), cell.text, room.width() - 2 * margin);
     style->drawControl(QStyle::CE_ItemViewItem, &cell, painter, cell.widget);
   }
 };

@@ -25,9 +25,9 @@ class LiveBar : public QWidget {
  public:
   /// Both must outlive the bar.
   LiveBar(LiveController* live, QSettings* settings, QWidget* parent);
-  enum class Room { Wide, Narrow, Least };
+  enum class Width { Wide, Narrow, Least };
   /// With less room, first the button of the ports loses its text, then the others do.
-  void setRoom(Room room);
+  void setAvailableWidth(Width width);
 
  private:
   void refresh();

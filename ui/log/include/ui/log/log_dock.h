@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The Log dock, with filters by words and level. It follows the newest entry until the user scrolls
+// The Log dock, with filters by text and level. It follows the newest entry until the user scrolls
 // up. Entries can be copied and saved. UI thread only.
 
 class QWidget;

@@ -109,7 +109,7 @@ class PlotsDock : public QWidget {
   PlotsContext m_context;
   QPointer<LinkedTime> m_time;  // the window deletes it before its docks
   PlotFeed* m_feed;
-  QPointer<QWidget> m_pageRow;  // may stand elsewhere, and go with what it stands in
+  QPointer<QWidget> m_pageRow;  // may be in another layout, and is deleted with its parent
   QTabBar* m_tabs;              // in it; the order of the pages
   QStackedWidget* m_stack;
   NoticeBar* m_notices;

@@ -17,8 +17,8 @@ using LampState = telemetry::HeartbeatState;
 
 struct Lamp {
   LampState state = LampState::Unknown;
-  int seconds = 0;       ///< how long the process has been silent, in real time; otherwise 0
-  bool stopped = false;  ///< silent because somebody stopped it
+  int seconds = 0;       ///< how long the process has not responded, in real time; otherwise 0
+  bool stopped = false;  ///< not responding because somebody stopped it
   bool operator==(const Lamp&) const = default;
 };
 

@@ -15,7 +15,7 @@ namespace pitchboard::ui {
 enum class ExportKind { Numbers, Report, Png, Svg, Video };
 
 struct ExportForm {
-  const char* words;
+  const char* title;
   ExportKind kind;
   const char* suffix;                                                 ///< ".csv"
   telemetry::ExportFormat format = telemetry::ExportFormat::CsvWide;  ///< Numbers only

@@ -44,7 +44,7 @@ class SessionFiles : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  /// Windows of several studios are told apart by their sessions.
+  /// The window title names the session, which distinguishes several studios.
   void showTitle();
   static QString shortened(const QStringList& sentences);
   void offerRepair(const QString& sentence);

@@ -73,7 +73,7 @@ class VideoWriter : public QObject {
   QByteArray m_output;  // of ffmpeg, for errors
   qint64 m_pictures = 0;
   bool m_ending = false;  // finish() was called
-  bool m_active = false;  // a video is being made; false again when it is told how that ended
+  bool m_active = false;  // a video is being made; false again once the result is reported
 };
 
 }  // namespace pitchboard::ui

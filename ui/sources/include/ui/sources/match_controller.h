@@ -165,11 +165,11 @@ class MatchController : public FrameSource {
   void take(Opening& opening);
   void refuse(const QString& sentence);
   /// Says once in a match which robots do not stop or hurry with it.
-  void tellWhoWillNotFollow();
+  void warnAboutRealTimePrograms();
   QStringList realTimePrograms() const;
   void changeSpeed(double timesRealTime);
   void skip(std::function<bool(const link::MatchEvent&)> wanted);
-  void tellWhoKeepsRealTime(std::span<const link::MatchEvent> events);
+  void reportRealTimePrograms(std::span<const link::MatchEvent> events);
 
   link::MatchOptions m_options, m_openedWith;
   std::shared_ptr<RetiredMatch> m_lastRetired;  // the one that keeps its rows
@@ -182,7 +182,7 @@ class MatchController : public FrameSource {
   double m_speed = 1.0;
   bool m_paused = false;
   bool m_opening = false;
-  bool m_toldWhoWillNotFollow = false;
+  bool m_warnedAboutRealTime = false;
   std::optional<std::uint64_t> m_runTo;  // once it is open
   std::vector<link::MatchRunner::Command> m_whenOpen;
   std::atomic<std::uint64_t> m_generation = 0;  // of the match; grows with every open() and close()

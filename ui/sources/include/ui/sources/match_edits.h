@@ -183,7 +183,7 @@ class MatchEdits : public QObject {
   std::map<RobotId, link::ScenarioRobot> m_robots;  // present or about to be
   std::map<TeamColor, link::AdvisorOptions> m_advisors;
   std::string m_physics;
-  bool m_locked = false, m_toldLocked = false;
+  bool m_locked = false, m_reportedLocked = false;
   bool m_replacing = false;  // an edit opens a match: what was done before can still be undone
   std::uint32_t m_lastCause = 0;
 };

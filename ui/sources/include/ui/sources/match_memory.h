@@ -54,7 +54,7 @@ class MatchMemory : public QObject {
   const Kept& kept() const { return m_kept; }
   /// Emits `continuedWithout` if processes of the robots lose their memory at this moment. `where`
   /// is where they run.
-  void tellWhatIsLost(const link::Moment& moment, link::Cognition where);
+  void reportLosses(const link::Moment& moment, link::Cognition where);
   /// Returns the observers that have to see the match from its first tick.
   std::vector<std::shared_ptr<link::TickObserver>> observers() const;
 

@@ -18,11 +18,11 @@ class QMenu;
 
 namespace pitchboard::ui {
 
-/// Makes a call. It is put on the undo stack, as `words`, once the match has carried it out.
-void callReferee(MatchEdits* edits, const sim::RefereeCall& call, const QString& words);
+/// Makes a call. It is put on the undo stack, as `text`, once the match has carried it out.
+void callReferee(MatchEdits* edits, const sim::RefereeCall& call, const QString& text);
 /// Makes the same call for each of these robots, as a single undo command.
 void callReferee(MatchEdits* edits, sim::RefereeCall call, const std::vector<RobotId>& robots,
-                 const QString& words);
+                 const QString& text);
 /// Returns the call as a part of a larger edit.
 EditStep refereeStep(MatchEdits* edits, sim::RefereeCall call);
 /// Restarts the game with a rule set: a name of refereeRuleSets(), or `published` for a match
@@ -36,8 +36,5 @@ QString whyRefused(const link::MatchFrame* frame, const sim::RefereeCall& call);
 void addRefereeMenu(QMenu* menu, MatchController* match, const std::vector<RobotId>& robots);
 /// Adds the calls for a place on the field: goals, and the ball at `place` or on a mark.
 void addRefereeGround(QMenu* menu, MatchController* match, Point place);
-
-/// Turns "corner kick" into "Corner kick".
-QString asLabel(std::string_view words);
 
 }  // namespace pitchboard::ui

@@ -72,7 +72,7 @@ class ReplayController : public FrameSource {
   void readMoment();
   void load();
   void page();
-  void tellRecorded();
+  void reportRecorded();
   void noteWhatDoesNotFit();
 
   std::shared_ptr<File> m_file;
@@ -85,7 +85,7 @@ class ReplayController : public FrameSource {
   std::size_t m_budget = std::size_t{1} << 30;
   std::optional<double> m_wanted;  // the moment to be shown next
   bool m_reading = false;          // a worker reads a moment
-  /// Of the file that is open or opening, and of the loading that goes on.
+  /// Of the file that is open or opening, and of the loading in progress.
   std::atomic<std::uint64_t> m_generation = 0, m_loading = 0;
   UiQueue m_toUi;
   Workers m_seeker, m_loader;  // one thread each: a reader belongs to one thread

@@ -103,8 +103,8 @@ class SessionRecording : public QObject {
   telemetry::SessionWriterOptions m_writing;
   std::optional<Recorder> m_recorder;
   QString m_path;
-  std::set<telemetry::RecordingTrouble> m_told;  // of this recording
-  std::deque<LogLine> m_log;                     // of the present match, for saveLast()
+  std::set<telemetry::RecordingTrouble> m_reported;  // of this recording
+  std::deque<LogLine> m_log;                         // of the present match, for saveLast()
   UiQueue m_toUi;
   Workers m_worker;
 };

@@ -121,8 +121,8 @@ class MainWindow : public QMainWindow {
   void saveLayout();
   void fitScreen();
   /// Gives panels the room that is theirs in a window of this size.
-  void shareRoomOut();
-  void tellFinished(const link::MatchFrame& frame);
+  void distributeSpace();
+  void notifyFinished(const link::MatchFrame& frame);
   void askForSpeed(const QStringList& programs, double wanted);
 
   MatchController* m_controller;
@@ -157,7 +157,7 @@ class MainWindow : public QMainWindow {
   QSize m_firstSize;  // when it was not kept from the last time
   bool m_wasShown = false;
   bool m_wasActive = false;
-  bool m_toldFinished = false;
+  bool m_notifiedFinished = false;
   bool m_followsSize = true;          // nobody has given the panels other sizes
   int m_neededHeight = 0;             // of the open panels below the field, px of the mock
   std::vector<QDockWidget*> m_docks;  // order of studioDocks()

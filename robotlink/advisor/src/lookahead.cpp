@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "thought.h"
+#include "lookahead.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ void putBack(const sim::FieldSpec& field, bool oursTouchedIt, Position& end) {
 
 }  // namespace
 
-ThoughtPlan planFor(Question question, int rollouts, double horizon) {
+LookaheadPlan planFor(Question question, int rollouts, double horizon) {
   // A keeper walks for seconds to where it must be when the ball is kicked, and most of its
   // rollouts end alike.
   constexpr int far = 2, looksFar = 12;
@@ -81,16 +81,17 @@ double meanOf(const std::vector<double>& values) {
 
 }  // namespace
 
-Thought::Thought(rollout::Belief belief, const Candidates& candidates, std::uint64_t seed,
-                 const ThoughtPlan& plan)
+Lookahead::Lookahead(rollout::Belief belief, const Candidates& candidates, std::uint64_t seed,
+                     const LookaheadPlan& plan)
     : m_belief(std::move(belief)), m_candidates(candidates), m_seed(seed), m_plan(plan) {
   for (std::size_t i = 1; i < m_candidates.size(); ++i) m_alive.push_back(i);
   for (std::size_t left = m_alive.size(); left > 2; left = (left + 1) / 2) ++m_rounds;
   planRound();
 }
 
-/// Every candidate that is left plays as often; a few times first, because most thoughts end there.
-void Thought::planRound() {
+/// Every candidate that is left plays as often; a few times first, because most lookaheads end
+/// there.
+void Lookahead::planRound() {
   const int players = static_cast<int>(m_alive.size()) + 1;
   const int share = m_round == 0 ? std::min(m_plan.firstLook, m_plan.rollouts / players)
                                  : (m_plan.rollouts - m_played) / (m_rounds - m_round) / players;
@@ -104,7 +105,7 @@ void Thought::planRound() {
 }
 
 /// Who can hardly gain any more plays no further; then the worse half does not.
-void Thought::halve() {
+void Lookahead::halve() {
   std::erase_if(m_alive, [this](std::size_t one) {
     const Gain gain = gainOf(one);
     constexpr double surely = 3.0;  // of t, for the few of the first look
@@ -116,7 +117,7 @@ void Thought::halve() {
   m_alive.resize(std::max<std::size_t>(1, (m_alive.size() + 1) / 2));
 }
 
-void Thought::playOne(rollout::Rollouts& rollouts, const sim::FieldSpec& field) {
+void Lookahead::playOne(rollout::Rollouts& rollouts, const sim::FieldSpec& field) {
   const Next next = m_queue.back();
   m_queue.pop_back();
   rollout::PlayOptions options;
@@ -141,12 +142,12 @@ void Thought::playOne(rollout::Rollouts& rollouts, const sim::FieldSpec& field) 
   if (!m_alive.empty()) planRound();
 }
 
-double Thought::valueOf(std::size_t candidate) const {
+double Lookahead::valueOf(std::size_t candidate) const {
   return meanOf(m_of[candidate].values);
 }
 
 /// Over what the behaviour would do, paired by random numbers.
-Thought::Gain Thought::gainOf(std::size_t candidate) const {
+Lookahead::Gain Lookahead::gainOf(std::size_t candidate) const {
   const std::vector<double>&values = m_of[candidate].values, &own = m_of[0].values;
   const std::size_t n = std::min(values.size(), own.size());
   std::vector<double> gains(n);
@@ -163,15 +164,15 @@ Thought::Gain Thought::gainOf(std::size_t candidate) const {
 /// What a gain is worth that was measured so: the best of a few measured ones looks better than it
 /// is. Shrunk towards the usual gain of a candidate; both numbers are those with which advice lost
 /// least in 1 600 questions (advice_gains in tests/benchmarks).
-double Thought::expectedGain(const Gain& gain) {
+double Lookahead::expectedGain(const Gain& gain) {
   constexpr double usual = -0.02, spread = 0.03;  // goals
   const double share = spread * spread / (spread * spread + gain.error * gain.error);
   return share * gain.mean + (1.0 - share) * usual;
 }
 
 /// The best is suggested if it is expected to gain.
-ThoughtResult Thought::result() const {
-  ThoughtResult out;
+LookaheadResult Lookahead::result() const {
+  LookaheadResult out;
   std::size_t best = 0;
   for (const std::size_t one : m_alive) {
     if (best == 0 || valueOf(one) > valueOf(best)) best = one;

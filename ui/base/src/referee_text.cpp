@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/base/referee_words.h>
+#include <ui/base/referee_text.h>
 
 #include <QStringList>
 #include <cstdlib>
 
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 
 namespace pitchboard::ui {
 namespace {
 
 const QString comma = QStringLiteral(", ");
 
-QString text(const std::string& words) {
-  return QString::fromStdString(words);
+QString text(const std::string& text) {
+  return QString::fromStdString(text);
 }
 
 /// "BLUE", or the team's own name.
@@ -28,8 +28,8 @@ QString teamOf(const link::RefereeView& view, int number) {
 }  // namespace
 
 QString penaltyTag(const std::string& penalty, int secondsLeft) {
-  const QString words = QString::fromStdString(penalty).section(QStringLiteral(" or "), 0, 0);
-  return secondsLeft > 0 ? QStringLiteral("%1 %2").arg(words, durationText(secondsLeft)) : words;
+  const QString text = QString::fromStdString(penalty).section(QStringLiteral(" or "), 0, 0);
+  return secondsLeft > 0 ? QStringLiteral("%1 %2").arg(text, durationText(secondsLeft)) : text;
 }
 
 QString refereeClockText(int seconds) {

@@ -9,12 +9,12 @@
 namespace pitchboard::ui {
 
 /// Keeps rows in which each word occurs in some column, ignoring case.
-class WordsFilter : public QSortFilterProxyModel {
+class TextFilter : public QSortFilterProxyModel {
   Q_OBJECT
  public:
   using QSortFilterProxyModel::QSortFilterProxyModel;
 
-  void setWords(const QString& text) {
+  void setFilterText(const QString& text) {
     m_words = text.split(QLatin1Char(' '), Qt::SkipEmptyParts);
     invalidateFilter();
   }

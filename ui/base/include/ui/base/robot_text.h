@@ -18,8 +18,8 @@ QString robotName(const link::RobotFrame& robot);
 bool isVariable(const QString& saved, const QString& variable);
 /// Returns "walk forward, slow", or "action 42" for an unknown code.
 QString actionText(int code);
-/// Turns "blue" into "Blue".
-QString capitalised(std::string_view text);
+/// Turns "corner kick" into "Corner kick".
+QString capitalised(std::string_view name);
 /// Uses a fixed number of decimals and the minus sign U+2212.
 QString numberText(double value, int decimals);
 /// Returns "05:12", with hours if there are any.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/base/elided_words.h>
+#include <ui/base/elide_text.h>
 
 #include <QList>
 #include <QRegularExpression>
@@ -26,7 +26,7 @@ bool isUnit(const QString& word) {
   return unit.match(word).hasMatch();
 }
 
-/// Neighbouring words are one part; a number takes its unit along.
+/// Neighbouring words are one part; a number keeps its unit.
 QList<Part> partsOf(const QString& text) {
   QList<Part> parts;
   bool takesUnit = false;
@@ -44,7 +44,7 @@ QList<Part> partsOf(const QString& text) {
   return parts;
 }
 
-/// Shortens words to a width; a letter or two of the last word, which say nothing, are left out.
+/// Shortens words to a width; a remainder of one or two letters is left out.
 QString shortened(const QFontMetricsF& metrics, const QString& words, double width) {
   constexpr qsizetype scrap = 2;  // letters
   QString shown = metrics.elidedText(words, Qt::ElideRight, width);
@@ -63,7 +63,7 @@ QString joined(const QList<Part>& parts) {
 
 }  // namespace
 
-QString elidedWords(const QFontMetricsF& metrics, const QString& text, double width) {
+QString elideText(const QFontMetricsF& metrics, const QString& text, double width) {
   const auto fits = [&](const QString& some) { return metrics.horizontalAdvance(some) <= width; };
   if (fits(text)) return text;
   QList<Part> parts = partsOf(text);

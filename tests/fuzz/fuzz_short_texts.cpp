@@ -43,7 +43,7 @@ void cognitionDebug(std::string_view text) {
   }
 }
 
-/// What a robot of the team posts is heard by another one, which writes it to its blackboard.
+/// What a robot of the team posts is received by another one, which writes it to its blackboard.
 void teamMessage(std::string_view text) {
   struct Team {
     std::shared_ptr<link::TeamChannel> channel = std::make_shared<link::InProcessTeamChannel>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/experiment/situation.h>
+#include <robotlink/experiment/situation_test.h>
 
 #include <algorithm>
 #include <array>
@@ -14,21 +14,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<SituationTemplate, 9> templates{{
-    {.words = "A goal is scored in at least 8 of 10 runs",
+    {.text = "A goal is scored in at least 8 of 10 runs",
      .assertion = "goal_rate >= 0.8",
      .goal = true,
      .goalAgainst = true},
-    {.words = "No goal against", .assertion = "goal_against_rate == 0", .goalAgainst = true},
-    {.words = "The ball stays on the field in 9 of 10 runs",
+    {.text = "No goal against", .assertion = "goal_against_rate == 0", .goalAgainst = true},
+    {.text = "The ball stays on the field in 9 of 10 runs",
      .assertion = "ball_out_rate <= 0.1",
      .ballOut = true},
-    {.words = "Nobody falls", .assertion = "fell_rate == 0", .fell = true},
-    {.words = "Nobody gets stuck", .assertion = "stuck_rate == 0", .stuck = true},
-    {.words = "Somebody kicks in every run", .assertion = "min(kicks) >= 1"},
-    {.words = "At the end the robots know where they are",
+    {.text = "Nobody falls", .assertion = "fell_rate == 0", .fell = true},
+    {.text = "Nobody gets stuck", .assertion = "stuck_rate == 0", .stuck = true},
+    {.text = "Somebody kicks in every run", .assertion = "min(kicks) >= 1"},
+    {.text = "At the end the robots know where they are",
      .assertion = "p90(belief_error_end_m) < 0.3"},
-    {.words = "They have the ball most of the time", .assertion = "possession > 0.5"},
-    {.words = "They hardly touch each other", .assertion = "mean(collisions) <= 1"},
+    {.text = "They have the ball most of the time", .assertion = "possession > 0.5"},
+    {.text = "They hardly touch each other", .assertion = "mean(collisions) <= 1"},
 }};
 
 Json spreadJson(const StartSpread& spread) {
@@ -58,7 +58,7 @@ MomentScenario situationScenario(const MatchFrame& frame, const MomentOptions& o
   return out;
 }
 
-Result<std::string> situationToJson(const Situation& situation) {
+Result<std::string> situationToJson(const SituationTest& situation) {
   if (situation.assertions.empty()) {
     return failure(ErrorCode::InvalidArgument, "there is no assertion; choose or write one");
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Shortens a line of text so that it fits, without showing a wrong number: words may be cut, but
+// Shortens a line of text so that it fits, without showing a wrong number: text may be cut, but
 // never a number with its unit. Pure function; any thread.
 
 #include <QFontMetricsF>
@@ -9,9 +9,9 @@
 
 namespace pitchboard::ui {
 
-/// Turns "silent 4 min 20 s" into "si… 4 min 20 s". If even the numbers do not fit, whole numbers
+/// Turns "offline 4 min 20 s" into "of… 4 min 20 s". If even the numbers do not fit, whole numbers
 /// are left out from the end, and the last one loses its unit; if it still does not fit, only "…"
 /// is left. Short names (B1, 2nd) count as numbers. `width` is in pixels.
-QString elidedWords(const QFontMetricsF& metrics, const QString& text, double width);
+QString elideText(const QFontMetricsF& metrics, const QString& text, double width);
 
 }  // namespace pitchboard::ui

@@ -18,7 +18,7 @@ namespace pitchboard::link {
 /// continues from this moment.
 MomentScenario situationScenario(const MatchFrame& frame, const MomentOptions& options);
 
-struct Situation {
+struct SituationTest {
   std::string name = "moment", title, description;
   Scenario scenario;
   TeamColor team = TeamColor::Blue;
@@ -29,11 +29,11 @@ struct Situation {
 };
 
 /// Returns the test as a file. Fails as experimentFromJson() does, and if there is no assertion.
-Result<std::string> situationToJson(const Situation& situation);
+Result<std::string> situationToJson(const SituationTest& situation);
 
 /// A common assertion, and the stop conditions that it needs.
 struct SituationTemplate {
-  const char* words;      ///< "A goal is scored in at least 8 of 10 runs"
+  const char* text;       ///< "A goal is scored in at least 8 of 10 runs"
   const char* assertion;  ///< "goal_rate >= 0.8"
   bool goal = false, goalAgainst = false, ballOut = false, fell = false, stuck = false;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One decision that is being thought about: candidates against each other by sequential halving,
-// rollout j of each with the same random numbers. A plain value: a copy goes on as the original
-// does. Metres, seconds; one thread.
+// Compares the candidates of one decision with rollouts, by sequential halving; rollout j of each
+// candidate has the same random numbers. A plain value: a copy continues as the original does.
+// Metres, seconds; one thread.
 
 #include <array>
 #include <cstdint>
@@ -15,17 +15,17 @@
 
 namespace pitchboard::link {
 
-/// How a question is thought about.
-struct ThoughtPlan {
+/// How many rollouts answer a question.
+struct LookaheadPlan {
   int rollouts = 72;     ///< in all
   double horizon = 5.0;  ///< s that each of them plays
   int firstLook = 4;     ///< rollouts of each candidate before any is dropped
 };
 /// `rollouts` and `horizon`: of an AdvisorOptions.
-ThoughtPlan planFor(Question question, int rollouts, double horizon);
+LookaheadPlan planFor(Question question, int rollouts, double horizon);
 
-/// What came out.
-struct ThoughtResult {
+/// The result.
+struct LookaheadResult {
   std::size_t best = 0;  ///< candidate that is suggested; 0: as the behaviour would
   double value = 0.0;    ///< expected goal difference of it
   double gain = 0.0, gainLow = 0.0;
@@ -35,12 +35,12 @@ struct ThoughtResult {
 /// What a rollout is worth: its goals, else the position at its end.
 double valueOfRow(const std::array<double, rollout::columnCount>& row, const sim::FieldSpec& field);
 
-class Thought {
+class Lookahead {
  public:
   using Heat = std::array<int, static_cast<std::size_t>(heatColumns* heatRows)>;
 
-  Thought(rollout::Belief belief, const Candidates& candidates, std::uint64_t seed,
-          const ThoughtPlan& plan);
+  Lookahead(rollout::Belief belief, const Candidates& candidates, std::uint64_t seed,
+            const LookaheadPlan& plan);
 
   bool isDone() const { return m_queue.empty(); }
   int played() const { return m_played; }
@@ -50,7 +50,7 @@ class Thought {
   const Candidates& candidates() const { return m_candidates; }
   /// Mean value of a candidate so far.
   double valueOf(std::size_t candidate) const;
-  ThoughtResult result() const;
+  LookaheadResult result() const;
   /// Rollouts of a candidate with the ball in a cell after PlayOptions::look.
   const Heat& heat(std::size_t candidate) const { return m_of[candidate].heat; }
 
@@ -75,7 +75,7 @@ class Thought {
   Candidates m_candidates;
   std::array<Of, mostCandidates> m_of;
   std::uint64_t m_seed = 1;
-  ThoughtPlan m_plan;
+  LookaheadPlan m_plan;
   int m_played = 0, m_rounds = 2, m_round = 0;
   std::vector<std::size_t> m_alive;  ///< without the first, which always plays
   std::vector<Next> m_queue;         ///< of this round, the next at the back

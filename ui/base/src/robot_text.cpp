@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/base/robot_words.h>
+#include <ui/base/robot_text.h>
 
 #include <cmath>
 
@@ -35,10 +35,10 @@ QString actionText(int code) {
   return QString::fromStdString(actionLabel(code));
 }
 
-QString capitalised(std::string_view text) {
-  QString words = QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-  if (!words.isEmpty()) words[0] = words[0].toUpper();
-  return words;
+QString capitalised(std::string_view name) {
+  QString text = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+  if (!text.isEmpty()) text[0] = text[0].toUpper();
+  return text;
 }
 
 QString numberText(double value, int decimals) {
