@@ -46,7 +46,8 @@ struct SimulatedMatch::Parts {
   ProcessPace pace{base, slots, events};
   LockStep lockStep{base, slots, pace};
   std::uint64_t expectedTick = 0;  // another one means that a moment was restored
-  bool goalSeen = false, outSeen = false;
+  std::optional<std::uint32_t> goalCause;  // of the goal that was scored; sim::Event::cause
+  bool outSeen = false;
 };
 
 }  // namespace pitchboard::link

@@ -158,7 +158,14 @@ class TestRefereeRules : public QObject {
     QTRY_COMPARE(desk.frame().refereeRules, rules == 0 ? std::string() : name);
     if (rules != 0) QCOMPARE(scoreboardOf(desk.frame()).right, 0);
     QTRY_COMPARE(stack->count(), steps + 1);
+    const auto told = [&desk] {
+      return std::ranges::count_if(desk.timeline.events()->events(), [](const auto& event) {
+        return event.kind == link::MatchEventKind::SettingChanged && event.detail == "rules";
+      });
+    };
+    QTRY_COMPARE(told(), 1);
     stack->undo();
+    QTRY_COMPARE(told(), 0);
     QTRY_COMPARE(desk.frame().refereeRules, std::string("humanoid-2021"));
     QCOMPARE(desk.controller.stateHash(), hash);
     QCOMPARE(scoreboardOf(desk.frame()).clock, scoreboardOf(before).clock);
