@@ -204,6 +204,7 @@ void MainWindow::shutDown() {
   delete m_explorer;
   delete m_bar;
   delete m_status;
+  delete m_notices;
   delete takeCentralWidget();
 
   delete m_recording;
