@@ -9,6 +9,7 @@
 #include <QMouseEvent>
 #include <QScreen>
 #include <QSettings>
+#include <QTabBar>
 #include <QTimer>
 #include <algorithm>
 #include <map>
@@ -34,6 +35,11 @@ const QString untouchedKey = QStringLiteral("window/layoutFollowsSize");
 
 // A tab says the name already, and the timeline its times.
 void MainWindow::showTitles() {
+  // Names of tabs are whole; a row without room for all of them scrolls.
+  for (QTabBar* row : findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+    row->setElideMode(Qt::ElideNone);
+    row->setUsesScrollButtons(true);
+  }
   bool changed = false;
   for (std::size_t i = 0; i < m_docks.size(); ++i) {
     QDockWidget* dock = m_docks[i];
