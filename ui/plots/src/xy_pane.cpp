@@ -24,7 +24,8 @@ namespace {
 constexpr std::size_t mostPoints = 8000;  // more do not show on a screen
 constexpr int pixelsPerStepX = 64;        // px of the mock
 constexpr int pixelsPerStepY = 24;
-constexpr int roomBelow = 46;  // for the numbers and the title of the lower axis
+constexpr int roomBelow = 52;  // for the numbers and the title of the lower axis
+constexpr int lowestXy = 170;  // lower ones cannot be read: the plots scroll instead
 // A line with more breaks is shown as points: Qt needs a series for each stretch.
 constexpr std::size_t mostStretches = 100;
 
@@ -104,7 +105,7 @@ std::vector<QPointF> xyPoints(const ColumnView& x, const ColumnView& y, telemetr
 XyPane::XyPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
     : PlotPane(feed, spec, parent), m_chart(new ValueChart(this)) {
   setSurface(m_chart);
-  m_chart->setMinimumHeight(scaled(this, 80));
+  m_chart->setMinimumHeight(scaled(this, lowestXy));
   m_chart->labelX();
   m_chart->setRenderHint(QPainter::Antialiasing, true);
   m_chart->viewport()->installEventFilter(this);
