@@ -43,6 +43,20 @@ void equalize(ValueLimits& x, ValueLimits& y, QSizeF size) {
     widen(y, perX * size.height());
 }
 
+/// The title of an axis that also shows this variable: of several robots without their names, of
+/// different variables none of them alone ("TRUE_X, BELIEF_X").
+QString commonTitle(const QString& before, const QString& variable) {
+  const QString whole = curveName(variableCurve(variable));
+  const QString column = variable.section(QLatin1Char('/'), 1);
+  if (before.isEmpty() || before == whole) return whole;
+  QStringList columns;
+  for (const QString& name : before.split(QStringLiteral(", "))) {
+    columns << name.section(QLatin1Char(' '), 0, 0);
+  }
+  if (!columns.contains(column)) columns << column;
+  return columns.join(QStringLiteral(", "));
+}
+
 bool isFinite(const QPointF& point) {
   return std::isfinite(point.x()) && std::isfinite(point.y());
 }
@@ -152,10 +166,8 @@ void XyPane::draw() {
         y = {std::min(y.low, point.y()), std::max(y.high, point.y())};
       }
     }
-    if (xTitle.isEmpty()) {
-      xTitle = curveName(variableCurve(curve.spec().inputs.value(0)));
-      yTitle = curveName(variableCurve(curve.spec().inputs.value(1)));
-    }
+    xTitle = commonTitle(xTitle, curve.spec().inputs.value(0));
+    yTitle = commonTitle(yTitle, curve.spec().inputs.value(1));
   }
   const int stepsX = std::max(1, static_cast<int>(area.width()) / scaled(this, pixelsPerStepX));
   const int stepsY = std::max(1, static_cast<int>(area.height()) / scaled(this, pixelsPerStepY));
@@ -166,7 +178,8 @@ void XyPane::draw() {
   }
   m_chart->setAxes(m_x, niceStep(m_x.high - m_x.low, stepsX), m_y,
                    niceStep(m_y.high - m_y.low, stepsY));
-  m_chart->setTitles(xTitle, m_spec.valueTitle.isEmpty() ? yTitle : m_spec.valueTitle);
+  m_titles = {xTitle, m_spec.valueTitle.isEmpty() ? yTitle : m_spec.valueTitle};
+  m_chart->setTitles(m_titles.first, m_titles.second);
   showCurves();
   showMarkers();
 }
