@@ -244,6 +244,22 @@ class TestWindowLayout : public QObject {
     QVERIFY(row()->rect().contains(row()->tabRect(row()->currentIndex()).center()));
   }
 
+  // The panel that stayed behind had neither a tab nor a title.
+  void whoStaysBehindAFloatingPanelHasItsTitle() {
+    Studio s;
+    s.play();
+    auto* referee = s.find<QDockWidget>("referee");
+    auto* variables = s.find<QDockWidget>("variables");
+    referee->toggleViewAction()->trigger();
+    QTRY_VERIFY(!referee->isHidden() && !variables->titleBarWidget()->isVisible());
+    referee->setFloating(true);
+    QTRY_VERIFY(variables->titleBarWidget()->isVisible());
+    QVERIFY(referee->titleBarWidget()->isVisible());
+    // It has a frame, by which it is told from the window.
+    QTRY_COMPARE(referee->grab().toImage().pixelColor(0, referee->height() / 2),
+                 theme().outerEdge);
+  }
+
   void aNoticeIsAsHighAsItsWords() {
     Studio s;
     s.play();

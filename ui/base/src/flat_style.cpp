@@ -191,6 +191,7 @@ int FlatStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidg
 int FlatStyle::pixelMetric(PixelMetric metric, const QStyleOption* option,
                            const QWidget* widget) const {
   if (metric == PM_ToolBarExtensionExtent) return scaled(widget, 16);
+  if (metric == PM_DockWidgetFrameWidth) return 1;
   return QProxyStyle::pixelMetric(metric, option, widget);
 }
 
