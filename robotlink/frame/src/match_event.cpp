@@ -242,16 +242,17 @@ std::string sideWithBall(const sim::WorldState& state) {
 
 /// What an event of the simulation is here, in the order of sim::EventKind.
 constexpr std::array kindOfSimulated{
-    Kind::Goal,          Kind::BallOut,        Kind::Kick,      Kind::Fall,        Kind::GotUp,
-    Kind::UnknownAction, Kind::ScoreCorrected, Kind::GameState, Kind::Half,        Kind::GamePhase,
-    Kind::SetPlay,       Kind::SetPlay,        Kind::SetPlay,   Kind::PlayStopped, Kind::PlayGoesOn,
-    Kind::Penalised,     Kind::PenaltyOver,    Kind::GamePhase, Kind::SettingChanged,
-    Kind::Undone};
+    Kind::Goal,        Kind::BallOut,       Kind::Kick,           Kind::Fall,
+    Kind::GotUp,       Kind::UnknownAction, Kind::ScoreCorrected, Kind::GameState,
+    Kind::Half,        Kind::GamePhase,     Kind::SetPlay,        Kind::SetPlay,
+    Kind::SetPlay,     Kind::PlayStopped,   Kind::PlayGoesOn,     Kind::Penalised,
+    Kind::PenaltyOver, Kind::GamePhase,     Kind::SettingChanged, Kind::Undone};
 static_assert(kindOfSimulated.size() == static_cast<std::size_t>(sim::EventKind::Undone) + 1);
 
 /// In the order of sim::Setting.
 constexpr const char* settingLabels[] = {"noise", "physics", "rules", "score and clock"};
-static_assert(std::size(settingLabels) == static_cast<std::size_t>(sim::Setting::ScoreAndClock) + 1);
+static_assert(std::size(settingLabels) ==
+              static_cast<std::size_t>(sim::Setting::ScoreAndClock) + 1);
 
 }  // namespace
 

@@ -24,7 +24,8 @@ void MatchEvents::add(MatchEvent event) {
 }
 
 void MatchEvents::called(sim::Simulation& simulation) {
-  for (const sim::Event& event : simulation.takeCalled()) add(matchEvent(event, simulation.state()));
+  for (const sim::Event& event : simulation.takeCalled())
+    add(matchEvent(event, simulation.state()));
 }
 
 void MatchEvents::stepped(const sim::Simulation& simulation) {

@@ -209,8 +209,7 @@ class TestPlotVariables : public QObject {
     dock.setLayoutSpec({{{QStringLiteral("one"), {chart}}}, 0});
     for (double time = 0.0; time < 5.0; time += 0.1) bench.source.append(guest, time, 0, time);
     dock.feed()->refresh();
-    QTRY_COMPARE(namesOf(dock.currentPage()->panes()[0]),
-                 QStringList(QStringLiteral("DIST R1")));
+    QTRY_COMPARE(namesOf(dock.currentPage()->panes()[0]), QStringList(QStringLiteral("DIST R1")));
     const auto ours = bench.source.addRobot("B2");
     bench.source.shown = frameOf({{"R1", {2, 1, 0}}, {"B2", {1, 2, 0}}});
     for (double time = 5.0; time < 8.0; time += 0.1) {
@@ -218,8 +217,7 @@ class TestPlotVariables : public QObject {
       bench.source.append(ours, time, 0, 2.0 * time);
     }
     dock.feed()->refresh();
-    QTRY_COMPARE(namesOf(dock.currentPage()->panes()[0]),
-                 QStringList(QStringLiteral("DIST B2")));
+    QTRY_COMPARE(namesOf(dock.currentPage()->panes()[0]), QStringList(QStringLiteral("DIST B2")));
   }
 
   void namesAreCompletedInExpressions() {

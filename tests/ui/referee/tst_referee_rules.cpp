@@ -190,9 +190,9 @@ class TestRefereeRules : public QObject {
     QTRY_VERIFY(desk.frame().desk->rules.automatic);
     QTRY_COMPARE(desk.undo()->count(), 1);
     const auto& events = desk.timeline.events()->events();
-    QTRY_COMPARE(std::ranges::count(events, link::MatchEventKind::SettingChanged,
-                                    &link::MatchEvent::kind),
-                 1);
+    QTRY_COMPARE(
+        std::ranges::count(events, link::MatchEventKind::SettingChanged, &link::MatchEvent::kind),
+        1);
     desk.undo()->undo();
     QTRY_VERIFY(!desk.frame().desk->rules.automatic);
     QTRY_VERIFY(!automatic->isChecked());

@@ -256,8 +256,7 @@ class TestWindowLayout : public QObject {
     QTRY_VERIFY(variables->titleBarWidget()->isVisible());
     QVERIFY(referee->titleBarWidget()->isVisible());
     // It has a frame, by which it is told from the window.
-    QTRY_COMPARE(referee->grab().toImage().pixelColor(0, referee->height() / 2),
-                 theme().outerEdge);
+    QTRY_COMPARE(referee->grab().toImage().pixelColor(0, referee->height() / 2), theme().outerEdge);
   }
 
   void aNoticeIsAsHighAsItsWords() {

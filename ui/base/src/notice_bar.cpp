@@ -153,7 +153,8 @@ void NoticeBar::place() {
   QRect over(m_host->mapTo(parentWidget(), QPoint()), m_host->size());
   // A text that is too long for the field's width gets that of the window.
   const QMargins margins = m_row->contentsMargins();
-  const int beside = margins.left() + m_row->spacing() + m_side->sizeHint().width() + margins.right();
+  const int beside =
+      margins.left() + m_row->spacing() + m_side->sizeHint().width() + margins.right();
   const bool isNarrow = over.width() - beside < scaled(this, leastText);
   if (m_text->sizeHint().width() > over.width() - beside &&
       (isNarrow || !m_text->fitsInto(over.width() - beside))) {

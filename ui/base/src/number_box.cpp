@@ -11,8 +11,7 @@ constexpr QChar minus(0x2212);
 
 /// As QLocale::c() reads numbers; as long as before.
 QString plain(QString number) {
-  return number.replace(QLatin1Char(','), QLatin1Char('.'))
-      .replace(minus, QLatin1Char('-'));
+  return number.replace(QLatin1Char(','), QLatin1Char('.')).replace(minus, QLatin1Char('-'));
 }
 
 }  // namespace

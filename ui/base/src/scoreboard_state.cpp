@@ -94,8 +94,8 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
     }
   }
   if (!view.timedOut && !view.countdown.empty()) countdown = durationText(*view.secondaryTime);
-  const QString name = view.timedOut ? QStringLiteral("REFEREE OFFLINE")
-                                     : QString::fromStdString(view.state);
+  const QString name =
+      view.timedOut ? QStringLiteral("REFEREE OFFLINE") : QString::fromStdString(view.state);
   const auto joined = [](QStringList parts) {
     parts.removeAll(QString());
     return parts.join(QStringLiteral(" · "));

@@ -260,9 +260,9 @@ bool ChartPane::eventFilter(QObject* watched, QEvent* event) {
     return PlotPane::eventFilter(watched, event);
   }
   const auto* help = static_cast<const QHelpEvent*>(event);
-  const QRectF caption = QFontMetricsF(m_caption.font)
-                             .boundingRect(m_caption.place, Qt::AlignTop | Qt::AlignRight,
-                                           m_caption.text);
+  const QRectF caption =
+      QFontMetricsF(m_caption.font)
+          .boundingRect(m_caption.place, Qt::AlignTop | Qt::AlignRight, m_caption.text);
   const bool isEnvelope = std::ranges::any_of(
       m_traces, [](const CurveTrace& trace) { return trace.coarse && !trace.reading; });
   if (!isEnvelope || !caption.contains(help->pos())) {
@@ -271,9 +271,10 @@ bool ChartPane::eventFilter(QObject* watched, QEvent* event) {
   }
   QToolTip::showText(
       help->globalPos(),
-      QStringLiteral("The samples of this time span do not fit into the memory limit, so only their "
-                     "smallest and largest values are drawn. Zoom in, or raise the limit "
-                     "(Timeline > Memory for the past)."),
+      QStringLiteral(
+          "The samples of this time span do not fit into the memory limit, so only their "
+          "smallest and largest values are drawn. Zoom in, or raise the limit "
+          "(Timeline > Memory for the past)."),
       m_chart->viewport());
   return true;
 }

@@ -568,8 +568,8 @@ EditStep settingStep(Value wanted, Read read, Write write) {
 
 }  // namespace
 
-void MatchEdits::changeSetting(sim::Setting setting, const QString& text,
-                               const QString& whatFailed, EditStep step) {
+void MatchEdits::changeSetting(sim::Setting setting, const QString& text, const QString& whatFailed,
+                               EditStep step) {
   // While a control is moved, its changes become one command, and one event.
   constexpr qint64 oneGesture = 500;  // ms, less than what EditCommand merges
   if (m_gesture.cause == 0 || m_gesture.setting != setting ||
@@ -607,14 +607,13 @@ void MatchEdits::setNoise(const sim::NoiseParameters& noise) {
 }
 
 void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
-  changeSetting(
-      sim::Setting::Physics, QStringLiteral("Change the physics"),
-      QStringLiteral("Could not change the physics"),
-      settingStep(
-          settings, [](const sim::WorldState& state) { return state.settings.rigidBody; },
-          [](sim::Simulation& simulation, const sim::RigidBodySettings& value) {
-            return simulation.setRigidBody(value);
-          }));
+  changeSetting(sim::Setting::Physics, QStringLiteral("Change the physics"),
+                QStringLiteral("Could not change the physics"),
+                settingStep(
+                    settings, [](const sim::WorldState& state) { return state.settings.rigidBody; },
+                    [](sim::Simulation& simulation, const sim::RigidBodySettings& value) {
+                      return simulation.setRigidBody(value);
+                    }));
 }
 
 void MatchEdits::setClockRunning(bool running) {

@@ -495,13 +495,12 @@ void MainWindow::connectNotices() {
             m_notices->show({continued}, sentence);
             m_continuedAt = time;
           });
-  connect(m_controller, &MatchController::frameReceived, m_notices,
-          [this](const FramePtr& frame) {
-            constexpr double known = 10.0;  // s of the match, after which processes have learned anew
-            if (!m_continuedAt || frame->snapshot.time - *m_continuedAt <= known) return;
-            m_continuedAt.reset();
-            m_notices->settle(continued);
-          });
+  connect(m_controller, &MatchController::frameReceived, m_notices, [this](const FramePtr& frame) {
+    constexpr double known = 10.0;  // s of the match, after which processes have learned anew
+    if (!m_continuedAt || frame->snapshot.time - *m_continuedAt <= known) return;
+    m_continuedAt.reset();
+    m_notices->settle(continued);
+  });
   connect(m_future, &AbandonedFuture::began, m_notices, [this] {
     m_notices->show({branch, NoticeTone::Success},
                     QStringLiteral("Continuing the match from %1. The timeline keeps the abandoned "

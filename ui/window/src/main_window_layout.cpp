@@ -44,10 +44,9 @@ void MainWindow::showTitles() {
   for (std::size_t i = 0; i < m_docks.size(); ++i) {
     QDockWidget* dock = m_docks[i];
     const QList<QDockWidget*> beside = tabifiedDockWidgets(dock);
-    const bool tabs = std::any_of(beside.begin(), beside.end(),
-                                  [](const QDockWidget* other) {
-                                    return !other->isHidden() && !other->isFloating();
-                                  });
+    const bool tabs = std::any_of(beside.begin(), beside.end(), [](const QDockWidget* other) {
+      return !other->isHidden() && !other->isFloating();
+    });
     const bool says = studioDocks()[i].ownRow || tabs;
     auto* title = static_cast<DockTitle*>(dock->titleBarWidget());
     changed = title->setFolded(!dock->isFloating() && says) || changed;

@@ -56,7 +56,9 @@ class Simulation {
   /// Returns the events of the last step, in order.
   std::span<const Event> events() const { return m_events; }
   /// Returns those of them that takeCalled() has not returned before.
-  std::span<const Event> untakenEvents() const { return std::span(m_events).subspan(m_eventsTaken); }
+  std::span<const Event> untakenEvents() const {
+    return std::span(m_events).subspan(m_eventsTaken);
+  }
   /// Returns the events of calls by hand since the last step, each once, so that they can be
   /// reported while nothing is played. The next step puts all of them in front of its own events.
   std::span<const Event> takeCalled();
@@ -112,7 +114,7 @@ class Simulation {
   WorldState m_state;
   std::unique_ptr<PhysicsModel> m_model;
   std::vector<Event> m_events;
-  std::vector<Event> m_called;  // made by calls since the last step
+  std::vector<Event> m_called;                       // made by calls since the last step
   std::size_t m_eventsTaken = 0, m_calledTaken = 0;  // how many of each takeCalled() has returned
   Placements m_placements;
   Snapshot m_seen;  // what the referee sees, after the bodies have moved

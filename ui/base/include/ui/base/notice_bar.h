@@ -69,10 +69,10 @@ class NoticeBar : public QFrame {
   std::vector<Notice> m_notices;  // the first is shown
   Text* m_text;
   QLabel* m_more;
-  QBoxLayout* m_row;      // the text, and beside or below it:
-  QBoxLayout* m_side;     // how many more there are, and
-  QBoxLayout* m_buttons;  // the buttons
-  QTimer* m_leaving;      // of a success
+  QBoxLayout* m_row;          // the text, and beside or below it:
+  QBoxLayout* m_side;         // how many more there are, and
+  QBoxLayout* m_buttons;      // the buttons
+  QTimer* m_leaving;          // of a success
   QWidget* m_host = nullptr;  // over which it floats
 };
 

@@ -18,10 +18,10 @@ struct ScoreboardState {
   QColor leftColour, rightColour;  ///< invalid: no coloured square
   int left = 0, right = 0;
   QString clock = QStringLiteral("00:00");
-  QString state;      ///< PLAYING, PAUSED, STOPPED, FINISHED, NO REFEREE
+  QString state;        ///< PLAYING, PAUSED, STOPPED, FINISHED, NO REFEREE
   QStringList shorter;  ///< the state with less and less beside it, for little room
-  QString penalties;  ///< robots and seconds, such as "B2 24 · R3 5"; empty: none
-  QString tip;        ///< tool tip with further data of the referee
+  QString penalties;    ///< robots and seconds, such as "B2 24 · R3 5"; empty: none
+  QString tip;          ///< tool tip with further data of the referee
   bool operator==(const ScoreboardState&) const = default;
 };
 
