@@ -12,6 +12,7 @@
 #include <robotlink/models/robot_models.h>
 #include <simcore/world/published_frame.h>
 
+#include "../support/match_moment.h"
 #include "candidates.h"
 #include "game_belief.h"
 #include "lookahead.h"
@@ -318,19 +319,7 @@ class TestAdvisor : public QObject {
     SimulatedMatch match = played(scenarioOf(true), 300);
     for (int i = 0; i < 3000 && wordOf(match, 1, "ADVISOR_STATE") != 2; ++i) match.tick();
     QCOMPARE(wordOf(match, 1, "ADVISOR_STATE"), 2);
-    auto past = std::make_shared<MomentPast>();
-    past->memory = match.robotsMemory();
-    Moment moment;
-    moment.state = match.simulation().state();
-    for (const RobotsMemory::Robot& robot : past->memory->robots) {
-      MomentRobot& known = moment.robots.emplace_back();
-      known.id = robot.id;
-      known.behaviour = robot.behaviour;
-      for (int word = 0; word < Blackboard::words; ++word) {
-        known.words.push_back({word, robot.board[static_cast<std::size_t>(word)]});
-      }
-    }
-    moment.past = past;
+    const Moment moment = momentOf(match);
     std::vector<std::uint64_t> later;
     for (int i = 0; i < 600; ++i) {
       match.tick();

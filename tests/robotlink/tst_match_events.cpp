@@ -8,9 +8,11 @@
 #include <robotlink/frame/ball_sight.h>
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/match/simulated_match.h>
+#include <robotlink/scenario/referee_rule_sets.h>
 #include <robotlink/session/session_events.h>
 #include <telemetry/session/session_writer.h>
 
+#include "../support/match_moment.h"
 #include "../support/robot_keys.h"
 
 namespace tst_match_events {
@@ -201,6 +203,68 @@ class TestMatchEvents : public QObject {
     QCOMPARE(sentenceOf(goal), std::string("goal for ORANGE, 0 : 1"));
     QCOMPARE(labelOf(goal), std::string("goal ORANGE"));
     QCOMPARE(logLineOf(goal).origin, std::string("simulation"));
+  }
+
+  // While the match is paused, too, and each of them once, whatever is done in between.
+  void callsByHandAreReportedAtOnce() {
+    auto match = SimulatedMatch::create(loadScenario("match-3v3").value(), {}).value();
+    sim::Simulation& simulation = match.simulation();
+    QVERIFY(simulation.setReferee(refereeRuleSet("humanoid-2021").value()));
+    (void)taken(match);
+    const auto kindsOf = [](const std::vector<MatchEvent>& events) {
+      std::vector<Kind> kinds;
+      for (const MatchEvent& event : events) kinds.push_back(event.kind);
+      return kinds;
+    };
+    using Kinds = std::vector<Kind>;
+    const auto ready = [&] {
+      return simulation.call(
+          {.kind = sim::CallKind::State, .state = sim::PlayState::Ready, .cause = 7});
+    };
+    const Moment before = momentOf(match);
+    QVERIFY(ready());
+    QCOMPARE(kindsOf(taken(match)), Kinds{Kind::GameState});
+    QVERIFY(taken(match).empty());
+    // Restored, the simulation has no calls: the next one is a new one.
+    QVERIFY(match.restore(before));
+    QVERIFY(ready());
+    QCOMPARE(kindsOf(taken(match)), Kinds{Kind::GameState});
+    simulation.reportChanged(sim::Setting::Noise, 8);
+    simulation.reportUndone(8);
+    simulation.reportChanged(sim::Setting::Noise, 8);
+    const auto told = taken(match);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::SettingChanged, Kind::Undone, Kind::SettingChanged}));
+    QCOMPARE(sentenceOf(told[0]), std::string("noise changed"));
+    QCOMPARE(told[0].cause, std::uint32_t{8});
+    QVERIFY(isMarked(told[0]));
+    // Who looks at the events of the step finds all of them; here they were reported before.
+    simulation.reportUndone(7);
+    match.tick();
+    QVERIFY(simulation.events().size() >= 5);
+    QCOMPARE(kindsOf(taken(match)), Kinds{Kind::Undone});
+  }
+
+  // Undoing something else does not take back the goal that ends the match.
+  void onlyTheGoalsOwnCallTakesItBack() {
+    Scenario scenario = loadScenario("match-3v3").value();
+    scenario.stop = {};
+    scenario.stop.goal = true;
+    scenario.settings.referee = refereeRuleSet("humanoid-2021").value();
+    auto match = SimulatedMatch::create(scenario, {}).value();
+    sim::Simulation& simulation = match.simulation();
+    for (const sim::PlayState state :
+         {sim::PlayState::Ready, sim::PlayState::Set, sim::PlayState::Playing}) {
+      QVERIFY(simulation.call({.kind = sim::CallKind::State, .state = state}));
+    }
+    QVERIFY(simulation.call({.kind = sim::CallKind::Goal, .team = 0, .value = 1, .cause = 5}));
+    match.tick();
+    QCOMPARE(match.finishedBy(), std::string_view("goal"));
+    simulation.reportUndone(6);
+    match.tick();
+    QCOMPARE(match.finishedBy(), std::string_view("goal"));
+    simulation.reportUndone(5);
+    match.tick();
+    QCOMPARE(match.finishedBy(), std::string_view());
   }
 
   void aProcessThatEndsAsItShouldHasNotDied() {

@@ -14,6 +14,7 @@
 #include <robotlink/models/robot_models.h>
 #include <robotlink/rollout/rollouts.h>
 
+#include "../support/match_moment.h"
 #include "game_belief.h"
 #include "opponent_file.h"
 #include "opponent_watch.h"
@@ -69,23 +70,6 @@ constexpr int tickRate = 60;
 
 void play(SimulatedMatch& match, int seconds) {
   for (int i = 0; i < seconds * tickRate; ++i) match.tick();
-}
-
-Moment momentOf(const SimulatedMatch& match) {
-  auto past = std::make_shared<MomentPast>();
-  past->memory = match.robotsMemory();
-  Moment moment;
-  moment.state = match.simulation().state();
-  for (const RobotsMemory::Robot& robot : past->memory->robots) {
-    MomentRobot& known = moment.robots.emplace_back();
-    known.id = robot.id;
-    known.behaviour = robot.behaviour;
-    for (int word = 0; word < Blackboard::words; ++word) {
-      known.words.push_back({word, robot.board[static_cast<std::size_t>(word)]});
-    }
-  }
-  moment.past = past;
-  return moment;
 }
 
 /// A robot that sees everything.

@@ -10,18 +10,18 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include <base/angles.h>
 #include <base/random.h>
 #include <robotlink/capi/rollout_rows.h>
 #include <robotlink/match/moment.h>
-#include <robotlink/match/robots_memory.h>
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/models/noise_presets.h>
 #include <robotlink/models/robot_models.h>
 #include <simcore/world/published_frame.h>
+
+#include "match_moment.h"
 
 namespace pitchboard::tests {
 
@@ -90,21 +90,7 @@ struct Situation {
 
 inline Situation situationOf(const link::SimulatedMatch& match) {
   Situation made;
-  made.moment.state = match.simulation().state();
-  for (const auto& slot : match.robots().all()) {
-    link::MomentRobot robot;
-    robot.id = slot->id;
-    robot.behaviour = slot->behaviour;
-    std::array<std::uint32_t, link::Blackboard::words> words;
-    slot->board.copyWords(words);
-    for (int word = 0; word < link::Blackboard::words; ++word) {
-      robot.words.push_back({word, words[static_cast<std::size_t>(word)]});
-    }
-    made.moment.robots.push_back(std::move(robot));
-  }
-  auto past = std::make_shared<link::MomentPast>();
-  past->memory = match.robotsMemory();
-  made.moment.past = std::move(past);
+  made.moment = link::momentOf(match);
 
   const auto& bodies = std::get<sim::RigidBodyState>(made.moment.state.physics);
   for (const sim::RigidRobot& robot : bodies.robots) {

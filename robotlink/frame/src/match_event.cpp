@@ -72,6 +72,8 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
      true, ""},
     {Kind::PortLost, "port-lost", "cannot be received", Shape::None, 0, false, true, "network"},
     {Kind::PortBack, "port-back", "is open now", Shape::None, 0, false, false, "network"},
+    {Kind::SettingChanged, "setting-changed", "settings changed", Shape::GameState, 2, false, false,
+     "studio"},
     {Kind::Undone, "undone", "decision undone", Shape::None, 0, false, false, "referee"},
     {Kind::Bookmark, "bookmark", "bookmark", Shape::Bookmark, 10, true, false, "studio"},
     {Kind::Other, "warning", "warning", Shape::Warning, 5, false, true, "session"},
@@ -173,6 +175,8 @@ std::string predicateOf(const MatchEvent& event) {
       return event.detail.empty() ? "stopped" : predicateWithDetail(event);
     case Kind::ProcessNotAttached:
       return predicateWithDetail(event, " ");
+    case Kind::SettingChanged:
+      return event.detail.empty() ? std::string(info(event.kind).predicate) : event.detail + " changed";
     case Kind::PortLost:
       return event.detail + " Trying again; the other ports work.";
     case Kind::PortBack:
@@ -239,11 +243,17 @@ std::string sideWithBall(const sim::WorldState& state) {
 
 /// What an event of the simulation is here, in the order of sim::EventKind.
 constexpr std::array kindOfSimulated{
-    Kind::Goal,          Kind::BallOut,        Kind::Kick,      Kind::Fall,        Kind::GotUp,
-    Kind::UnknownAction, Kind::ScoreCorrected, Kind::GameState, Kind::Half,        Kind::GamePhase,
-    Kind::SetPlay,       Kind::SetPlay,        Kind::SetPlay,   Kind::PlayStopped, Kind::PlayGoesOn,
-    Kind::Penalised,     Kind::PenaltyOver,    Kind::GamePhase, Kind::Undone};
+    Kind::Goal,        Kind::BallOut,       Kind::Kick,           Kind::Fall,
+    Kind::GotUp,       Kind::UnknownAction, Kind::ScoreCorrected, Kind::GameState,
+    Kind::Half,        Kind::GamePhase,     Kind::SetPlay,        Kind::SetPlay,
+    Kind::SetPlay,     Kind::PlayStopped,   Kind::PlayGoesOn,     Kind::Penalised,
+    Kind::PenaltyOver, Kind::GamePhase,     Kind::SettingChanged, Kind::Undone};
 static_assert(kindOfSimulated.size() == static_cast<std::size_t>(sim::EventKind::Undone) + 1);
+
+/// In the order of sim::Setting.
+constexpr const char* settingLabels[] = {"noise", "physics", "rules", "score and clock"};
+static_assert(std::size(settingLabels) ==
+              static_cast<std::size_t>(sim::Setting::ScoreAndClock) + 1);
 
 }  // namespace
 
@@ -286,6 +296,9 @@ MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state) {
       break;
     case sim::EventKind::Penalised:
       out.detail = labelOf(static_cast<sim::PenaltyKind>(event.value));
+      break;
+    case sim::EventKind::SettingChanged:
+      out.detail = settingLabels[event.value];
       break;
     case sim::EventKind::FinalWhistle:
       out.detail = "final whistle";

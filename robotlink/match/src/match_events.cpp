@@ -23,8 +23,15 @@ void MatchEvents::add(MatchEvent event) {
   m_events.push_back(std::move(event));
 }
 
+void MatchEvents::called(sim::Simulation& simulation) {
+  for (const sim::Event& event : simulation.takeCalled())
+    add(matchEvent(event, simulation.state()));
+}
+
 void MatchEvents::stepped(const sim::Simulation& simulation) {
-  for (const sim::Event& event : simulation.events()) add(matchEvent(event, simulation.state()));
+  for (const sim::Event& event : simulation.untakenEvents()) {
+    add(matchEvent(event, simulation.state()));
+  }
 }
 
 void MatchEvents::sensed(const sim::WorldState& state, std::span<const sim::Percepts> percepts,

@@ -23,6 +23,9 @@ namespace pitchboard::link {
 class MatchEvents {
  public:
   MatchEvents() { m_events.reserve(mostKept); }  // ticks allocate nothing
+  /// Between steps: makes events of the referee's calls since the last step, so that they are
+  /// reported while the match is paused, too.
+  void called(sim::Simulation& simulation);
   /// Right after a step.
   void stepped(const sim::Simulation& simulation);
   /// The same, with what robots sensed in it, in their order; `again`: its events were reported

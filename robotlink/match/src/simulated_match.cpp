@@ -158,7 +158,8 @@ void SimulatedMatch::Parts::followSides() {
 void SimulatedMatch::Parts::followJump() {
   base.writes.jumpTo(base.tick());
   lockStep.jump();
-  goalSeen = outSeen = false;
+  goalCause.reset();
+  outSeen = false;
   events.forgetSight();
 }
 
@@ -179,8 +180,8 @@ void SimulatedMatch::Parts::advance(bool again) {
   if (!again) events.stepped(base.simulation);
   events.sensed(base.simulation.state(), base.percepts, again);
   for (const sim::Event& event : base.simulation.events()) {
-    if (event.kind == sim::EventKind::Undone) goalSeen = false;
-    goalSeen = goalSeen || event.kind == sim::EventKind::Goal;
+    if (event.kind == sim::EventKind::Undone && goalCause == event.cause) goalCause.reset();
+    if (event.kind == sim::EventKind::Goal) goalCause = event.cause;
     outSeen = outSeen || event.kind == sim::EventKind::BallOut;
   }
   for (std::size_t i = 0; i < slots.all().size(); ++i) {
@@ -198,7 +199,7 @@ void SimulatedMatch::Parts::advance(bool again) {
 std::string_view SimulatedMatch::finishedBy() const {
   const sim::WorldState& state = simulation().state();
   const StopConditions& stop = scenario().stop;
-  if (stop.goal && m_parts->goalSeen) return "goal";
+  if (stop.goal && m_parts->goalCause) return "goal";
   if (stop.ballOut && m_parts->outSeen) return "ball_out";
   if (stop.duration && state.tick >= firstTickAtOrAfter(*stop.duration, m_parts->base.tickRate())) {
     return "duration";
@@ -221,6 +222,7 @@ bool SimulatedMatch::nobodyPlays() const {
 
 void SimulatedMatch::takeEvents(std::vector<MatchEvent>& out) {
   MatchEvents& events = m_parts->events;
+  events.called(simulation());
   events.look(simulation().state(), finishedBy());
   events.takeNews(simulation().state(), robots().processes().takeNews());
   events.take(out);

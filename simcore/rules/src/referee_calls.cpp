@@ -82,6 +82,7 @@ void RefereeTable::carryOut(const RefereeCall& call) {
       break;
     case CallKind::Automatic:
       m_world.settings.referee->automatic = call.value != 0;
+      report(EventKind::SettingChanged, static_cast<int>(Setting::Rules));
       break;
   }
 }

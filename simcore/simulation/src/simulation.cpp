@@ -93,6 +93,7 @@ void Simulation::step(std::span<const RobotCommand> commands, std::span<Percepts
   assert(commands.size() == robotCount() && percepts.size() == robotCount());
   m_events.clear();
   m_events.swap(m_called);
+  m_eventsTaken = std::exchange(m_calledTaken, 0);
   const BallSweep sweep = m_model->move(m_state, commands, percepts, m_events);
   if (m_state.game) {
     snapshot(m_seen);
@@ -121,6 +122,15 @@ Result<void> Simulation::call(const RefereeCall& call) {
   TRY(callReferee(m_state, m_seen, call, m_placements, m_called));
   carryOut();
   return {};
+}
+
+std::span<const Event> Simulation::takeCalled() {
+  return std::span(m_called).subspan(std::exchange(m_calledTaken, m_called.size()));
+}
+
+void Simulation::reportChanged(Setting setting, std::uint32_t cause) {
+  m_called.push_back(
+      {EventKind::SettingChanged, m_state.tick, {}, static_cast<int>(setting), cause});
 }
 
 void Simulation::reportUndone(std::uint32_t cause) {
@@ -184,6 +194,7 @@ Result<void> Simulation::restore(const WorldState& state) {
   m_model = std::move(model);
   m_events.clear();
   m_called.clear();
+  m_eventsTaken = m_calledTaken = 0;
   return {};
 }
 

@@ -49,7 +49,8 @@ class TestNumberBox : public QObject {
     QTest::keyClicks(&box, typed);
     QTest::keyClick(&box, Qt::Key_Return);
     QCOMPARE(box.value(), value);
-    QCOMPARE(box.text(), QString::number(value, 'f', 2) + QStringLiteral(" m"));
+    const QString shown = QString::number(value, 'f', 2).replace(QLatin1Char('-'), QChar(0x2212));
+    QCOMPARE(box.text(), shown + QStringLiteral(" m"));
   }
 
   void aCopiedMinusSignIsUnderstood() {

@@ -326,6 +326,32 @@ class TestTheme : public QObject {
     frame.referee->secondsLeft = -3;
     QCOMPARE(scoreboardOf(frame).clock, QStringLiteral("00:00"));
   }
+
+  void theStateDropsWordsBeforeNumbers() {
+    link::MatchFrame frame;
+    frame.origin = link::FrameOrigin::Simulated;
+    frame.paused = true;
+    link::RefereeView& view = frame.referee.emplace();
+    view.state = "PLAYING";
+    view.setPlay = "corner kick";
+    view.performingTeam = 1;
+    view.countdown = "placement";
+    view.secondaryTime = 8;
+    const ScoreboardState board = scoreboardOf(frame);
+    QCOMPARE(board.state, QStringLiteral("PLAYING · corner kick 1 · 8 s · paused"));
+    const QFontMetricsF metrics(themeFont(TypeRole::Secondary, true));
+    QStringList shown;
+    for (double width = metrics.horizontalAdvance(board.state) + 1;
+         width > metrics.horizontalAdvance(QStringLiteral("PLAYING · 8 s")); width -= 1.0) {
+      const QString text = stateText(board, metrics, width);
+      QVERIFY(metrics.horizontalAdvance(text) <= width);
+      if (shown.isEmpty() || shown.last() != text) shown << text;
+    }
+    const QStringList wanted{board.state, QStringLiteral("PLAYING · corner kick 1 · 8 s"),
+                             QStringLiteral("PLAYING · corner kick · 8 s"),
+                             QStringLiteral("PLAYING · 8 s")};
+    QCOMPARE(shown, wanted);
+  }
 };
 
 PITCHBOARD_GUI_TEST(TestTheme)

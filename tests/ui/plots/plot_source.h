@@ -22,7 +22,7 @@ class PlotSource : public FrameSource {
  public:
   PlotSource() { restart(); }
   SourceKind kind() const override { return SourceKind::Simulate; }
-  FramePtr frame() const override { return {}; }
+  FramePtr frame() const override { return shown; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override { return store; }
   QString emptyText() const override { return {}; }
 
@@ -68,6 +68,7 @@ class PlotSource : public FrameSource {
   static double distanceAt(double time) { return 100.0 + 50.0 * std::sin(time); }
 
   std::shared_ptr<telemetry::SeriesStore> store;
+  FramePtr shown;
 };
 
 /// What a dock gets, without a window.

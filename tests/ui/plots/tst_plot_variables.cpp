@@ -186,6 +186,40 @@ class TestPlotVariables : public QObject {
     QCOMPARE(shown().front(), QStringLiteral("DIST B2"));
   }
 
+  // Received before ours, a guest was the first plot, and stayed it.
+  void guestsGiveWayToOurFirstRobot() {
+    PlotBench bench;
+    const auto frameOf = [](const std::vector<std::pair<const char*, RobotKey>>& robots) {
+      auto frame = std::make_shared<link::MatchFrame>();
+      frame->teams = {{}, {12, "RoboFEI", TeamColor::Blue, true}, {7, "", TeamColor::Red, false}};
+      for (const auto& [name, key] : robots) {
+        link::RobotFrame& robot = frame->robots.emplace_back();
+        robot.name = name;
+        robot.key = key;
+      }
+      return frame;
+    };
+    const auto guest = bench.source.addRobot("R1");
+    bench.source.shown = frameOf({{"R1", {2, 1, 0}}});
+    PlotsDock dock(bench.context(), nullptr);
+    dock.resize(800, 300);
+    dock.show();
+    PaneSpec chart;
+    chart.curves << variableCurve(QStringLiteral("first/DIST"));
+    dock.setLayoutSpec({{{QStringLiteral("one"), {chart}}}, 0});
+    for (double time = 0.0; time < 5.0; time += 0.1) bench.source.append(guest, time, 0, time);
+    dock.feed()->refresh();
+    QTRY_COMPARE(namesOf(dock.currentPage()->panes()[0]), QStringList(QStringLiteral("DIST R1")));
+    const auto ours = bench.source.addRobot("B2");
+    bench.source.shown = frameOf({{"R1", {2, 1, 0}}, {"B2", {1, 2, 0}}});
+    for (double time = 5.0; time < 8.0; time += 0.1) {
+      bench.source.append(guest, time, 0, time);
+      bench.source.append(ours, time, 0, 2.0 * time);
+    }
+    dock.feed()->refresh();
+    QTRY_COMPARE(namesOf(dock.currentPage()->panes()[0]), QStringList(QStringLiteral("DIST B2")));
+  }
+
   void namesAreCompletedInExpressions() {
     Bench b({QStringLiteral("B1"), QStringLiteral("Robot 7")});
     CurveDialog dialog(b.dock->feed(), expression({}), nullptr);

@@ -99,6 +99,24 @@ class TestXyPlots : public QObject {
     QCOMPARE(curveName(pair), QStringLiteral("TRUE_Y B2 over TRUE_X B1"));
   }
 
+  // The axes named the first robot, whatever the others were.
+  void theAxesNameWhatAllCurvesShow() {
+    Bench b({QStringLiteral("B1"), QStringLiteral("R2")});
+    PaneSpec spec;
+    spec.kind = PaneKind::Xy;
+    for (const char* group : {"B1", "R2"}) {
+      const QString name = QString::fromUtf8(group);
+      spec.curves << variableCurve(name + QStringLiteral("/DIST"));
+      spec.curves.back().inputs << name + QStringLiteral("/ANGLE");
+    }
+    b.dock->setLayoutSpec({{PageSpec{QStringLiteral("one"), {spec}}}, 0});
+    const auto* xy = qobject_cast<XyPane*>(b.dock->currentPage()->panes()[0]);
+    QVERIFY(xy);
+    QTRY_COMPARE(xy->titles(), (std::pair{QStringLiteral("DIST"), QStringLiteral("ANGLE")}));
+    // They are whole: the plot is high enough for them.
+    QVERIFY(xy->surface()->height() >= 150);
+  }
+
   void anXyPlotHasEqualScales() {
     Bench b;
     PaneSpec spec;

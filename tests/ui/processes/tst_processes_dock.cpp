@@ -199,10 +199,14 @@ class TestProcessesDock : public QObject {
     m_controller->edits()->setLocked(true);
     QTRY_VERIFY(asNow->isVisible());
     const pid_t last = process("decision").pid;
-    choose("decision", QStringLiteral("Stop decision of B1"));
-    choose("decision", QStringLiteral("Restart decision of B1"));
-    choose("decision", QStringLiteral("Kill decision of B1"));
-    QCOMPARE(m_told, QStringList{MatchEdits::lockedText()});
+    const QModelIndex index = m_table->model()->index(row("decision"), ProcessesModel::Process);
+    const QPoint at = m_table->visualRect(index).center();
+    QTest::mouseClick(m_table->viewport(), Qt::LeftButton, {}, at);
+    QVERIFY(!m_table->selectionModel()->hasSelection());
+    QContextMenuEvent rightClick(QContextMenuEvent::Mouse, at,
+                                 m_table->viewport()->mapToGlobal(at));
+    QApplication::sendEvent(m_table->viewport(), &rightClick);
+    QVERIFY(QApplication::activePopupWidget() == nullptr);
     const double then = now();
     QTRY_VERIFY(now() > then + 0.5);
     QVERIFY(runs("decision"));

@@ -158,7 +158,14 @@ class TestRefereeRules : public QObject {
     QTRY_COMPARE(desk.frame().refereeRules, rules == 0 ? std::string() : name);
     if (rules != 0) QCOMPARE(scoreboardOf(desk.frame()).right, 0);
     QTRY_COMPARE(stack->count(), steps + 1);
+    const auto told = [&desk] {
+      return std::ranges::count_if(desk.timeline.events()->events(), [](const auto& event) {
+        return event.kind == link::MatchEventKind::SettingChanged && event.detail == "rules";
+      });
+    };
+    QTRY_COMPARE(told(), 1);
     stack->undo();
+    QTRY_COMPARE(told(), 0);
     QTRY_COMPARE(desk.frame().refereeRules, std::string("humanoid-2021"));
     QCOMPARE(desk.controller.stateHash(), hash);
     QCOMPARE(scoreboardOf(desk.frame()).clock, scoreboardOf(before).clock);
@@ -182,6 +189,10 @@ class TestRefereeRules : public QObject {
     automatic->click();
     QTRY_VERIFY(desk.frame().refereedGame->rules.automatic);
     QTRY_COMPARE(desk.undo()->count(), 1);
+    const auto& events = desk.timeline.events()->events();
+    QTRY_COMPARE(
+        std::ranges::count(events, link::MatchEventKind::SettingChanged, &link::MatchEvent::kind),
+        1);
     desk.undo()->undo();
     QTRY_VERIFY(!desk.frame().refereedGame->rules.automatic);
     QTRY_VERIFY(!automatic->isChecked());

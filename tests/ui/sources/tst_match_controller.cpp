@@ -414,6 +414,9 @@ class TestMatchController : public QObject {
     QSignalSpy errors(&c, &MatchController::errorOccurred);
     c.open(match(), true);
     QTRY_COMPARE(errors.count(), 1);
+    const QString told = errors.first().first().toString();
+    QVERIFY2(told.contains("/nonexistent/pitchboard-robot"), qPrintable(told));
+    QVERIFY2(!told.contains("other program, then"), qPrintable(told));
     QCOMPARE(c.cognition(), link::Cognition::Inline);
     QTRY_COMPARE(count(c), std::size_t(6));
   }

@@ -287,6 +287,21 @@ class TestSafeHands : public QObject {
     QTRY_COMPARE(preset->currentText(), QStringLiteral("none"));
     QTRY_COMPARE(stack->count(), 1);
     QCOMPARE(stack->undoText(), QStringLiteral("Change the noise"));
+    // It leaves a trace, also while the match stands still: on the timeline, in the log, in files.
+    const auto marked = [&s](const char* what) {
+      return std::ranges::count_if(s.timeline()->events()->events(), [what](const auto& event) {
+        return event.kind == link::MatchEventKind::SettingChanged && event.detail == what &&
+               link::isMarked(event);
+      });
+    };
+    QTRY_COMPARE(marked("noise"), 1);
+    const auto* log = s.find<QDockWidget>("log")->findChild<QTableView*>()->model();
+    const auto said = log->match(log->index(0, 2), Qt::DisplayRole, QStringLiteral("noise changed"),
+                                 -1, Qt::MatchExactly);
+    QCOMPARE(said.size(), 1);
+    const QPersistentModelIndex line = said.first();
+    const auto isStruck = [&line] { return line.data(Qt::FontRole).value<QFont>().strikeOut(); };
+    QVERIFY(!isStruck());
     s.controller.runTo(360);
     QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(360));
     s.timeline()->seek(1.0);
@@ -296,6 +311,12 @@ class TestSafeHands : public QObject {
     stack->undo();
     QTRY_VERIFY(s.controller.frame()->settings->noise == noise);
     QTRY_COMPARE(preset->currentText(), before);
+    QTRY_COMPARE(marked("noise"), 0);
+    QVERIFY(isStruck());
+    stack->redo();
+    QTRY_COMPARE(marked("noise"), 1);
+    stack->undo();
+    QTRY_COMPARE(marked("noise"), 0);
 
     sim::RigidBodySettings heavy = s.controller.frame()->settings->rigidBody;
     const double usual = heavy.ballMass;
@@ -303,8 +324,18 @@ class TestSafeHands : public QObject {
     s.controller.edits()->setRigidBody(heavy);
     QTRY_COMPARE(s.controller.frame()->settings->rigidBody.ballMass, 0.4);
     QTRY_COMPARE(stack->index(), 1);
+    QTRY_COMPARE(marked("physics"), 1);
+    // A control that is moved is one step and one event.
+    for (const double mass : {0.41, 0.42, 0.43}) {
+      heavy.ballMass = mass;
+      s.controller.edits()->setRigidBody(heavy);
+    }
+    QTRY_COMPARE(s.controller.frame()->settings->rigidBody.ballMass, 0.43);
+    QTRY_COMPARE(stack->index(), 1);
+    QCOMPARE(marked("physics"), 1);
     stack->undo();
     QTRY_COMPARE(s.controller.frame()->settings->rigidBody.ballMass, usual);
+    QTRY_COMPARE(marked("physics"), 0);
     // What the match refuses is no step.
     heavy.ballMass = -1.0;
     s.controller.edits()->setRigidBody(heavy);
@@ -322,8 +353,14 @@ class TestSafeHands : public QObject {
     s.controller.edits()->resetScore();
     QTRY_COMPARE(s.controller.frame()->snapshot.clock, 0.0);
     QTRY_COMPARE(stack->count(), 1);
+    QTRY_COMPARE(marked("score and clock"), 1);
     stack->undo();
     QTRY_COMPARE(s.controller.frame()->snapshot.clock, clock);
+    QTRY_COMPARE(marked("score and clock"), 0);
+    s.controller.edits()->setPhysics(QStringLiteral("published"));
+    QTRY_COMPARE(marked("physics"), 1);
+    stack->undo();
+    QTRY_COMPARE(marked("physics"), 0);
   }
 
   void nothingActsOnTheMatchWhileThePastIsShown() {

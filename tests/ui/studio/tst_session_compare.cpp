@@ -2,8 +2,10 @@
 // A second session beside the one that is shown.
 #include <QContextMenuEvent>
 #include <QGraphicsView>
+#include <QHelpEvent>
 #include <QMenu>
 #include <QToolButton>
+#include <QToolTip>
 #include <chrono>
 #include <utility>
 
@@ -523,6 +525,14 @@ class TestSessionCompare : public QObject {
     QTRY_VERIFY(pane->traces()[0].coarse && pane->traces()[0].columns.size() > 100);
     QTRY_COMPARE(pane->captions(),
                  QStringList(QStringLiteral("envelope: zoom in to see every sample")));
+    const auto tipAt = [pane](QPoint at) {
+      QHelpEvent help(QEvent::ToolTip, at, pane->surface()->mapToGlobal(at));
+      QCoreApplication::sendEvent(pane->surface(), &help);
+      return QToolTip::text();
+    };
+    const QPoint mark(pane->surface()->width() - 60, 14);
+    QVERIFY2(tipAt(mark).contains(QStringLiteral("memory limit")), qPrintable(tipAt(mark)));
+    QToolTip::hideText();
     const auto band = pane->surface()->grab().toImage();
     // Rows say that they have come, whoever looks.
     QSignalSpy came(s.window.replay(), &FrameSource::rowsCame);

@@ -7,6 +7,7 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSlider>
+#include <QTabBar>
 #include <QTextEdit>
 #include <QToolBar>
 #include <QToolButton>
@@ -212,6 +213,50 @@ class TestWindowLayout : public QObject {
       QVERIFY2(!inFront("variables"), name);
       QVERIFY(s.find<QDockWidget>(name)->height() > s.window.height() / 3);
     }
+  }
+
+  void tabNamesAreWholeInANarrowWindow() {
+    Studio s({960, 600});
+    s.play();
+    for (const char* name : {"noise", "explore", "referee"}) {
+      s.find<QDockWidget>(name)->toggleViewAction()->trigger();
+      QTRY_VERIFY(!s.find<QDockWidget>(name)->isHidden());
+    }
+    const auto row = [&s]() -> QTabBar* {
+      for (QTabBar* bar : s.window.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+        for (int i = 0; i < bar->count(); ++i) {
+          if (bar->tabText(i) == QStringLiteral("Referee") && bar->isVisible()) return bar;
+        }
+      }
+      return nullptr;
+    };
+    QTRY_VERIFY(row() != nullptr && row()->count() == 4);
+    const auto whole = [&row] {
+      for (int i = 0; i < row()->count(); ++i) {
+        const QString text = row()->tabText(i);
+        if (row()->tabRect(i).width() < row()->fontMetrics().horizontalAdvance(text)) return false;
+      }
+      return row()->elideMode() == Qt::ElideNone;
+    };
+    QTRY_VERIFY(whole());
+    // The chosen one is in sight.
+    QTRY_COMPARE(row()->tabText(row()->currentIndex()), QStringLiteral("Referee"));
+    QVERIFY(row()->rect().contains(row()->tabRect(row()->currentIndex()).center()));
+  }
+
+  // The panel that stayed behind had neither a tab nor a title.
+  void whoStaysBehindAFloatingPanelHasItsTitle() {
+    Studio s;
+    s.play();
+    auto* referee = s.find<QDockWidget>("referee");
+    auto* variables = s.find<QDockWidget>("variables");
+    referee->toggleViewAction()->trigger();
+    QTRY_VERIFY(!referee->isHidden() && !variables->titleBarWidget()->isVisible());
+    referee->setFloating(true);
+    QTRY_VERIFY(variables->titleBarWidget()->isVisible());
+    QVERIFY(referee->titleBarWidget()->isVisible());
+    // It has a frame, by which it is told from the window.
+    QTRY_COMPARE(referee->grab().toImage().pixelColor(0, referee->height() / 2), theme().outerEdge);
   }
 
   void aNoticeIsAsHighAsItsWords() {

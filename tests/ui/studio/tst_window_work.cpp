@@ -211,6 +211,9 @@ class TestWindowWork : public QObject {
     QVERIFY(bar->rect().contains(words->geometry()));
     QVERIFY(bar->parentWidget()->rect().contains(bar->geometry()));
     QVERIFY(words->document()->size().height() <= words->height() + 1.0);
+    QVERIFY2(words->height() <= 2 * words->fontMetrics().lineSpacing() + 2,
+             qPrintable(QString::number(words->height())));
+    QCOMPARE(words->toolTip(), words->toPlainText() == text ? QString() : text);
     QVERIFY(words->document()->size().width() <= words->width() + 1.0);
   }
 

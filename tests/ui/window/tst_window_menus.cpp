@@ -163,7 +163,7 @@ class TestWindowMenus : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(s.controller.frame()->snapshot.tick, std::uint64_t(12 + 9 * 60),
                               60'000);
     QVERIFY(isGiven());
-    s.controller.runTo(12 + 25 * 60);
+    s.controller.runTo(12 + 11 * 60);
     QTRY_VERIFY_WITH_TIMEOUT(!isGiven(), 60'000);
   }
 

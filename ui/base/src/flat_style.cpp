@@ -191,10 +191,12 @@ int FlatStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidg
 int FlatStyle::pixelMetric(PixelMetric metric, const QStyleOption* option,
                            const QWidget* widget) const {
   if (metric == PM_ToolBarExtensionExtent) return scaled(widget, 16);
+  if (metric == PM_DockWidgetFrameWidth) return 1;
   return QProxyStyle::pixelMetric(metric, option, widget);
 }
 
-// Qt's own arrow of a bar whose buttons have no room is black, also on dark.
+// Qt's own arrow of a bar whose buttons have no room is black, also on dark. A floating card has
+// the buttons of the panels (DockTitle).
 QIcon FlatStyle::standardIcon(StandardPixmap icon, const QStyleOption* option,
                               const QWidget* widget) const {
   if (icon == SP_ToolBarHorizontalExtensionButton) {
@@ -203,6 +205,8 @@ QIcon FlatStyle::standardIcon(StandardPixmap icon, const QStyleOption* option,
   if (icon == SP_ToolBarVerticalExtensionButton) {
     return themedIcon(QStringLiteral("arrow-down-double"));
   }
+  if (icon == SP_TitleBarNormalButton) return themedIcon(QStringLiteral("window-restore"));
+  if (icon == SP_TitleBarCloseButton) return themedIcon(QStringLiteral("window-close"));
   return QProxyStyle::standardIcon(icon, option, widget);
 }
 

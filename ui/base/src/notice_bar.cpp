@@ -19,9 +19,12 @@ namespace pitchboard::ui {
 namespace {
 constexpr std::size_t maxNotices = 20;
 constexpr int successMilliseconds = 8000;
+constexpr int mostLines = 2;
+constexpr int leastText = 320;  // px of the mock, beside the buttons
 }  // namespace
 
-/// A label that also breaks inside of a word: a path can be longer than the strip is wide.
+/// A label that also breaks inside of a word, because a path can be longer than the strip is wide.
+/// What does not fit into its lines is left out and stands in the tool tip.
 class NoticeBar::Text : public QTextEdit {
  public:
   explicit Text(QWidget* parent) : QTextEdit(parent) {
@@ -38,21 +41,61 @@ class NoticeBar::Text : public QTextEdit {
     policy.setHeightForWidth(true);
     setSizePolicy(policy);
   }
+  void setSentence(const QString& sentence) {
+    m_sentence = sentence;
+    fit();
+    updateGeometry();
+  }
   QSize sizeHint() const override {
-    const int wide = fontMetrics().horizontalAdvance(toPlainText());
-    return {wide, fontMetrics().lineSpacing()};
+    return {fontMetrics().horizontalAdvance(m_sentence), fontMetrics().lineSpacing()};
   }
   QSize minimumSizeHint() const override { return {scaled(this, 60), fontMetrics().lineSpacing()}; }
   bool hasHeightForWidth() const override { return true; }
   int heightForWidth(int width) const override {
+    return std::min(heightOf(m_sentence, width), mostHeight());
+  }
+  bool fitsInto(int width) const { return heightOf(m_sentence, width) <= mostHeight(); }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QTextEdit::resizeEvent(event);
+    fit();
+  }
+
+ private:
+  int heightOf(const QString& text, int width) const {
     QTextDocument laidOut;
     laidOut.setDefaultFont(font());
     laidOut.setDocumentMargin(0);
     laidOut.setDefaultTextOption(document()->defaultTextOption());
-    laidOut.setPlainText(toPlainText());
+    laidOut.setPlainText(text);
     laidOut.setTextWidth(width);
     return static_cast<int>(std::ceil(laidOut.size().height()));
   }
+  int mostHeight() const {
+    return heightOf(QString(mostLines - 1, QLatin1Char('\n')), QWIDGETSIZE_MAX);
+  }
+  QString shortened() const {
+    const int width = viewport()->width();
+    if (fitsInto(width)) return m_sentence;
+    const auto cut = [this](qsizetype length) {
+      return m_sentence.left(length).trimmed() + QChar(0x2026);
+    };
+    qsizetype fits = 0, tooLong = m_sentence.size();
+    while (tooLong - fits > 1) {
+      const qsizetype middle = (fits + tooLong) / 2;
+      (heightOf(cut(middle), width) <= mostHeight() ? fits : tooLong) = middle;
+    }
+    const qsizetype space = m_sentence.lastIndexOf(QLatin1Char(' '), fits);
+    return cut(space > fits / 2 ? space : fits);
+  }
+  void fit() {
+    const QString shown = shortened();
+    if (shown != toPlainText()) setPlainText(shown);
+    setToolTip(shown == m_sentence ? QString() : m_sentence);
+  }
+
+  QString m_sentence;
 };
 
 NoticeBar::NoticeBar(QWidget* parent)
@@ -83,9 +126,10 @@ NoticeBar::NoticeBar(QWidget* parent)
 }
 
 void NoticeBar::floatOver(QWidget* host) {
-  setParent(host);
-  m_floats = true;
+  setParent(host->window());
+  m_host = host;
   host->installEventFilter(this);
+  host->window()->installEventFilter(this);
   place();
 }
 
@@ -100,19 +144,28 @@ bool NoticeBar::event(QEvent* event) {
 }
 
 bool NoticeBar::eventFilter(QObject* watched, QEvent* event) {
-  if (m_floats && watched == parent() && event->type() == QEvent::Resize) place();
+  if (event->type() == QEvent::Resize || event->type() == QEvent::Move) place();
   return QFrame::eventFilter(watched, event);
 }
 
 void NoticeBar::place() {
-  const QWidget* host = parentWidget();
-  if (!m_floats || host == nullptr) return;
-  const int wide = host->width();
-  arrange(wide);
+  if (m_host == nullptr) return;
+  QRect over(m_host->mapTo(parentWidget(), QPoint()), m_host->size());
+  // A text that is too long for the field's width gets that of the window.
+  const QMargins margins = m_row->contentsMargins();
+  const int beside =
+      margins.left() + m_row->spacing() + m_side->sizeHint().width() + margins.right();
+  const bool isNarrow = over.width() - beside < scaled(this, leastText);
+  if (m_text->sizeHint().width() > over.width() - beside &&
+      (isNarrow || !m_text->fitsInto(over.width() - beside))) {
+    over.setLeft(0);
+    over.setWidth(parentWidget()->width());
+  }
+  arrange(over.width());
   // The hint alone is that of a label as high as it is wide.
-  const int lines = heightForWidth(wide);
-  const int high = std::min(lines > 0 ? lines : sizeHint().height(), host->height());
-  setGeometry(0, host->height() - high, wide, high);
+  const int lines = heightForWidth(over.width());
+  const int high = std::min(lines > 0 ? lines : sizeHint().height(), over.height());
+  setGeometry(over.left(), over.bottom() + 1 - high, over.width(), high);
   raise();
 }
 
@@ -121,8 +174,7 @@ void NoticeBar::arrange(int width) {
   const int room = width - m_row->contentsMargins().left() - m_row->contentsMargins().right();
   m_buttons->setDirection(QBoxLayout::LeftToRight);
   const int wide = m_side->sizeHint().width();
-  const int least = scaled(this, 320);
-  const int text = std::min(m_text->sizeHint().width(), least);
+  const int text = std::min(m_text->sizeHint().width(), scaled(this, leastText));
   const bool below = text + m_row->spacing() + wide > room;
   m_row->setDirection(below ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
   if (wide > room) m_buttons->setDirection(QBoxLayout::TopToBottom);
@@ -174,8 +226,7 @@ void NoticeBar::present() {
     m_leaving->start();
   else
     m_leaving->stop();
-  m_text->setPlainText(notice.sentence);
-  m_text->updateGeometry();
+  m_text->setSentence(notice.sentence);
   m_more->setText(m_notices.size() > 1 ? QStringLiteral("%1 more").arg(m_notices.size() - 1)
                                        : QString());
   m_more->setVisible(m_notices.size() > 1);

@@ -7,10 +7,11 @@
 namespace pitchboard::ui {
 namespace {
 
+constexpr QChar minus(0x2212);
+
 /// As QLocale::c() reads numbers; as long as before.
 QString plain(QString number) {
-  return number.replace(QLatin1Char(','), QLatin1Char('.'))
-      .replace(QChar(0x2212), QLatin1Char('-'));
+  return number.replace(QLatin1Char(','), QLatin1Char('.')).replace(minus, QLatin1Char('-'));
 }
 
 }  // namespace
@@ -46,9 +47,16 @@ std::optional<double> NumberBox::beyondRange(const QString& input) const {
              : std::nullopt;
 }
 
+QString NumberBox::textFromValue(double value) const {
+  return QDoubleSpinBox::textFromValue(value).replace(QLatin1Char('-'), minus);
+}
+
 QValidator::State NumberBox::validate(QString& input, int& position) const {
-  input = withPoint(input);
-  const QValidator::State state = QDoubleSpinBox::validate(input, position);
+  QString plainInput = withPoint(input);
+  const QValidator::State state = QDoubleSpinBox::validate(plainInput, position);
+  // Whatever was typed is shown as everywhere else.
+  input = plainInput;
+  if (input.startsWith(QLatin1Char('-'))) input[0] = minus;
   return state == QValidator::Invalid && beyondRange(input) ? QValidator::Intermediate : state;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <robotlink/frame/match_result.h>
+#include <ui/base/elide_text.h>
 #include <ui/base/referee_text.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
@@ -82,24 +83,32 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   state.right = view.teams[1].score;
   // It counts down to the end of the half; how long that is past is no time of play.
   state.clock = clockText(std::max(view.secondsLeft, 0));
-  state.state = QString::fromStdString(view.state);
   const std::string& more = !view.setPlay.empty() ? view.setPlay : view.phase;
-  if (view.timedOut) {
-    state.state = QStringLiteral("REFEREE OFFLINE");
-  } else if (view.stopped) {
-    state.state += QStringLiteral(" · ") + QStringLiteral("stopped");
-  } else if (!more.empty()) {
-    state.state += QStringLiteral(" · ") + QString::fromStdString(more);
+  QString play, team, countdown;  // beside the state
+  if (view.stopped && !view.timedOut) {
+    play = QStringLiteral("stopped");
+  } else if (!more.empty() && !view.timedOut) {
+    play = QString::fromStdString(more);
     if (!view.setPlay.empty() && view.performingTeam) {
-      state.state += QStringLiteral(" %1").arg(*view.performingTeam);
+      team = QStringLiteral(" %1").arg(*view.performingTeam);
     }
   }
-  if (!view.timedOut && !view.countdown.empty()) {
-    state.state += QStringLiteral(" · %1").arg(durationText(*view.secondaryTime));
-  }
-  if (frame.origin == link::FrameOrigin::Simulated) {
-    if (frame.paused) state.state += QStringLiteral(" · paused");
-    if (frame.finished) state.state = QStringLiteral("FINAL WHISTLE");
+  if (!view.timedOut && !view.countdown.empty()) countdown = durationText(*view.secondaryTime);
+  const QString name =
+      view.timedOut ? QStringLiteral("REFEREE OFFLINE") : QString::fromStdString(view.state);
+  const auto joined = [](QStringList parts) {
+    parts.removeAll(QString());
+    return parts.join(QStringLiteral(" · "));
+  };
+  const bool simulated = frame.origin == link::FrameOrigin::Simulated;
+  const QString paused = simulated && frame.paused ? QStringLiteral("paused") : QString();
+  state.state = joined({name, play + team, countdown, paused});
+  // The transport shows the pause, too, so it makes room first; numbers stay to the last.
+  state.shorter = {joined({name, play + team, countdown}), joined({name, play, countdown}),
+                   joined({name, countdown})};
+  if (simulated && frame.finished) {
+    state.state = QStringLiteral("FINAL WHISTLE");
+    state.shorter.clear();
   }
   QStringList penalties;
   for (const link::RobotFrame& robot : frame.robots) {
@@ -120,6 +129,15 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
 }
 
 }  // namespace
+
+QString stateText(const ScoreboardState& board, const QFontMetricsF& metrics, double width) {
+  const auto fits = [&](const QString& text) { return metrics.horizontalAdvance(text) <= width; };
+  if (fits(board.state) || board.shorter.isEmpty()) {
+    return elideText(metrics, board.state, width);
+  }
+  const auto found = std::ranges::find_if(board.shorter, fits);
+  return found != board.shorter.end() ? *found : elideText(metrics, board.shorter.last(), width);
+}
 
 QString teamsText(const link::MatchFrame& frame) {
   if (std::ranges::all_of(frame.teams, [](const auto& team) { return team.name.empty(); })) {

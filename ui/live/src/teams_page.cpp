@@ -109,6 +109,12 @@ QLayout* TeamsPage::makeList() {
                      QStringLiteral("Save this team as a file, for --team or another computer"),
                      [this] { ask(true); });
   auto* column = new QVBoxLayout;
+  m_empty = makeEmptyLabel(m_list->viewport(), QStringLiteral("noTeams"));
+  m_empty->setText(QStringLiteral(
+      "All robots count as one team. Add a team to give it a name, ports and a message profile."));
+  auto* inList = new QVBoxLayout(m_list->viewport());
+  inList->setContentsMargins(0, 0, 0, 0);
+  inList->addWidget(m_empty);
   column->addWidget(m_list, 1);
   column->addLayout(buttons);
   return column;
@@ -221,6 +227,7 @@ void TeamsPage::name(int place) {
 
 void TeamsPage::show(int place) {
   const bool any = place >= 0 && static_cast<std::size_t>(place) < m_drafts.size();
+  m_empty->setVisible(m_drafts.empty());
   m_form->setEnabled(any);
   m_remove->setEnabled(any);
   m_save->setEnabled(any);

@@ -56,6 +56,7 @@ class TeamsPage : public QWidget {
   std::vector<TeamDraft> m_drafts;
   bool m_filling = false;
   QListWidget* m_list;
+  QLabel* m_empty;  // in the list, while there is no team
   QToolButton *m_remove, *m_save;
   QWidget* m_form;
   QLineEdit *m_name, *m_senders, *m_names;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chart_pane.h"
 
+#include <QHelpEvent>
 #include <QMenu>
 #include <QPainter>
+#include <QToolTip>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -25,6 +27,7 @@ constexpr int lowestChart = 54;         // lower ones cannot be read: the plots 
 ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
     : PlotPane(feed, spec, parent), m_chart(new ValueChart(this)) {
   setSurface(m_chart);
+  m_chart->viewport()->installEventFilter(this);
   m_chart->setMinimumHeight(scaled(this, lowestChart));
   m_gestures = new TimeGestures(m_chart->viewport(), feed->time(), [this] { return timeAxis(); });
   m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); },
@@ -250,6 +253,30 @@ QStringList ChartPane::captions() const {
                m_feed->comparedCaption();
   }
   return all;
+}
+
+bool ChartPane::eventFilter(QObject* watched, QEvent* event) {
+  if (watched != m_chart->viewport() || event->type() != QEvent::ToolTip) {
+    return PlotPane::eventFilter(watched, event);
+  }
+  const auto* help = static_cast<const QHelpEvent*>(event);
+  const QRectF caption =
+      QFontMetricsF(m_caption.font)
+          .boundingRect(m_caption.place, Qt::AlignTop | Qt::AlignRight, m_caption.text);
+  const bool isEnvelope = std::ranges::any_of(
+      m_traces, [](const CurveTrace& trace) { return trace.coarse && !trace.reading; });
+  if (!isEnvelope || !caption.contains(help->pos())) {
+    QToolTip::hideText();
+    return false;
+  }
+  QToolTip::showText(
+      help->globalPos(),
+      QStringLiteral(
+          "The samples of this time span do not fit into the memory limit, so only their "
+          "smallest and largest values are drawn. Zoom in, or raise the limit "
+          "(Timeline > Memory for the past)."),
+      m_chart->viewport());
+  return true;
 }
 
 void ChartPane::paintCurves(QPainter& painter) const {

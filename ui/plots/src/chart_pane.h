@@ -35,6 +35,7 @@ class ChartPane : public PlotPane {
  protected:
   void draw() override;
   void restyle() override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void paintCurves(QPainter& painter) const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include <robotlink/frame/match_frame.h>
@@ -123,12 +124,17 @@ void PlotFeed::orderRobots() {
   if (!frame) return;
   std::vector<const link::RobotFrame*> robots;
   for (const link::RobotFrame& robot : frame->robots) robots.push_back(&robot);
-  std::ranges::stable_sort(robots, {}, [](const link::RobotFrame* robot) {
-    return std::pair(robot->behaviour == keeperBehaviour, robot->key);
+  const auto isTheirs = [&frame](const link::RobotFrame* robot) {
+    return orderOf(robot->key, frame->teams).isTheirs;
+  };
+  std::ranges::stable_sort(robots, {}, [&](const link::RobotFrame* robot) {
+    return std::tuple(isTheirs(robot), robot->behaviour == keeperBehaviour, robot->key);
   });
   QStringList now;
   for (const link::RobotFrame* robot : robots) now << QString::fromStdString(robot->name);
-  if (now == m_robots) return;
+  const qsizetype ours = std::ranges::find_if(robots, isTheirs) - robots.begin();
+  if (now == m_robots && ours == m_ours) return;
+  m_ours = ours;
   if (m_robots.isEmpty()) m_first.clear();  // chosen before anybody knew who keeps the goal
   m_robots = std::move(now);
   ++m_looks;
@@ -157,12 +163,17 @@ std::optional<bool> PlotFeed::isMoving(const QString& group, const QStringList& 
 
 QString PlotFeed::firstGroup(const QStringList& columns) {
   QStringList groups = groupsWith(columns);
-  if (groups.isEmpty() || groups.contains(m_first)) return groups.isEmpty() ? QString() : m_first;
+  if (groups.isEmpty()) return {};
   const auto rank = [this](const QString& group) {
     const qsizetype place = m_robots.indexOf(group);
     return place < 0 ? m_robots.size() : place;
   };
   std::ranges::stable_sort(groups, {}, rank);
+  // Guests give way to the first robot of ours, even if they were received before it.
+  if (rank(groups.front()) < m_ours) {
+    groups.removeIf([&](const QString& group) { return rank(group) >= m_ours; });
+  }
+  if (groups.contains(m_first)) return m_first;
   // Whoever has not been read yet may be the one: its place does not depend on who comes first.
   const auto moving = std::ranges::find_if(
       groups, [&](const QString& group) { return isMoving(group, columns).value_or(true); });

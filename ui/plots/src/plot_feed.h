@@ -120,6 +120,7 @@ class PlotFeed : public QObject {
   quint64 m_looks = 1;
   quint64 m_rowsRead = 0;
   QStringList m_robots;  // ours before others, keepers last
+  qsizetype m_ours = 0;  // how many of them are ours
   QString m_first;       // what `first` stands for; empty while none of them has moved
   std::vector<QStringList> m_firstAsked;  // columns, while it is empty
   bool m_missed = false;                  // somebody waits for a variable that is not there

@@ -24,7 +24,8 @@ namespace {
 constexpr std::size_t mostPoints = 8000;  // more do not show on a screen
 constexpr int pixelsPerStepX = 64;        // px of the mock
 constexpr int pixelsPerStepY = 24;
-constexpr int roomBelow = 46;  // for the numbers and the title of the lower axis
+constexpr int roomBelow = 52;  // for the numbers and the title of the lower axis
+constexpr int lowestXy = 170;  // lower ones cannot be read: the plots scroll instead
 // A line with more breaks is shown as points: Qt needs a series for each stretch.
 constexpr std::size_t mostStretches = 100;
 
@@ -40,6 +41,20 @@ void equalize(ValueLimits& x, ValueLimits& y, QSizeF size) {
     widen(x, perY * size.width());
   else
     widen(y, perX * size.height());
+}
+
+/// The title of an axis that also shows this variable: of several robots without their names, of
+/// different variables none of them alone ("TRUE_X, BELIEF_X").
+QString commonTitle(const QString& before, const QString& variable) {
+  const QString whole = curveName(variableCurve(variable));
+  const QString column = variable.section(QLatin1Char('/'), 1);
+  if (before.isEmpty() || before == whole) return whole;
+  QStringList columns;
+  for (const QString& name : before.split(QStringLiteral(", "))) {
+    columns << name.section(QLatin1Char(' '), 0, 0);
+  }
+  if (!columns.contains(column)) columns << column;
+  return columns.join(QStringLiteral(", "));
 }
 
 bool isFinite(const QPointF& point) {
@@ -104,7 +119,7 @@ std::vector<QPointF> xyPoints(const ColumnView& x, const ColumnView& y, telemetr
 XyPane::XyPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
     : PlotPane(feed, spec, parent), m_chart(new ValueChart(this)) {
   setSurface(m_chart);
-  m_chart->setMinimumHeight(scaled(this, 80));
+  m_chart->setMinimumHeight(scaled(this, lowestXy));
   m_chart->labelX();
   m_chart->setRenderHint(QPainter::Antialiasing, true);
   m_chart->viewport()->installEventFilter(this);
@@ -151,10 +166,8 @@ void XyPane::draw() {
         y = {std::min(y.low, point.y()), std::max(y.high, point.y())};
       }
     }
-    if (xTitle.isEmpty()) {
-      xTitle = curveName(variableCurve(curve.spec().inputs.value(0)));
-      yTitle = curveName(variableCurve(curve.spec().inputs.value(1)));
-    }
+    xTitle = commonTitle(xTitle, curve.spec().inputs.value(0));
+    yTitle = commonTitle(yTitle, curve.spec().inputs.value(1));
   }
   const int stepsX = std::max(1, static_cast<int>(area.width()) / scaled(this, pixelsPerStepX));
   const int stepsY = std::max(1, static_cast<int>(area.height()) / scaled(this, pixelsPerStepY));
@@ -165,7 +178,8 @@ void XyPane::draw() {
   }
   m_chart->setAxes(m_x, niceStep(m_x.high - m_x.low, stepsX), m_y,
                    niceStep(m_y.high - m_y.low, stepsY));
-  m_chart->setTitles(xTitle, m_spec.valueTitle.isEmpty() ? yTitle : m_spec.valueTitle);
+  m_titles = {xTitle, m_spec.valueTitle.isEmpty() ? yTitle : m_spec.valueTitle};
+  m_chart->setTitles(m_titles.first, m_titles.second);
   showCurves();
   showMarkers();
 }

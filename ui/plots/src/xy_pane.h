@@ -36,6 +36,8 @@ class XyPane : public PlotPane {
   const std::vector<std::vector<QPointF>>& comparedPoints() const { return m_comparedPoints; }
   ValueLimits xLimits() const;
   ValueLimits yLimits() const;
+  /// Titles of the lower and the left axis.
+  const std::pair<QString, QString>& titles() const { return m_titles; }
   void extendMenu(QMenu* menu) override;
 
  protected:
@@ -57,6 +59,7 @@ class XyPane : public PlotPane {
   std::vector<QLineSeries*> m_lines;       // owned by the chart; the first ones are in use
   std::vector<QScatterSeries*> m_markers;  // one for each curve, above the lines
   std::vector<std::vector<QPointF>> m_points, m_comparedPoints;
+  std::pair<QString, QString> m_titles;
   bool m_fits = true;    // limits follow the points
   ValueLimits m_x, m_y;  // when they do not
   QPointF m_last;

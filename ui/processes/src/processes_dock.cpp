@@ -50,7 +50,8 @@ class ProcessesDock : public QStackedWidget {
         m_model(new ProcessesModel(this)),
         m_page(new QWidget(this)),
         m_asNow(new QLabel(
-            QStringLiteral("You are viewing the past; processes are shown as they are now."),
+            QStringLiteral("Processes are not recorded. You are viewing the past; this list shows "
+                           "them as they are now."),
             m_page)),
         m_table(new QTableView(m_page)),
         m_empty(makeEmptyLabel(this, QStringLiteral("noProcesses"))) {
@@ -91,17 +92,22 @@ class ProcessesDock : public QStackedWidget {
  private:
   void refresh() {
     const bool simulated = m_source->kind() == SourceKind::Simulate;
-    // They have no past: what runs now is shown, and can be seen to be.
+    // Processes are not recorded, so the list shows them as they are now and does nothing.
     if (const FramePtr frame = simulated ? m_controller->frame() : m_source->frame())
       m_model->update(*frame, std::chrono::steady_clock::now());
     else
       m_model->clear();
     m_empty->setText(
-        simulated
-            ? emptyText(*m_controller)
-            : QStringLiteral("These robots' processes run on the robots. The letters on the cards "
-                             "show which of them work."));
-    m_asNow->setVisible(m_controller->edits()->isLocked());
+        simulated ? emptyText(*m_controller)
+        : m_source->kind() == SourceKind::Live
+            ? QStringLiteral("These robots' processes run on the robots. The letters on the cards "
+                             "show which of them work.")
+            : QStringLiteral("Processes are not recorded. The letters on the cards show which of "
+                             "them worked."));
+    const bool isLocked = m_controller->edits()->isLocked();
+    m_asNow->setVisible(isLocked);
+    m_table->setEnabled(!isLocked);
+    if (isLocked) m_table->clearSelection();
     setCurrentWidget(m_model->rowCount() > 0 ? m_page : m_empty);
   }
 

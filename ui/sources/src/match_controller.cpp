@@ -81,9 +81,10 @@ void MatchController::Opening::start(
     if (made) {
       error = QStringLiteral(
                   "Cannot run separate robot processes: %1. They run inside the studio instead, "
-                  "and other programs cannot open their blackboards. Close the other program, then "
-                  "restart the match.")
-                  .arg(textOf(reason));
+                  "and other programs cannot open their blackboards. %2, then restart the match.")
+                  .arg(textOf(reason), reason.code == ErrorCode::Conflict
+                                          ? QStringLiteral("Close the other program")
+                                          : QStringLiteral("Fix this"));
     }
   }
   if (made)

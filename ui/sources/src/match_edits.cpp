@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <base/try.h>
 #include <ui/base/robot_text.h>
 #include <ui/sources/retired_match.h>
 
@@ -59,7 +60,11 @@ MatchEdits::MatchEdits(MatchController* match)
     : QObject(match), m_match(match), m_undoStack(new QUndoStack(this)) {
   constexpr int undoLimit = 1000;
   m_undoStack->setUndoLimit(undoLimit);
-  connect(m_undoStack, &QUndoStack::indexChanged, this, &MatchEdits::dropRefused);
+  connect(m_undoStack, &QUndoStack::indexChanged, this, [this] {
+    const auto* last = lastEdit();
+    if (last == nullptr || last->mergeKey() != m_gesture.mergeKey()) m_gesture = {};
+    dropRefused();
+  });
   connect(match, &MatchController::scenarioChanged, this, [this] {
     if (!m_replacing) m_undoStack->clear();
     const link::Scenario scenario = m_match->isOpening() ? m_match->scenario() : link::Scenario{};
@@ -126,9 +131,12 @@ void MatchEdits::post(MatchOrder order) {
   m_match->post(std::move(order));
 }
 
+const EditCommand* MatchEdits::lastEdit() const {
+  return static_cast<const EditCommand*>(m_undoStack->command(m_undoStack->index() - 1));
+}
+
 void MatchEdits::dropRefused() {
-  const auto* last =
-      static_cast<const EditCommand*>(m_undoStack->command(m_undoStack->index() - 1));
+  const EditCommand* last = lastEdit();
   if (last != nullptr && last->isRefused()) m_undoStack->undo();
 }
 
@@ -450,20 +458,31 @@ void MatchEdits::takePhysics(const std::string& name) {
   if (std::exchange(m_physics, name) != name) emit physicsChanged();
 }
 
-void MatchEdits::switchPhysics(const std::string& name) {
+void MatchEdits::switchPhysics(const std::string& name,
+                               const std::function<void(sim::Simulation&)>& report) {
   const std::string before = m_physics;
   takePhysics(name);
   post({QStringLiteral("Could not change the physics model"),
-        [name](link::SimulatedMatch& match) { return match.simulation().setPhysics(name); },
+        [name, report](link::SimulatedMatch& match) -> Result<void> {
+          TRY(match.simulation().setPhysics(name));
+          report(match.simulation());
+          return {};
+        },
         [this, before] { takePhysics(before); }});
 }
 
 void MatchEdits::setPhysics(const QString& model) {
   const std::string after = model.toStdString();
   if (after == m_physics) return;
+  const auto changed = [cause = newCause()](sim::Simulation& simulation) {
+    simulation.reportChanged(sim::Setting::Physics, cause);
+  };
+  const auto undone = [cause = m_lastCause](sim::Simulation& simulation) {
+    simulation.reportUndone(cause);
+  };
   perform({QStringLiteral("Play with %1 physics").arg(model),
-           [this, after] { switchPhysics(after); },
-           [this, before = m_physics] { switchPhysics(before); }});
+           [this, after, changed] { switchPhysics(after, changed); },
+           [this, before = m_physics, undone] { switchPhysics(before, undone); }});
 }
 
 void MatchEdits::replaceMatch(const link::Scenario& scenario, const QString& text,
@@ -550,24 +569,52 @@ EditStep settingStep(Value wanted, Read read, Write write) {
 
 }  // namespace
 
+void MatchEdits::changeSetting(sim::Setting setting, const QString& text, const QString& whatFailed,
+                               EditStep step) {
+  // While a control is moved, its changes become one command, and one event.
+  constexpr qint64 oneGesture = 500;  // ms, less than what EditCommand merges
+  if (m_gesture.cause == 0 || m_gesture.setting != setting ||
+      m_gesture.age.elapsed() > oneGesture) {
+    m_gesture = {setting, newCause(), std::make_shared<bool>(false), {}};
+  }
+  m_gesture.age.start();
+  // `reported` belongs to the match's thread.
+  const auto reported = m_gesture.reported;
+  const std::uint32_t cause = m_gesture.cause;
+  EditStep reporting{
+      [redo = std::move(step.redo), setting, cause, reported](link::SimulatedMatch& match) {
+        auto done = redo(match);
+        if (done && !std::exchange(*reported, true)) {
+          match.simulation().reportChanged(setting, cause);
+        }
+        return done;
+      },
+      [undo = std::move(step.undo), cause, reported](link::SimulatedMatch& match) {
+        auto undone = undo(match);
+        if (undone && std::exchange(*reported, false)) match.simulation().reportUndone(cause);
+        return undone;
+      }};
+  performOrder(text, whatFailed, {std::move(reporting)}, m_gesture.mergeKey());
+}
+
 void MatchEdits::setNoise(const sim::NoiseParameters& noise) {
-  performOrder(QStringLiteral("Change the noise"), QStringLiteral("Could not change the noise"),
-               {settingStep(
-                   noise, [](const sim::WorldState& state) { return state.settings.noise; },
-                   [](sim::Simulation& simulation, const sim::NoiseParameters& value) {
-                     return simulation.setNoise(value);
-                   })},
-               QStringLiteral("noise"));
+  changeSetting(sim::Setting::Noise, QStringLiteral("Change the noise"),
+                QStringLiteral("Could not change the noise"),
+                settingStep(
+                    noise, [](const sim::WorldState& state) { return state.settings.noise; },
+                    [](sim::Simulation& simulation, const sim::NoiseParameters& value) {
+                      return simulation.setNoise(value);
+                    }));
 }
 
 void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
-  performOrder(QStringLiteral("Change the physics"), QStringLiteral("Could not change the physics"),
-               {settingStep(
-                   settings, [](const sim::WorldState& state) { return state.settings.rigidBody; },
-                   [](sim::Simulation& simulation, const sim::RigidBodySettings& value) {
-                     return simulation.setRigidBody(value);
-                   })},
-               QStringLiteral("physics"));
+  changeSetting(sim::Setting::Physics, QStringLiteral("Change the physics"),
+                QStringLiteral("Could not change the physics"),
+                settingStep(
+                    settings, [](const sim::WorldState& state) { return state.settings.rigidBody; },
+                    [](sim::Simulation& simulation, const sim::RigidBodySettings& value) {
+                      return simulation.setRigidBody(value);
+                    }));
 }
 
 void MatchEdits::setClockRunning(bool running) {
@@ -584,18 +631,18 @@ void MatchEdits::setClockRunning(bool running) {
 
 void MatchEdits::resetScore() {
   using ScoreAndClock = std::pair<sim::Score, std::uint64_t>;
-  performOrder(QStringLiteral("Reset score and clock"),
-               QStringLiteral("Could not change the score"),
-               {settingStep(
-                   ScoreAndClock{},
-                   [](const sim::WorldState& state) {
-                     return ScoreAndClock{state.score, state.clockTicks};
-                   },
-                   [](sim::Simulation& simulation, const ScoreAndClock& value) -> Result<void> {
-                     simulation.setScore(value.first);
-                     simulation.editState().clockTicks = value.second;
-                     return {};
-                   })});
+  changeSetting(sim::Setting::ScoreAndClock, QStringLiteral("Reset score and clock"),
+                QStringLiteral("Could not change the score"),
+                settingStep(
+                    ScoreAndClock{},
+                    [](const sim::WorldState& state) {
+                      return ScoreAndClock{state.score, state.clockTicks};
+                    },
+                    [](sim::Simulation& simulation, const ScoreAndClock& value) -> Result<void> {
+                      simulation.setScore(value.first);
+                      simulation.editState().clockTicks = value.second;
+                      return {};
+                    }));
 }
 
 void MatchEdits::orderProcesses(const std::function<void(link::ProcessManager&)>& what) {

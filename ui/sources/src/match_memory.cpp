@@ -112,7 +112,8 @@ void MatchMemory::reportLosses(const link::Moment& moment, link::Cognition where
                 .arg(clockText(time))
           : QStringLiteral("The memory of the robots' processes at %1 is no longer available, so "
                            "they restart with the belief they had then.")
-                .arg(clockText(time)));
+                .arg(clockText(time)),
+      time);
 }
 
 void MatchMemory::continueFrom(double time) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include <base/try.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <simcore/rules/check_call.h>
 #include <ui/base/robot_text.h>
@@ -75,7 +76,7 @@ EditStep decisionStep(std::uint32_t cause, Decide decide) {
           },
           [cause, before](link::SimulatedMatch& match) -> Result<void> {
             before->putBack(match.simulation());
-            if (cause != 0) match.simulation().reportUndone(cause);
+            match.simulation().reportUndone(cause);
             return {};
           }};
 }
@@ -110,13 +111,15 @@ void callReferee(MatchEdits* edits, sim::RefereeCall call, const std::vector<Rob
 }
 
 void chooseReferee(MatchEdits* edits, const std::string& ruleSet, const QString& title) {
+  const std::uint32_t cause = edits->newCause();
+  const auto choose = [ruleSet, cause](link::SimulatedMatch& match) -> Result<void> {
+    const auto rules = TRY(link::refereeRuleSet(ruleSet));
+    TRY(match.simulation().setReferee(rules));
+    match.simulation().reportChanged(sim::Setting::Rules, cause);
+    return {};
+  };
   edits->performOrder(QStringLiteral("rules: ") + title,
-                      QStringLiteral("Could not change the rules"),
-                      {decisionStep(0, [ruleSet](link::SimulatedMatch& match) -> Result<void> {
-                        auto rules = link::refereeRuleSet(ruleSet);
-                        if (!rules) return tl::unexpected(rules.error());
-                        return match.simulation().setReferee(*rules);
-                      })});
+                      QStringLiteral("Could not change the rules"), {decisionStep(cause, choose)});
 }
 
 QString whyRefused(const link::MatchFrame* frame, const sim::RefereeCall& call) {

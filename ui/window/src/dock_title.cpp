@@ -4,6 +4,7 @@
 #include <QDockWidget>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPainter>
 #include <QToolButton>
 
 #include <ui/base/theme.h>
@@ -35,6 +36,7 @@ DockTitle::DockTitle(QDockWidget* dock) : QWidget(dock) {
   connect(floating, &QToolButton::clicked, dock,
           [dock] { dock->setFloating(!dock->isFloating()); });
   connect(close, &QToolButton::clicked, dock, &QDockWidget::close);
+  dock->installEventFilter(this);
   m_row = new QHBoxLayout(this);
   m_row->setContentsMargins(scaled(this, 8), 0, scaled(this, 4), 0);
   m_row->setSpacing(0);
@@ -50,6 +52,17 @@ void DockTitle::setCorner(QWidget* corner) {
 
 QSize DockTitle::sizeHint() const {
   return {QWidget::sizeHint().width(), m_folded ? 0 : scaled(this, 24)};
+}
+
+// With a title of its own a floating dock has no frame, and could not be told from the window.
+bool DockTitle::eventFilter(QObject* watched, QEvent* event) {
+  auto* dock = qobject_cast<QDockWidget*>(watched);
+  if (dock != nullptr && event->type() == QEvent::Paint && dock->isFloating()) {
+    QPainter painter(dock);
+    painter.setPen(theme().outerEdge);
+    painter.drawRect(dock->rect().adjusted(0, 0, -1, -1));
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 bool DockTitle::setFolded(bool folded) {

@@ -24,6 +24,9 @@ class DockTitle : public QWidget {
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override { return sizeHint(); }
 
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
   bool m_folded = false;
   QHBoxLayout* m_row;

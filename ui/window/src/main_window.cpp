@@ -204,6 +204,7 @@ void MainWindow::shutDown() {
   delete m_explorer;
   delete m_bar;
   delete m_status;
+  delete m_notices;
   delete takeCentralWidget();
 
   delete m_recording;
@@ -489,18 +490,17 @@ void MainWindow::connectNotices() {
           [this] { m_notices->settle(replaced); });
   connect(m_controller->edits(), &MatchEdits::lockedChanged, m_notices,
           [this] { m_notices->settle(locked); });
-  connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices, tell(continued));
-  // By then the processes know again what they had forgotten.
-  const auto since = std::make_shared<std::optional<double>>();
   connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices,
-          [since] { since->reset(); });
-  connect(m_controller, &MatchController::frameReceived, m_notices,
-          [this, since](const FramePtr& frame) {
-            constexpr double known = 10.0;  // s of the match
-            const double now = frame->snapshot.time;
-            if (!*since || now < **since) *since = now;
-            if (now - **since > known) m_notices->settle(continued);
+          [this](const QString& sentence, double time) {
+            m_notices->show({continued}, sentence);
+            m_continuedAt = time;
           });
+  connect(m_controller, &MatchController::frameReceived, m_notices, [this](const FramePtr& frame) {
+    constexpr double known = 10.0;  // s of the match, after which processes have learned anew
+    if (!m_continuedAt || frame->snapshot.time - *m_continuedAt <= known) return;
+    m_continuedAt.reset();
+    m_notices->settle(continued);
+  });
   connect(m_future, &AbandonedFuture::began, m_notices, [this] {
     m_notices->show({branch, NoticeTone::Success},
                     QStringLiteral("Continuing the match from %1. The timeline keeps the abandoned "

@@ -9,6 +9,7 @@
 #include <QMouseEvent>
 #include <QScreen>
 #include <QSettings>
+#include <QTabBar>
 #include <QTimer>
 #include <algorithm>
 #include <map>
@@ -34,12 +35,18 @@ const QString untouchedKey = QStringLiteral("window/layoutFollowsSize");
 
 // A tab says the name already, and the timeline its times.
 void MainWindow::showTitles() {
+  // Names of tabs are whole; a row without room for all of them scrolls.
+  for (QTabBar* row : findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+    row->setElideMode(Qt::ElideNone);
+    row->setUsesScrollButtons(true);
+  }
   bool changed = false;
   for (std::size_t i = 0; i < m_docks.size(); ++i) {
     QDockWidget* dock = m_docks[i];
     const QList<QDockWidget*> beside = tabifiedDockWidgets(dock);
-    const bool tabs = std::any_of(beside.begin(), beside.end(),
-                                  [](const QDockWidget* other) { return !other->isHidden(); });
+    const bool tabs = std::any_of(beside.begin(), beside.end(), [](const QDockWidget* other) {
+      return !other->isHidden() && !other->isFloating();
+    });
     const bool says = studioDocks()[i].ownRow || tabs;
     auto* title = static_cast<DockTitle*>(dock->titleBarWidget());
     changed = title->setFolded(!dock->isFloating() && says) || changed;

@@ -105,13 +105,8 @@ void Scoreboard::paintEvent(QPaintEvent*) {
   painter.setBrush(theme().button);
   painter.drawRoundedRect(tag, 3, 3);
   const QRect inside = place.adjusted(px(6), 0, -px(6), 0);
-  QString state = m_state.state;
-  // The transport shows the pause, too, so it is what makes room.
-  const QString paused = QStringLiteral(" · paused");
-  if (QFontMetrics(tagFont).horizontalAdvance(state) > inside.width() && state.endsWith(paused)) {
-    state.chop(paused.size());
-  }
-  word(inside, state, tagFont, Qt::AlignHCenter);
+  word(inside, stateText(m_state, QFontMetricsF(tagFont), inside.width()), tagFont,
+       Qt::AlignHCenter);
 }
 
 }  // namespace pitchboard::ui

@@ -59,14 +59,15 @@ enum class MatchEventKind : std::uint8_t {
   ProcessGivenUp,        ///< robot, process; it kept ending and is no longer restarted
   ProcessRealTime,       ///< robot, process; it does not follow the match's speed; detail: why
   ProcessNotAttached,    ///< robot, process; the match no longer waits for it; detail: waiting time
-  CycleLate,  ///< robot; its program did not finish a cycle in time; detail: waiting time
-  PortLost,   ///< value: the port; detail: why nothing can be received on it
-  PortBack,   ///< value: the port
-  Undone,     ///< everything that followed from `cause` was undone
-  Bookmark,   ///< detail: the user's note
-  Other       ///< a kind that this version does not know; detail: its name in the file
+  CycleLate,       ///< robot; its program did not finish a cycle in time; detail: waiting time
+  PortLost,        ///< value: the port; detail: why nothing can be received on it
+  PortBack,        ///< value: the port
+  SettingChanged,  ///< detail: what was changed by hand, such as "noise"
+  Undone,          ///< everything that followed from `cause` was undone
+  Bookmark,        ///< detail: the user's note
+  Other            ///< a kind that this version does not know; detail: its name in the file
 };
-inline constexpr std::size_t matchEventKindCount = 43;
+inline constexpr std::size_t matchEventKindCount = 44;
 
 /// The half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };
@@ -83,7 +84,7 @@ struct MatchEvent {
   std::optional<sim::Score> score{};
   std::string process{};    ///< "decision"
   std::string detail{};     ///< see MatchEventKind
-  std::uint32_t cause = 0;  ///< number of the manual call that caused it; 0: none
+  std::uint32_t cause = 0;  ///< number of the manual call or change that caused it; 0: none
   bool operator==(const MatchEvent&) const = default;
 };
 

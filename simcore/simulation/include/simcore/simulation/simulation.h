@@ -55,6 +55,13 @@ class Simulation {
   Snapshot snapshot() const;
   /// Returns the events of the last step, in order.
   std::span<const Event> events() const { return m_events; }
+  /// Returns those of them that takeCalled() has not returned before.
+  std::span<const Event> untakenEvents() const {
+    return std::span(m_events).subspan(m_eventsTaken);
+  }
+  /// Returns the events of calls by hand since the last step, each once, so that they can be
+  /// reported while nothing is played. The next step puts all of them in front of its own events.
+  std::span<const Event> takeCalled();
 
   std::size_t robotCount() const { return m_state.robots.size(); }
   /// Returns the index of a robot in state().robots, or nothing.
@@ -84,6 +91,8 @@ class Simulation {
   /// Carries out a call of the referee. Fails with Conflict if the state of the game does not allow
   /// it, or if there is no referee. Its effects are in events() of the next step.
   Result<void> call(const RefereeCall& call);
+  /// Adds an event to the next step that says that a user changed this setting.
+  void reportChanged(Setting setting, std::uint32_t cause);
   /// Adds an event to the next step that says that everything with this cause was undone.
   void reportUndone(std::uint32_t cause);
   /// Sets the referee's rules, or removes the referee. The game starts over, and all robots of a
@@ -105,7 +114,8 @@ class Simulation {
   WorldState m_state;
   std::unique_ptr<PhysicsModel> m_model;
   std::vector<Event> m_events;
-  std::vector<Event> m_called;  // made by calls since the last step
+  std::vector<Event> m_called;                       // made by calls since the last step
+  std::size_t m_eventsTaken = 0, m_calledTaken = 0;  // how many of each takeCalled() has returned
   Placements m_placements;
   Snapshot m_seen;  // what the referee sees, after the bodies have moved
 };

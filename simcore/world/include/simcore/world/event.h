@@ -28,19 +28,23 @@ enum class EventKind : std::uint8_t {
   Penalised,
   PenaltyOver,
   FinalWhistle,
-  Undone  ///< the effects of a call by hand were undone
+  SettingChanged,  ///< a Setting was changed by hand
+  Undone           ///< the effects of a call or change by hand were undone
 };
+
+/// What a user can change while a match goes on.
+enum class Setting : std::uint8_t { Noise, Physics, Rules, ScoreAndClock };
 
 /// `robot` is 0 if no robot is concerned. `value` depends on the kind: the side of a goal or
 /// corrected score (0 left, 1 right), the code of a kick or unknown action, the PlayState, the
-/// number of the half, the GamePhase, the SetPlay, the PenaltyKind, or the cause that Undone refers
-/// to.
+/// number of the half, the GamePhase, the SetPlay, the PenaltyKind, the Setting, or the cause that
+/// Undone refers to.
 struct Event {
   EventKind kind = EventKind::Goal;
   std::uint64_t tick = 0;
   RobotId robot;
   int value = 0;
-  std::uint32_t cause = 0;  ///< number of the call by hand that caused it; 0: none
+  std::uint32_t cause = 0;  ///< number of the call or change by hand that caused it; 0: none
   bool operator==(const Event&) const = default;
 };
 

@@ -2,8 +2,8 @@
 #pragma once
 
 // A bar that tells or asks the user something without blocking anything. It shows the newest
-// notice; older ones wait behind it, and equal notices are shown once. Text wraps; buttons keep
-// their size and move below the text if there is little room. UI thread only.
+// notice; older ones wait behind it, and equal notices are shown once. Text wraps into two lines
+// at most; buttons keep their size and move below the text if there is little room. UI thread only.
 
 #include <QFrame>
 #include <QString>
@@ -35,7 +35,8 @@ class NoticeBar : public QFrame {
  public:
   explicit NoticeBar(QWidget* parent = nullptr);
 
-  /// Places the bar over the lower edge of `host` instead of in its layout.
+  /// Places the bar over the lower edge of `host` instead of in its layout; as wide as `host`, or
+  /// as its window if the text needs that. The window becomes its parent.
   void floatOver(QWidget* host);
   /// Shows a notice. Without buttons it can only be closed. A notice of success disappears by
   /// itself.
@@ -68,11 +69,11 @@ class NoticeBar : public QFrame {
   std::vector<Notice> m_notices;  // the first is shown
   Text* m_text;
   QLabel* m_more;
-  QBoxLayout* m_row;      // the text, and beside or below it:
-  QBoxLayout* m_side;     // how many more there are, and
-  QBoxLayout* m_buttons;  // the buttons
-  QTimer* m_leaving;      // of a success
-  bool m_floats = false;
+  QBoxLayout* m_row;          // the text, and beside or below it:
+  QBoxLayout* m_side;         // how many more there are, and
+  QBoxLayout* m_buttons;      // the buttons
+  QTimer* m_leaving;          // of a success
+  QWidget* m_host = nullptr;  // over which it floats
 };
 
 }  // namespace pitchboard::ui

@@ -23,6 +23,7 @@ class NumberBox : public QDoubleSpinBox {
   QValidator::State validate(QString& input, int& position) const override;
   void fixup(QString& input) const override;
   double valueFromText(const QString& text) const override;
+  QString textFromValue(double value) const override;
 
  private:
   QString withPoint(QString text) const;

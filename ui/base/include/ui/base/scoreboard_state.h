@@ -5,7 +5,9 @@
 // values with colours of the theme; UI thread only.
 
 #include <QColor>
+#include <QFontMetricsF>
 #include <QString>
+#include <QStringList>
 
 #include <robotlink/frame/match_frame.h>
 
@@ -16,11 +18,15 @@ struct ScoreboardState {
   QColor leftColour, rightColour;  ///< invalid: no coloured square
   int left = 0, right = 0;
   QString clock = QStringLiteral("00:00");
-  QString state;      ///< PLAYING, PAUSED, STOPPED, FINISHED, NO REFEREE
-  QString penalties;  ///< robots and seconds, such as "B2 24 · R3 5"; empty: none
-  QString tip;        ///< tool tip with further data of the referee
+  QString state;        ///< PLAYING, PAUSED, STOPPED, FINISHED, NO REFEREE
+  QStringList shorter;  ///< the state with less and less beside it, for little room
+  QString penalties;    ///< robots and seconds, such as "B2 24 · R3 5"; empty: none
+  QString tip;          ///< tool tip with further data of the referee
   bool operator==(const ScoreboardState&) const = default;
 };
+
+/// Returns the longest form of the state that fits into `width` px, elided if none does.
+QString stateText(const ScoreboardState& board, const QFontMetricsF& metrics, double width);
 
 /// Returns "ROBOFEI – GUESTS, " to put before other text; empty if no team has a name.
 QString teamsText(const link::MatchFrame& frame);

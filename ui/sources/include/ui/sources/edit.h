@@ -39,6 +39,7 @@ class EditCommand : public QUndoCommand {
       m_edit.undo();
   }
   bool isRefused() const { return m_edit.refused && *m_edit.refused; }
+  const QString& mergeKey() const { return m_edit.mergeKey; }
   int id() const override { return m_edit.mergeKey.isEmpty() ? -1 : 1; }
   bool mergeWith(const QUndoCommand* other) override {
     constexpr qint64 mergeMilliseconds = 1000;

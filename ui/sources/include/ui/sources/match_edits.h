@@ -149,9 +149,18 @@ class MatchEdits : public QObject {
   static const Field<link::RuntimeChoice> runtimeField;
 
   struct Attempt;
+  /// The control that the user is moving.
+  struct Gesture {
+    sim::Setting setting{};
+    std::uint32_t cause = 0;         // 0: none
+    std::shared_ptr<bool> reported;  // whether its event was made; used on the match's thread
+    QElapsedTimer age;               // since its last change
+    QString mergeKey() const { return QStringLiteral("setting %1").arg(cause); }
+  };
   void push(Edit edit);
   /// Sends an order to the match; while a command is carried out, as a part of it.
   void post(MatchOrder order);
+  const EditCommand* lastEdit() const;
   /// Takes the last command off the stack if the match refused it.
   void dropRefused();
   void orderProcesses(const std::function<void(link::ProcessManager&)>& what);
@@ -175,7 +184,11 @@ class MatchEdits : public QObject {
   void placeBall(Point position, Velocity velocity = {});
   void adviseTeam(TeamColor team, const std::optional<link::AdvisorOptions>& advisor);
   void takePhysics(const std::string& name);
-  void switchPhysics(const std::string& name);
+  void switchPhysics(const std::string& name, const std::function<void(sim::Simulation&)>& report);
+  /// Carries out the step and reports the change as an event, which undo takes back. Arguments as
+  /// in performOrder().
+  void changeSetting(sim::Setting setting, const QString& text, const QString& whatFailed,
+                     EditStep step);
 
   MatchController* m_match;
   QUndoStack* m_undoStack;
@@ -186,6 +199,7 @@ class MatchEdits : public QObject {
   bool m_locked = false, m_reportedLocked = false;
   bool m_replacing = false;  // an edit opens a match: what was done before can still be undone
   std::uint32_t m_lastCause = 0;
+  Gesture m_gesture;
 };
 
 }  // namespace pitchboard::ui

@@ -87,8 +87,8 @@ class MatchMemory : public QObject {
 
  signals:
   void failed(const QString& sentence);
-  /// The match continues, but its robots have lost what `sentence` says.
-  void continuedWithout(const QString& sentence);
+  /// The match continues from `time` (s), but its robots have lost what `sentence` says.
+  void continuedWithout(const QString& sentence, double time);
   /// Emitted before `rewound`. Receivers add what they keep of the abandoned future.
   void branching(pitchboard::ui::MatchBranch& left);
   void branched(const pitchboard::ui::MatchBranch& left);

@@ -158,9 +158,10 @@ class MainWindow : public QMainWindow {
   bool m_wasShown = false;
   bool m_wasActive = false;
   bool m_notifiedFinished = false;
-  bool m_followsSize = true;          // nobody has given the panels other sizes
-  int m_neededHeight = 0;             // of the open panels below the field, px of the mock
-  std::vector<QDockWidget*> m_docks;  // order of studioDocks()
+  std::optional<double> m_continuedAt;  // s; processes restarted with what they believed then
+  bool m_followsSize = true;            // nobody has given the panels other sizes
+  int m_neededHeight = 0;               // of the open panels below the field, px of the mock
+  std::vector<QDockWidget*> m_docks;    // order of studioDocks()
 };
 
 }  // namespace pitchboard::ui
