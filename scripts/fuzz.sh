@@ -10,8 +10,8 @@ Usage: scripts/fuzz.sh [SECONDS] [NAME...]
 Builds the fuzz targets (tests/fuzz/fuzz_NAME.cpp) with clang and sanitizers, and runs all of them, or
 those that are named, for SECONDS each (default: 60), two at a time. One line for each says how many
 inputs it tried, how many a second, and whether one broke something; the exit code is 1 when one did.
-Such an input stands in build/fuzz/findings, what was said about it in build/fuzz/logs: turn it into a
-test. New inputs stay in build/fuzz/corpus. Missing packages are installed.
+Such an input stands in build/asan-core/fuzz/findings, what was said about it in build/asan-core/fuzz/logs: turn it into a
+test. New inputs stay in build/asan-core/fuzz/corpus. Missing packages are installed.
 Example: scripts/fuzz.sh 300 session moments
 END
 }
@@ -29,9 +29,9 @@ for target in "${targets[@]}"; do
 done
 
 install_packages scripts/packages-run.txt scripts/packages-clang.txt
-build fuzz "${targets[@]/#/fuzz_}"
+build asan-core "${targets[@]/#/fuzz_}"
 
-build=build/fuzz
+build=build/asan-core/fuzz
 seeds=$build/seeds
 rm -rf "$seeds"
 mkdir -p "${all[@]/#/$seeds/}" "$build/findings"
@@ -127,7 +127,7 @@ fuzz() {
     live_state | moments | catalog) length=16000 ;;
   esac
   UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
-    "$build/bin/fuzz_$target" -max_total_time="$seconds" -entropic=0 -max_len=$length -timeout=25 -rss_limit_mb=1024 \
+    "build/asan-core/bin/fuzz_$target" -max_total_time="$seconds" -entropic=0 -max_len=$length -timeout=25 -rss_limit_mb=1024 \
     -artifact_prefix="$build/findings/$target-" -dict="tests/fuzz/$target.dict" \
     -print_final_stats=1 "$build/corpus/$target" "$seeds/$target" >"$log" 2>&1 || code=$?
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")

@@ -30,6 +30,8 @@ shift || true
 
 unset DISPLAY WAYLAND_DISPLAY
 export LC_ALL=C.UTF-8
-install_packages scripts/packages-run.txt scripts/packages-test.txt
+jobs=$(nproc)
+[ $preset = tsan ] || jobs=$((2 * jobs))  # many tests wait for other programs
+install_packages scripts/packages-run.txt scripts/packages-test.txt scripts/packages-clang.txt
 build "$preset" "${targets[@]}"
-ctest --preset "$preset" -j2 ${label:+-L "$label"} "$@"
+ctest --preset "$preset" -j"$jobs" ${label:+-L "$label"} "$@"

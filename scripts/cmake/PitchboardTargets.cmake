@@ -38,7 +38,8 @@ add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 function(pitchboard_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                          $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>
-                         $<$<BOOL:${PITCHBOARD_WERROR}>:-Werror;$<$<CXX_COMPILER_ID:Clang>:-Wno-shadow;-Wno-overloaded-virtual>>)
+                         $<$<CXX_COMPILER_ID:Clang>:-Wno-shadow;-Wno-overloaded-virtual>
+                         $<$<BOOL:${PITCHBOARD_WERROR}>:-Werror>)
 endfunction()
 
 # Everything without Qt can go into a shared library (robotlink/capi), and is as quick as if it could not:

@@ -198,6 +198,7 @@ int askMatch(std::uint64_t seed, int most, Comparison& comparison) {
     link::ProcessOptions options;
     options.robot = slot->id;
     options.behaviour = slot->behaviour;
+    options.parameters = slot->parameters;
     options.field = scenario.settings.field;
     options.model = scenario.robots[robots.size()].model;
     options.facesLeft = slot->facesLeft;
@@ -215,7 +216,7 @@ int askMatch(std::uint64_t seed, int most, Comparison& comparison) {
       who.opponents.update(situation.opponents, now);
       if (now < who.asked + pause || link::isKick(situation.doing)) continue;
       const link::Thinker thinker{who.options.field, who.options.model,
-                                  who.options.behaviour == "keeper"};
+                                  who.options.behaviour == "keeper", who.options.parameters};
       const Question question = questionOf(situation, thinker);
       const Candidates candidates = candidatesFor(question, situation, thinker, {});
       if (candidates.size() < 2) continue;

@@ -16,6 +16,7 @@
 #include <robotlink/blackboard/variable_catalog.h>
 #include <telemetry/pb2/pb2.h>
 
+#include "../support/sanitized.h"
 #include "../support/segment_keys.h"
 #include "../support/test_socket.h"
 
@@ -263,7 +264,7 @@ class TestAgent : public QObject {
   }
 
   void itIsOneSmallStaticProgram() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if PITCHBOARD_SANITIZED
     QSKIP("with sanitizers it is neither");
 #endif
     QFile program(PITCHBOARD_BIN "/pitchboard-agent");

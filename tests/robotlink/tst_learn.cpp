@@ -87,8 +87,8 @@ std::map<std::string, std::string> filesIn(const std::string& folder) {
 std::vector<Candidate> twoCandidates(const Learning& learning) {
   std::vector<Candidate> out;
   for (const double share : {0.25, 0.75}) {
-    Candidate& one =
-        out.emplace_back("candidate-00" + std::to_string(out.size() + 1), std::vector<double>());
+    Candidate& one = out.emplace_back();
+    one.name = "candidate-00" + std::to_string(out.size());
     for (const LearnedParameter& parameter : learning.parameters) {
       one.values.push_back(parameter.at(share));
     }

@@ -256,6 +256,24 @@ class TestOpponents : public QObject {
   }
 
   /// A share for each variant, and rollouts without shares as ever.
+  void everybodyPlaysWithTheRobotsNumbers() {
+    ProcessOptions options;
+    options.behaviour = "striker";
+    options.parameters.kickDistance = 0.031;
+    options.parameters.aimSide = 0.4;  // a peculiarity, which opponents do not share
+    const rollout::Setup setup = setupFor(options);
+    for (std::size_t i = 0; i < allPlayers; ++i) {
+      const bool isOwn = i < theirKeeper;
+      const BehaviourParameters& numbers = setup.players[i].behaviour.parameters;
+      QCOMPARE(numbers.kickDistance, 0.031);
+      QCOMPARE(numbers.aimSide, isOwn ? 0.4 : 0.0);
+      for (const BehaviourParameters& variant : setup.players[i].variants) {
+        QCOMPARE(variant.kickDistance, 0.031);
+      }
+      QCOMPARE(setup.players[i].variants.empty(), isOwn);
+    }
+  }
+
   void rolloutsTakeShares() {
     ProcessOptions options;
     options.field = field();

@@ -72,12 +72,14 @@ QString variablesTable(const VariableCatalog& catalog) {
     const QString text = QString::fromUtf8(said.data(), qsizetype(said.size()));
     const QString type = v.type == VariableType::Int ? "int" : "float";
     const auto [skeleton, number] = numberedName(name);
-    const auto series = std::ranges::find_if(rows, [&](const Row& row) {
-      const auto [otherSkeleton, otherNumber] = numberedName(row.last);
-      return number > 0 && row.type == type && otherSkeleton == skeleton &&
-             otherNumber + 1 == number && row.unit == unit && row.text == text &&
-             (row.step == 0 || row.to + row.step == v.index);
-    });
+    // Named once more for clang before version 16: it captures no names of a structured binding.
+    const auto series =
+        std::ranges::find_if(rows, [&, skeleton = skeleton, number = number](const Row& row) {
+          const auto [otherSkeleton, otherNumber] = numberedName(row.last);
+          return number > 0 && row.type == type && otherSkeleton == skeleton &&
+                 otherNumber + 1 == number && row.unit == unit && row.text == text &&
+                 (row.step == 0 || row.to + row.step == v.index);
+        });
     if (series == rows.end()) {
       rows.push_back({name, name, type, unit, text, v.index, v.index, 0});
     } else {

@@ -13,9 +13,11 @@
 #include <cstdlib>
 #include <new>
 
+#include "sanitized.h"
+
 inline std::atomic<long> allocations{0};
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if PITCHBOARD_SANITIZED
 inline constexpr bool countsAllocations = false;
 #else
 inline constexpr bool countsAllocations = true;

@@ -26,14 +26,14 @@ rollout::RobotBelief at(const Point& place, double yaw, double sigma, double yaw
   return robot;
 }
 
-std::vector<BehaviourParameters> keeperVariants() {
+std::vector<BehaviourParameters> keeperVariants(const BehaviourParameters& usual) {
   std::vector<BehaviourParameters> out;
-  for (std::size_t i = 0; i < keeperModels; ++i) out.push_back(keeperModel(i).numbers());
+  for (std::size_t i = 0; i < keeperModels; ++i) out.push_back(keeperModel(i).numbers(usual));
   return out;
 }
 
-std::vector<BehaviourParameters> aimVariants() {
-  std::vector<BehaviourParameters> out(aimModels);
+std::vector<BehaviourParameters> aimVariants(const BehaviourParameters& usual) {
+  std::vector<BehaviourParameters> out(aimModels, usual);
   for (std::size_t i = 0; i < aimModels; ++i) out[i].aimSide = aimModel(i);
   return out;
 }
@@ -76,18 +76,20 @@ rollout::Setup setupFor(const ProcessOptions& options) {
   setup.field = options.field;
   setup.body.ballMass = options.field.ballMass;
   setup.noise.ofModel = true;
+  // Team-mates play with the numbers of this robot, and so do opponents but for what is peculiar to
+  // it.
+  BehaviourParameters theirs = options.parameters;
+  theirs.aimSide = theirs.keeperAside = 0.0;
   const bool isKnown = options.behaviour == "supporter" || options.behaviour == "keeper";
   for (std::size_t i = 0; i < allPlayers; ++i) {
     rollout::Player player;
     player.side = i < theirKeeper ? rollout::Side::Left : rollout::Side::Right;
     player.model = options.model;
     player.behaviour.name = i == mateKeeper || i == theirKeeper ? "keeper" : "striker";
-    if (i == ownPlayer) {
-      player.behaviour.name = isKnown ? options.behaviour : "striker";
-      player.behaviour.parameters = options.parameters;
-    }
+    if (i == ownPlayer && isKnown) player.behaviour.name = options.behaviour;
+    player.behaviour.parameters = player.side == rollout::Side::Left ? options.parameters : theirs;
     if (player.side == rollout::Side::Right && options.advisor.learns) {
-      player.variants = i == theirKeeper ? keeperVariants() : aimVariants();
+      player.variants = i == theirKeeper ? keeperVariants(theirs) : aimVariants(theirs);
     }
     setup.players.push_back(std::move(player));
   }

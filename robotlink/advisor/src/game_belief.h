@@ -17,7 +17,9 @@ namespace pitchboard::link {
 inline constexpr std::size_t ownPlayer = 0, mateKeeper = 1, firstMate = 2, theirKeeper = 5,
                              firstTheirs = 6, allPlayers = 11;
 
-/// Opponents may be any of the models of OpponentModel if the advisor learns.
+/// Everybody plays with the parameters of this robot, opponents without its peculiarities
+/// (aim_side, keeper_aside). Opponents may be any of the models of OpponentModel if the advisor
+/// learns.
 rollout::Setup setupFor(const ProcessOptions& options);
 
 /// Opponents that were seen within the last seconds, also those that decision has forgotten.

@@ -56,8 +56,8 @@ int mostLikely(const std::vector<double>& shares) {
 
 }  // namespace
 
-BehaviourParameters KeeperModel::numbers() const {
-  BehaviourParameters out;
+BehaviourParameters KeeperModel::numbers(const BehaviourParameters& base) const {
+  BehaviourParameters out = base;
   if (!follows) out.keeperArc = 0.0;
   out.keeperAside = aside;
   return out;

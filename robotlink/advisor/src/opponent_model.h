@@ -23,7 +23,8 @@ namespace pitchboard::link {
 struct KeeperModel {
   bool follows = true;  ///< the ball; false: it stays
   double aside = 0.0;   ///< BehaviourParameters::keeperAside
-  BehaviourParameters numbers() const;
+  /// Those of a keeper that is otherwise like `base`.
+  BehaviourParameters numbers(const BehaviourParameters& base = {}) const;
 };
 
 inline constexpr std::size_t keeperModels = 10, aimModels = 7, paceModels = 7;

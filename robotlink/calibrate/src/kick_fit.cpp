@@ -247,28 +247,56 @@ double footShare(const sim::RobotModel& base, const Kick& kick) {
 // ---- posteriors
 // ----------------------------------------------------------------------------------------
 
+/// The kicks as they are fitted with one rolling deceleration, and the logarithm of its posterior.
+struct KicksAt {
+  double logWeight = 0.0;
+  std::vector<double> begins, variances;  ///< of each kick: when the ball begins to roll, s
+};
+struct RollingFit {
+  GridPosterior posterior;
+  std::vector<KicksAt> candidates;
+};
+
+/// By how much the residuals' squares exceed what the percepts' sigmas explain, at least 1 (the
+/// Birge ratio; Birge 1932).
+double scatterOf(const std::vector<Kick>& kicks) {
+  double chi2 = 0.0, freedom = 0.0;
+  for (const Kick& kick : kicks) {
+    chi2 += kick.chi2;
+    freedom += static_cast<double>(2 * kick.sights.size()) - 5.0;
+  }
+  return freedom > 0.0 ? std::max(1.0, chi2 / freedom) : 1.0;
+}
+
 /// Rolling deceleration: all tracks share it; for each candidate every track is fitted again.
-GridPosterior fitRolling(std::vector<Kick>& kicks) {
+RollingFit fitRolling(const std::vector<Kick>& kicks) {
   constexpr int candidates = 41;
   std::vector<double> chi2(candidates);
-  const auto at = [](double i) {
-    return surfaceMedian * std::exp(surfacePrior * (-3.5 + 7.0 * i / (candidates - 1)));
-  };
+  RollingFit out;
+  const double scatter = scatterOf(kicks);
+  const auto zAt = [](double i) { return -3.5 + 7.0 * i / (candidates - 1); };
+  const auto at = [&](double i) { return surfaceMedian * std::exp(surfacePrior * zAt(i)); };
   for (int i = 0; i < candidates; ++i) {
+    KicksAt& here = out.candidates.emplace_back();
+    double& sum = chi2[static_cast<std::size_t>(i)];
     for (Kick kick : kicks) {
       fitKick(kick, at(i));
-      chi2[static_cast<std::size_t>(i)] += kick.chi2;
+      sum += kick.chi2 / scatter;
+      here.begins.push_back(kick.fitted[2]);
+      here.variances.push_back(scatter * kick.covariance(2, 2));
     }
+    here.logWeight = -0.5 * (sum + zAt(i) * zAt(i));
   }
   // Between the candidates by parabolas through three of them.
   constexpr int fine = 1201;
   const auto index = [](int k) { return static_cast<double>(k) * (candidates - 1) / (fine - 1); };
-  return posteriorOn(
+  out.posterior = posteriorOn(
       fine, [&](int k) { return at(index(k)); },
       [&](int k) {
-        const double z = -3.5 + 7.0 * index(k) / (candidates - 1);
-        return -0.5 * parabolaAt(chi2, index(k)) - 0.5 * z * z;
+        const double z = zAt(index(k));
+        return -0.5 * (parabolaAt(chi2, index(k)) + z * z);
       });
+  return out;
 }
 
 /// Speeds of all kinds with one common spread: v_i ~ N(mean_kind x share_i, spread^2 + s_i^2), on a
@@ -388,26 +416,35 @@ void fitDirections(const std::vector<Kick>& kicks, Calibration& out) {
 }
 
 /// The moment of the contact: the ball begins to roll with a tick, so that all numbers of one tick
-/// look the same.
-void fitContact(const std::vector<Kick>& kicks, Calibration& out) {
+/// look the same. A ball that loses its speed faster began later: mixed over the decelerations that
+/// are likely.
+void fitContact(std::span<const KicksAt> candidates, Calibration& out) {
   const char* key = "kick_contact";
-  if (out.base.kickContact <= 0.0 || kicks.size() < leastKicks) {
+  const std::size_t kicks = candidates.empty() ? 0 : candidates.front().begins.size();
+  if (out.base.kickContact <= 0.0 || kicks < leastKicks) {
     out.kept[key] = "too few kicks were seen";
     return;
   }
+  std::vector<double> sums(candidates.size());
   const auto posterior = positivePosterior(
       out.base.kickContact, speedPrior,
       [&](double contact) {
         const double starts = std::floor(contact / kickTick + 1e-6) * kickTick;
-        double sum = 0.0;
-        for (const Kick& kick : kicks) {
-          const double off = kick.fitted[2] - starts;
-          sum -= 0.5 * off * off / (kick.covariance(2, 2) + 1e-6);
+        double most = -1e300;
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+          sums[i] = candidates[i].logWeight;
+          for (std::size_t k = 0; k < kicks; ++k) {
+            const double off = candidates[i].begins[k] - starts;
+            sums[i] -= 0.5 * off * off / (candidates[i].variances[k] + 1e-6);
+          }
+          most = std::max(most, sums[i]);
         }
-        return sum;
+        double all = 0.0;
+        for (const double sum : sums) all += std::exp(sum - most);
+        return most + std::log(all);
       },
       6001);
-  take(out, {key, posterior.median, posterior.low, posterior.high, kicks.size(), "kicks"});
+  take(out, {key, posterior.median, posterior.low, posterior.high, kicks, "kicks"});
 }
 
 /// Times that are seen as a number of rows: what is left of the prior in the cell that all of them
@@ -491,19 +528,33 @@ void fitKicks(std::span<const MotionFilter> filters, std::span<const Calibration
     });
   };
   keepGood();
-  const char* rolling = "field.rolling_deceleration";
-  if (kicks.size() < leastKicks || !rollsEvenly) {
-    out.kept[rolling] = rollsEvenly ? "too few kicks were seen"
-                                    : "the ball does not roll with an even deceleration there";
-  } else {
-    const GridPosterior posterior = fitRolling(kicks);
-    loss = posterior.median;
-    take(out, {rolling, posterior.median, posterior.low, posterior.high, kicks.size(), "kicks"});
+  if (kicks.size() >= leastKicks && rollsEvenly) {
+    // Whether a track is good depends on the deceleration: once more with the one that was found.
+    loss = fitRolling(kicks).posterior.median;
     keepGood();
   }
+  const char* key = "field.rolling_deceleration";
+  std::vector<KicksAt> candidates;
+  if (kicks.size() < leastKicks || !rollsEvenly) {
+    out.kept[key] = rollsEvenly ? "too few kicks were seen"
+                                : "the ball does not roll with an even deceleration there";
+    KicksAt& usual = candidates.emplace_back();
+    for (const Kick& kick : kicks) {
+      usual.begins.push_back(kick.fitted[2]);
+      usual.variances.push_back(kick.covariance(2, 2));
+    }
+  } else {
+    RollingFit rolling = fitRolling(kicks);
+    for (Kick& kick : kicks) fitKick(kick, rolling.posterior.median);
+    take(out, {key, rolling.posterior.median, rolling.posterior.low, rolling.posterior.high,
+               kicks.size(), "kicks"});
+    candidates = std::move(rolling.candidates);
+  }
+  const double scatter = scatterOf(kicks);
+  for (Kick& kick : kicks) kick.covariance *= scatter;
   fitSpeeds(kicks, out);
   fitDirections(kicks, out);
-  fitContact(kicks, out);
+  fitContact(candidates, out);
   fitTimes(filters, logs, out);
 }
 

@@ -36,9 +36,9 @@ struct View::Search {
     if (before(in.last, time)) return view.firstRow(unit) + in.rows;
     // times[low] is before, times[high] is not.
     std::uint32_t low = 0, high = in.rows - 1;
+    // 0 to 1, as time lies between; not a number where the difference of two times is none.
     const double share = (time - in.first) / (in.last - in.first);
-    auto guess = static_cast<std::uint32_t>(share * high);  // 0 to 1: time lies between
-    guess = std::clamp(guess, low, high);
+    const std::uint32_t guess = share > 0.0 ? static_cast<std::uint32_t>(share * high) : low;
     if (before(times[guess], time)) {
       low = guess;
       for (std::uint32_t step = 1; low + step < high; step *= 2) {

@@ -3,9 +3,11 @@
 // The Experiments dock: a file that is edited and played, its tables, a run that is seen again, an
 // error in the file, cancelling.
 
+#include <QAbstractItemModelTester>
 #include <QtTest>
 #include <QtWidgets>
 #include <memory>
+#include <vector>
 
 #include <ui/experiments/experiments_dock.h>
 #include <ui/sources/replay_controller.h>
@@ -164,6 +166,13 @@ void TestExperimentsDock::playsAndShowsResults() {
   QVERIFY(dock.find<QComboBox>("experimentChoice")->count() >= 7);
   auto* noRuns = dock.find<QLabel>("experimentTableEmpty");
   QCOMPARE(noRuns->text(), QStringLiteral("No results yet. Press Start to play the experiment."));
+  using Tester = QAbstractItemModelTester;
+  std::vector<std::unique_ptr<Tester>> testers;  // they look at every change of the tables
+  for (const char* name :
+       {"experimentTable", "experimentMeasured", "experimentDifferences", "experimentAssertions"}) {
+    testers.push_back(
+        std::make_unique<Tester>(dock.table(name), Tester::FailureReportingMode::QtTest));
+  }
   dock.write("2", 3);
   dock.press();
   QCOMPARE(dock.start(), QStringLiteral("Cancel"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A person referees a simulated match: buttons, keys, undo, the scoreboard, the log.
+#include <QAbstractItemModelTester>
 #include <QComboBox>
 #include <QMenu>
 #include <QPushButton>
@@ -406,7 +407,9 @@ class TestRefereePanel : public QObject {
     QTRY_COMPARE(desk.state(), QString("SET"));
     desk.controller.runTo(120);
     QTRY_COMPARE(desk.frame().snapshot.tick, std::uint64_t(120));
-    const auto* log = desk.dock->findChild<QTableView*>("refereeLog")->model();
+    auto* log = desk.dock->findChild<QTableView*>("refereeLog")->model();
+    const QAbstractItemModelTester tester(log,
+                                          QAbstractItemModelTester::FailureReportingMode::QtTest);
     QTRY_COMPARE(log->rowCount(), 2);
     desk.timeline.seek(0.5);
     QCOMPARE(log->rowCount(), 1);
