@@ -122,11 +122,17 @@ behaviours() {
 agent() {
   # The robots of a match stand in for real ones; the agent reads their blackboards.
   "$bin/pitchboard-cli" simulate --scenario match-3v3 --cognition separate --match 0 --speed 1 --duration 60 >/dev/null 2>&1 &
+  robots=$!
   sleep 2
-  for robot in 1 2 3; do "$bin/pitchboard-agent" --robot "$robot" --to 127.0.0.1 2>/dev/null & done
+  for robot in 1 2 3; do
+    "$bin/pitchboard-agent" --robot "$robot" --to 127.0.0.1 2>/dev/null &
+    robots+=" $!"
+  done
   echo '{"name": "Our team", "number": 12, "colour": "blue"}' >ours.json
   studio --live --robots 3 --team ours.json --our-team 12
   shoot agent 15
+  # shellcheck disable=SC2086
+  kill $robots && wait $robots 2>/dev/null || true # they would be seen in live.png, too
 }
 rollouts() {
   PYTHONPATH=$root/docs/examples PITCHBOARD_SIM_LIBRARY=$root/build/release/lib/libpitchboard_sim.so.1 python3 - >heat.mvg <<'END'

@@ -61,7 +61,7 @@ class TestTheme : public QObject {
  private slots:
   void aNumberIsNeverCut_data() {
     QTest::addColumn<QString>("text");
-    for (const char* text : {"TIMEOUT 4 min 20 s", "D no response 4 min 20 s", "−1200.00 mm",
+    for (const char* text : {"TIMEOUT 4 min 20 s", "D no reply 4 min 20 s", "−1200.00 mm",
                              "penalised 45 s", "Memory holds the last 13:29 (128 MB)",
                              "goal B4 12.5 m/s", "3 of 12 sensors", "×0.12", "waiting for words"}) {
       QTest::newRow(text) << QString::fromUtf8(text);
@@ -280,7 +280,7 @@ class TestTheme : public QObject {
 
   void cellsAndBoxesKeepTheirNumbers() {
     setTheme(*qApp, ThemeChoice::Dark);
-    const QString text = QStringLiteral("D no response 4 min 20 s");
+    const QString text = QStringLiteral("D no reply 4 min 20 s");
     const auto drawn = [](QWidget& widget, int wide) {
       widget.ensurePolished();
       widget.resize(wide, 24);

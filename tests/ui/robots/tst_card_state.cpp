@@ -71,7 +71,7 @@ class TestCardState : public QObject {
     frame.robots[0].lamps[3] = {LampState::NotResponding, 0.0, std::chrono::milliseconds(8900)};
     const auto cards = tracker.update(frame, 0);
     QCOMPARE(cards[0].lamps[3].state, LampState::NotResponding);
-    QCOMPARE(cards[0].tag, QStringLiteral("D no response 8 s"));
+    QCOMPARE(cards[0].tag, QStringLiteral("D no reply 8 s"));
     QCOMPARE(cards[0].tagKind, TagKind::Error);
     // Nobody wonders for how long what somebody has stopped is silent.
     link::ProcessSummary decision;

@@ -104,7 +104,7 @@ class TestLiveCards : public QObject {
       m.x += 1;
       QVERIFY(robot.say(m));
     }
-    QTRY_VERIFY(s.cards()[0]->state().tag.startsWith(QStringLiteral("D no response")));
+    QTRY_VERIFY(s.cards()[0]->state().tag.startsWith(QStringLiteral("D no reply")));
   }
 
   void robotsAgreeOnTheBall() {

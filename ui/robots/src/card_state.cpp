@@ -118,9 +118,8 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
     if (notResponding->stopped)
       put(TagKind::Warning, QStringLiteral("%1 stopped").arg(letter));
     else
-      put(TagKind::Error, QStringLiteral("%1 no response %2")
-                              .arg(letter)
-                              .arg(durationText(notResponding->seconds)));
+      put(TagKind::Error,
+          QStringLiteral("%1 no reply %2").arg(letter).arg(durationText(notResponding->seconds)));
   } else if (card.batteryLow()) {
     put(TagKind::Error, QStringLiteral("battery low"));
     card.tagIsBattery = true;
