@@ -176,7 +176,8 @@ std::string predicateOf(const MatchEvent& event) {
     case Kind::ProcessNotAttached:
       return predicateWithDetail(event, " ");
     case Kind::SettingChanged:
-      return event.detail.empty() ? std::string(info(event.kind).predicate) : event.detail + " changed";
+      return event.detail.empty() ? std::string(info(event.kind).predicate)
+                                  : event.detail + " changed";
     case Kind::PortLost:
       return event.detail + " Trying again; the other ports work.";
     case Kind::PortBack:

@@ -83,8 +83,8 @@ void MatchController::Opening::start(
                   "Cannot run separate robot processes: %1. They run inside the studio instead, "
                   "and other programs cannot open their blackboards. %2, then restart the match.")
                   .arg(textOf(reason), reason.code == ErrorCode::Conflict
-                                          ? QStringLiteral("Close the other program")
-                                          : QStringLiteral("Fix this"));
+                                           ? QStringLiteral("Close the other program")
+                                           : QStringLiteral("Fix this"));
     }
   }
   if (made)
