@@ -105,7 +105,7 @@ class TestGeometry : public QObject {
     const auto* strip = s.find<QLabel>("penaltyStrip");
     s.controller.runTo(600);
     QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t{600});
-    // It is placed anew when a frame is drawn, which is later than when it arrives.
+    // Robots walk below it while its text stays the same.
     QTRY_VERIFY2(strip->isVisible() && !s.window.field()->hasRobotIn(strip->geometry()),
                  qPrintable(strip->text()));
     s.timeline()->seek(3.0);

@@ -40,7 +40,7 @@ class FieldSign : public QLabel {
   std::function<void()> clicked;
   /// Where; its size is what the text needs.
   std::function<QRect(QSize)> place;
-  /// It is placed again whenever another sign comes, goes or moves.
+  /// It is placed again with every frame, and whenever another sign comes, goes or moves.
   bool givesWay = false;
 
   void present() {
@@ -99,8 +99,9 @@ QRect topOfField(FieldSign& sign, const QWidget& canvas, QSize text) {
 /// As the frames of `source` want it.
 void presentFrames(FieldSign* sign, FrameSource* source) {
   const auto present = [sign] {
-    // Most frames say the same.
-    if (sign->textNow() != sign->text() || sign->isVisible() == sign->text().isEmpty())
+    // Most frames say the same, but robots move, which one that gives way must not cover.
+    if (sign->textNow() != sign->text() || sign->isVisible() == sign->text().isEmpty() ||
+        (sign->givesWay && sign->isVisible()))
       sign->present();
   };
   QObject::connect(source, &FrameSource::frameReceived, sign, present);
