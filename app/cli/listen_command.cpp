@@ -33,7 +33,8 @@ class Printer : public link::LiveObserver {
   void received(const link::LiveDatagram& datagram) override {
     const auto* state = datagram.state();
     const int version = m_options.refereeVersion;
-    if (datagram.isStranger() || (state && version != 0 && state->version != version)) return;
+    if (datagram.isFromRefusedSender() || (state && version != 0 && state->version != version))
+      return;
     if (!m_json) {
       put(datagram.view.time, datagram.view.sender.text(), messageLine(datagram, m_options));
       return;

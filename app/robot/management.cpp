@@ -107,7 +107,7 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
     process.heartbeat = link::workingFlagOf(name);
     // A program of the team's own may block for as long as it wants.
     process.watch = link::isPresent(process.heartbeat) ? link::ManagedProcess::Watch::Variable
-                    : process.spec.isTeamProgram       ? link::ManagedProcess::Watch::Nobody
+                    : process.spec.isTeamProgram       ? link::ManagedProcess::Watch::None
                                                        : link::ManagedProcess::Watch::Sleeps;
     process.clears = !clearedByOther;
     processes.push_back(std::move(process));

@@ -126,7 +126,7 @@ class TestSameEvents : public QObject {
     QTRY_VERIFY(received(Kind::Goal));
     watch.stopObserving(recorder);
     QVERIFY(recorder->finish());
-    // Nobody is sent any more: what a slow machine still adds came after the recording.
+    // None is sent any more: what a slow machine still adds came after the recording.
     const auto read = eventsOf(telemetry::SessionReader::open(path.toStdString()).value());
     QVERIFY(!read.empty());
     QTRY_VERIFY((received(Kind::Goal), events.size() >= read.size()));

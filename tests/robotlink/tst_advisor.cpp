@@ -362,7 +362,7 @@ class TestAdvisor : public QObject {
     first.advise(leave);
     first.actions(3);
     QCOMPARE(first.word("DECISION_STATE"), static_cast<int>(Intention::Support));
-    // Nobody else would go.
+    // None else would go.
     State alone = mindWith({-2.0, 0.5}, Intention::Idle);
     alone.advise(leave);
     alone.actions(3);

@@ -52,7 +52,7 @@ class Witness : public LiveObserver {
       numbers.push_back(datagram.decoded->robot);
       times.push_back(datagram.time);
       payloads.emplace_back(datagram.view.payload);
-    } else if (!datagram.isStranger()) {
+    } else if (!datagram.isFromRefusedSender()) {
       ++unused;
     }
   }

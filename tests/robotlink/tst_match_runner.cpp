@@ -236,7 +236,7 @@ class TestMatchRunner : public QObject {
     QCOMPARE(notes->timed, std::size_t{0});
   }
 
-  /// Nobody looks at the world to find out.
+  /// None looks at the world to find out.
   void aCommandSaysWhetherItChangedTheWorld() {
     auto runner = start(builtIn("one-robot"), true);
     const auto notes = std::make_shared<Notes>();

@@ -138,7 +138,7 @@ class TestTeamPlay : public QObject {
     }
   }
 
-  // Everybody works out the same: no place is taken twice.
+  // AllPrograms works out the same: no place is taken twice.
   void everyPlaceHasOneRobot() {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> along(-4.4, 4.4), across(-2.9, 2.9);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "draw_loops.h"
+#include "random_loops.h"
 
 namespace tst_random {
 
@@ -113,16 +113,16 @@ class TestRandom : public QObject {
   }
   void everySimdLevelGivesTheSameBits() {
     QFETCH(int, level);
-    const draws::Loops* wide = draws::loopsOf(static_cast<SimdLevel>(level));
+    const random_loops::Loops* wide = random_loops::loopsOf(static_cast<SimdLevel>(level));
     if (!wide) QSKIP("this processor or compiler lacks this SIMD level");
-    const draws::Loops& narrow = *draws::loopsOf(SimdLevel::Baseline);
+    const random_loops::Loops& narrow = *random_loops::loopsOf(SimdLevel::Baseline);
     constexpr std::size_t counters = 101;
     std::vector<std::uint32_t> high(counters), robot(counters);
     for (std::size_t i = 0; i < counters; ++i) {
       high[i] = static_cast<std::uint32_t>(i * i);
       robot[i] = static_cast<std::uint32_t>(i + 1);
     }
-    const auto all = [&](const draws::Loops& loops) {
+    const auto all = [&](const random_loops::Loops& loops) {
       std::vector<double> values(4 * counters);
       double* const normals = values.data() + 2 * counters;
       loops.fillWholes({77, 8, 2}, high.data(), robot.data(), values.data(), counters);

@@ -15,7 +15,7 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double longestGap = 0.5;     // s; longer ones are told
+constexpr double longestGap = 0.5;     // s; longer gaps are reported
 constexpr double farthest = 100.0;     // m; a percept beyond it is no percept
 constexpr double largestBelief = 1e6;  // cm or degrees
 constexpr double lostSigma = 0.5;      // m; a team-mate that knows its place worse is no reference

@@ -70,7 +70,7 @@ class RowReader {
   explicit RowReader(const double* from) : m_from(from) {}
 
   template <class Value>
-  void operator()(const char* name, const char* /*words*/, Value& value) const {
+  void operator()(const char* name, const char* /*meaning*/, Value& value) const {
     const double number = *m_from++;
     if (std::isnan(number)) return;
     if constexpr (std::is_same_v<Value, double>) {

@@ -317,9 +317,9 @@ std::string distributionHtml(const ResultTable& table, const ExperimentSummary& 
             ',' + at(foot) + "\" fill=\"" + figureColours[c] +
             "\" fill-opacity=\"0.15\" stroke=\"" + figureColours[c] + "\" stroke-width=\"1.5\"/>";
   }
-  const auto text = [&](double x, const char* anchor, const std::string& words) {
+  const auto text = [&](double x, const char* anchor, const std::string& label) {
     return "<text class=\"axis\" x=\"" + at(x) + "\" y=\"" + at(height - 6) + "\" text-anchor=\"" +
-           anchor + "\">" + words + "</text>";
+           anchor + "\">" + label + "</text>";
   };
   return "<div><h3><span>" + escaped(titleOf(s.metrics[m])) +
          "</span></h3><svg class=\"chart\" viewBox=\"0 0 " + at(width) + ' ' + at(height) +

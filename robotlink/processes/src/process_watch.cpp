@@ -39,7 +39,7 @@ void ProcessManager::watch(Entry& entry, Time now) {
                        (entry.everSigned || !process.spec.isTeamProgram);
   ProcessStatus& status = entry.status;
   if (listens && isOverdue(entry, now)) {
-    if (status.state == ProcessState::NotResponding) return;  // it has been told
+    if (status.state == ProcessState::NotResponding) return;  // it has been reported
     reportOverdue(entry, now, "no sign of life for " + inSeconds(process.silentAfter));
   } else if (listens && status.state == ProcessState::NotResponding) {
     status.state = ProcessState::Running;
@@ -66,7 +66,7 @@ bool ProcessManager::isOverdue(const Entry& entry, Time now) const {
 void ProcessManager::reportOverdue(Entry& entry, Time now, const std::string& detail) {
   ProcessStatus& status = entry.status;
   const bool again =
-      entry.process.watch != Watch::Nobody && entry.process.restart.policy != RestartPolicy::Never;
+      entry.process.watch != Watch::None && entry.process.restart.policy != RestartPolicy::Never;
   if (!again && status.state == ProcessState::NotResponding) return;
   ProcessNews news{ProcessNewsKind::NotResponding, status.robot, status.name, status.pid, detail};
   status.detail = detail;
@@ -117,7 +117,7 @@ void ProcessManager::sample(Entry& entry, Time now) {
   entry.sampled = now;
   status.memoryBytes = use->memoryBytes;
   // No sign of life is expected while the match is paused.
-  if (entry.process.watch != Watch::Nobody && !m_paused) {
+  if (entry.process.watch != Watch::None && !m_paused) {
     status.heartbeatAge = Seconds(now - entry.lastSign).count();
   }
   if (status != before) changed();
@@ -127,7 +127,7 @@ void ProcessManager::sample(Entry& entry, Time now) {
       entry.process.watch == Watch::Variable || entry.process.watch == Watch::Sleeps;
   if (use->state != 'T' || listens) {
     entry.stoppedSince = now;
-    if (entry.process.watch == Watch::Nobody && status.state == ProcessState::NotResponding) {
+    if (entry.process.watch == Watch::None && status.state == ProcessState::NotResponding) {
       status.state = ProcessState::Running;
       changed();
     }

@@ -98,7 +98,7 @@ class TestPlotUnits : public QObject {
       text += QStringLiteral(" %1%2%3")
                   .arg(place.right ? 'r' : 'l')
                   .arg(place.factor)
-                  .arg(place.stranger ? QStringLiteral("!") : QString());
+                  .arg(place.otherUnit ? QStringLiteral("!") : QString());
     }
     QCOMPARE(text, plan);
   }

@@ -44,7 +44,7 @@ class RandomBatch {
   std::vector<std::uint32_t> m_high, m_robot;  // of each block: what differs in its counter
   std::vector<double> m_wholes;                // 53 random bits each, as a whole number
   std::vector<double> m_normals;               // their quantiles, right in the middle only
-  std::size_t m_stride = 0;                    // draws of a robot
+  std::size_t m_stride = 0;                    // random numbers of a robot
 };
 
 }  // namespace pitchboard

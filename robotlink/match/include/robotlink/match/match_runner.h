@@ -70,7 +70,7 @@ class MatchRunner {
   /// `tell` is called on the runner's thread when there is a new frame, event or log line, once
   /// until latest(), takeEvents() or takeLog() is called. Empty: there is no notification, but a
   /// call may be under way.
-  void setNews(std::function<void()> tell);
+  void setNews(std::function<void()> notify);
   /// Returns the newest frame, or null if `knownSerial` is the newest.
   std::shared_ptr<const MatchFrame> latest(std::uint64_t knownSerial = 0);
   /// Both return what came since the last call, at most the newest 10 000.

@@ -56,8 +56,8 @@ class ProcessPace {
   /// Returns the speed of the slowest team program that cannot keep up; empty if all keep up.
   std::optional<double> slowestTeamProgram() const;
   enum class Await {
-    Everybody,   ///< also programs that were just started and have not attached to a blackboard
-    Cooperating  ///< only programs that report the end of each cycle
+    AllPrograms,  ///< also programs that were just started and have not attached to a blackboard
+    Cooperating   ///< only programs that report the end of each cycle
   };
   /// Returns true while the match has to wait for a program to get ready. A cooperating program is
   /// ready once it has reported so; the clocks of programs run at ×1 meanwhile. Call it and

@@ -157,7 +157,7 @@ class RobotSlots {
   Result<void> checkShirt(const sim::RobotIdentity& identity) const;
   Result<IntVar> cycleOf(const RobotSlot& slot) const;
   const AdvisorOptions* advisorOf(const RobotSlot& slot) const;
-  bool wants(const RobotSlot& slot, const ProfileProcess& process) const;
+  bool shouldRun(const RobotSlot& slot, const ProfileProcess& process) const;
   Result<void> startMissing(RobotSlot& slot, std::vector<SlotProcess*>& started);
   Result<void> start(RobotSlot& slot, SlotProcess& process);
   Result<void> describeReference(const RobotSlot& slot, SlotProcess& process,

@@ -64,7 +64,7 @@ class CalibrateDialog : public QDialog {
   /// The robots of the match that bear the calibrated robot's name, or its whole team.
   std::vector<RobotId> robotsOfMatch(bool team) const;
   void use(bool team);
-  void say(const QString& sentence, bool bad = false);
+  void showStatus(const QString& sentence, bool bad = false);
 
   MatchController* m_match;
   QListWidget* m_files;

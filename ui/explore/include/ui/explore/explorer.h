@@ -79,7 +79,7 @@ class Explorer : public QObject {
   void take(const std::shared_ptr<std::atomic<bool>>& job, double progress,
             const link::ExploreResult& result);
   void end(const std::shared_ptr<std::atomic<bool>>& job, const QString& problem);
-  void tell();
+  void notify();
 
   Parts m_parts;
   std::optional<RobotKey> m_robot;
