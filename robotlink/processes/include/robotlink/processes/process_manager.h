@@ -12,7 +12,7 @@
 //             may block before its first cycle.
 //   Sleeps    The kernel's count of the process's sleeps has to grow.
 //   Caller    The caller runs the cycles of the process and reports: setResponding().
-//   None    The process is not watched.
+//   None      The process is not watched.
 // A process that somebody else stopped (SIGSTOP) does not respond either. For team programs whose
 // clocks follow the match, the time limit is in match time.
 //

@@ -86,8 +86,8 @@ Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCa
 void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& sweep,
                  Placements& placements, std::vector<Event>& events);
 
-/// Lets the teams defend the opposite goals and tells their robots. Moves nobody. world.game must
-/// exist.
+/// Swaps the goals that the two teams defend, and the directions in which their robots attack.
+/// Robots and ball stay where they are. world.game must exist.
 void swapSides(WorldState& world);
 
 /// Returns whole seconds, rounded up as on a scoreboard.
