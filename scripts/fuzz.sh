@@ -44,7 +44,7 @@ cp tests/data/sessions/{small,plain_broken_off}.mcap "$seeds/session/"  # small 
 cp tests/data/sessions/*.mcap "$seeds/moments/"
 cp resources/scenarios/*.json "$seeds/scenario/"
 cp tests/data/catalogs/* resources/*.json "$seeds/catalog/"
-printf '[Communication]\nno_player_robofei = 3\n[Pitchboard Management]\nprocesses = vision decision\ncommand.vision = python3 "a b.py" --key {key}\nsilent_after = 5\n' \
+printf '[Communication]\nno_player_robofei = 3\n[Pitchboard Management]\nprocesses = vision decision\ncommand.vision = python3 "a b.py" --key {key}\nresponse_timeout = 5\n' \
   > "$seeds/scenario/robot.ini"
 printf '{"pitchboardPlots": 1, "current": 0, "tabs": [{"name": "A", "plots": [{"kind": "chart", "title": "T", "values": [0, 1], "rightValues": [2, 3], "curves": [{"kind": "difference", "inputs": ["B1/A", "first/B"], "colour": "#ff8800"}]}]}]}' \
   > "$seeds/layout/one.json"

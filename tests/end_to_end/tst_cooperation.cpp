@@ -24,13 +24,13 @@ class TestCooperation : public QObject {
   const QTemporaryDir m_folder;
 
   QString profileOf(const QStringList& command, bool cooperates = true,
-                    double silentAfter = 5.0) const {
+                    double responseTimeout = 5.0) const {
     QJsonObject profile{
         {"version", 1},
         {"name", "team"},
         {"processes", QJsonArray{QJsonObject{{"name", "decision"},
                                              {"command", QJsonArray::fromStringList(command)},
-                                             {"silent_after", silentAfter}}}}};
+                                             {"response_timeout", responseTimeout}}}}};
     if (cooperates) profile["cycle"] = "MATCH_CYCLE";
     QFile file(m_folder.filePath("profile.json"));
     if (!file.open(QIODevice::WriteOnly)) qFatal("cannot write");

@@ -172,7 +172,7 @@ class TestManagement : public QObject {
     QFETCH(QString, name);
     QFETCH(QByteArray, list);
     start("processes = " + list +
-          "\nstart_interval = 0.05\nsilent_after = 2.5\nrestart_wait = 0.05\n");
+          "\nstart_interval = 0.05\nresponse_timeout = 2.5\nrestart_wait = 0.05\n");
     QTRY_VERIFY(!pidsOf(name).empty());
     ::kill(static_cast<pid_t>(pidsOf(name).front()), SIGSTOP);
     QElapsedTimer timer;
@@ -193,7 +193,8 @@ class TestManagement : public QObject {
     endsWithoutRemains();
   }
 
-  // A receiver may wait for its next packet for as long as it wants.
+  // A receiver may wait for its next packet for as long as it wants. The key is that of version
+  // 0.8.
   void aReceiverThatBlocksLives() {
     start(
         "processes = own, decision\nsilent_after = 0.5\nstart_interval = 0.05\n"
@@ -232,12 +233,12 @@ class TestManagement : public QObject {
         "line 4: 'team' is listed twice");
     row("nothing to start", "[Pitchboard Management]\nprocesses =\n",
         "line 4: processes must name");
-    row("time", "[Pitchboard Management]\n\nsilent_after = soon\n",
-        "line 5: silent_after must be a number of seconds");
+    row("time", "[Pitchboard Management]\n\nresponse_timeout = soon\n",
+        "line 5: response_timeout must be a number of seconds");
     row("negative time", "[Pitchboard Management]\nrestart_wait = -1\n",
         "line 4: restart_wait must be");
-    row("unknown key", "[Pitchboard Management]\nsilent_afer = 3\n",
-        "did you mean \"silent_after\"");
+    row("unknown key", "[Pitchboard Management]\nresponse_timeot = 3\n",
+        "did you mean \"response_timeout\"");
     row("no program", "[Pitchboard Management]\ncommand.own =\n", "line 4: command.own must name");
     row("no such program",
         "[Pitchboard Management]\nprocesses = own\ncommand.own = /no/such/thing\n",

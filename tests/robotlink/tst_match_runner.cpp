@@ -366,7 +366,7 @@ class TestMatchRunner : public QObject {
     QFile file(folder.filePath("team.json"));
     QVERIFY(file.open(QIODevice::WriteOnly));
     file.write(R"({"version": 1, "name": "team", "cycle": "MATCH_CYCLE", "processes": [{"name":
-      "decision", "command": ["/bin/sleep", "600"], "silent_after": 0.2}]})");
+      "decision", "command": ["/bin/sleep", "600"], "response_timeout": 0.2}]})");
     file.close();
     Scenario scenario = builtIn("one-robot");
     scenario.robots[0].runtime.profile = file.fileName().toStdString();

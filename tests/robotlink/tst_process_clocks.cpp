@@ -281,7 +281,7 @@ class TestProcessClocks : public QObject {
     process.watch = ManagedProcess::Watch::Variable;
     process.heartbeat = IntVar{104};
     process.clears = true;
-    process.silentAfter = RestartRule::Seconds(stops ? 20.0 : 0.5);
+    process.responseTimeout = RestartRule::Seconds(stops ? 20.0 : 0.5);
     const auto begin = SteadyClock::now();
     const auto seconds = [begin] {
       return std::chrono::duration<double>(SteadyClock::now() - begin).count();

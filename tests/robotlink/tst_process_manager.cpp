@@ -181,7 +181,7 @@ class TestProcessManager : public QObject {
     process.watch = ManagedProcess::Watch::Variable;
     process.heartbeat = IntVar{104};
     process.clears = true;
-    process.silentAfter = RestartRule::Seconds(0.3);
+    process.responseTimeout = RestartRule::Seconds(0.3);
     const int id = add(process);
     const pid_t first = status(id).pid;
     // While somebody sets it, it lives.
@@ -210,7 +210,7 @@ class TestProcessManager : public QObject {
     ManagedProcess process = shell("exec sleep 600");
     process.watch = ManagedProcess::Watch::Variable;
     process.heartbeat = IntVar{104};
-    process.silentAfter = RestartRule::Seconds(0.05);
+    process.responseTimeout = RestartRule::Seconds(0.05);
     m_board.write(IntVar{104}, 1);  // left by an earlier one
     const int id = add(process);
     for (int i = 0; i < 30; ++i) {
@@ -226,7 +226,7 @@ class TestProcessManager : public QObject {
 
   void withoutAHeartbeatAProcessIsNotReported() {
     ManagedProcess process = shell("exec sleep 600");
-    process.silentAfter = RestartRule::Seconds(0.05);
+    process.responseTimeout = RestartRule::Seconds(0.05);
     const int id = add(process);
     for (int i = 0; i < 30; ++i) {
       QTest::qWait(10);

@@ -76,7 +76,7 @@ class TestRuntimeProfile : public QObject {
       "values": {"side": "left"}, "cycle": "MATCH_CYCLE",
       "processes": [{"name": "decide", "command": ["./decide", "--key", "${key}"],
         "directory": "/home/robot", "environment": {"SIDE": "${side}"}, "delay": 0.5,
-        "heartbeat": "DECISION_WORKING", "silent_after": 2, "restart": "on_failure",
+        "heartbeat": "DECISION_WORKING", "response_timeout": 2, "restart": "on_failure",
         "first_wait": 0.1, "longest_wait": 3, "steady_after": 20, "give_up_after": 5,
         "stop_signal": "INT", "watch_program": true, "only_for": "everyone",
         "clock": "real"}]})",
@@ -88,7 +88,7 @@ class TestRuntimeProfile : public QObject {
     QCOMPARE(process.directory, std::string("/home/robot"));
     QCOMPARE(process.environment.front().second, std::string("${side}"));
     QCOMPARE(process.delay, 0.5);
-    QCOMPARE(process.silentAfter, 2.0);
+    QCOMPARE(process.responseTimeout, 2.0);
     QVERIFY(process.restart.policy == RestartPolicy::OnFailure);
     QCOMPARE(process.restart.giveUpAfter, 5);
     QCOMPARE(process.restart.longestWait.count(), 3.0);
@@ -99,6 +99,15 @@ class TestRuntimeProfile : public QObject {
     QCOMPARE(expanded("a ${x}b${x}", {{"x", "1"}}).value(), std::string("a 1b1"));
     QVERIFY(!expanded("a ${y}", {{"x", "1"}}));
     QVERIFY(!expanded("a ${x", {{"x", "1"}}));
+  }
+
+  void readsTheKeyOfVersion08() {
+    const auto profile = runtimeProfileFromJson(
+        R"({"version": 1, "name": "team", "title": "Ours", "processes":
+        [{"name": "decide", "command": ["a"], "heartbeat": "DECISION_WORKING", "silent_after": 3}]})",
+        "team.json");
+    QVERIFY2(profile, profile ? "" : profile.error().text().c_str());
+    QCOMPARE(profile->processes.front().responseTimeout, 3.0);
   }
 
   void mistakesNameFileLineAndKey_data() {
@@ -123,8 +132,8 @@ class TestRuntimeProfile : public QObject {
         "processes[0].restart: there is no restart policy \"nver\"; did you mean \"never\"");
     row("signal", R"([{"name": "a", "command": ["b"], "stop_signal": "TREM"}])",
         "processes[0].stop_signal: there is no signal");
-    row("time", R"([{"name": "a", "command": ["b"], "silent_after": 0}])",
-        "processes[0].silent_after: must");
+    row("time", R"([{"name": "a", "command": ["b"], "response_timeout": 0}])",
+        "processes[0].response_timeout: must");
     row("clock", R"([{"name": "a", "command": ["b"], "clock": "rael"}])",
         "processes[0].clock: there is no clock \"rael\"; did you mean \"real\"");
     row("clock of ours", R"([{"name": "a", "reference": "decision", "clock": "real"}])",

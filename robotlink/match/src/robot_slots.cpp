@@ -109,9 +109,9 @@ const sim::RobotModel* RobotSlots::model(RobotId id) const {
   return index ? &m_base.simulation.state().models[*index] : nullptr;
 }
 
-double RobotSlots::silentAfter(const RobotSlot& slot) {
-  double most = slot.processes.empty() ? ProfileProcess().silentAfter : 0.0;
-  for (const auto& process : slot.processes) most = std::max(most, process->profile.silentAfter);
+double RobotSlots::responseTimeout(const RobotSlot& slot) {
+  double most = slot.processes.empty() ? ProfileProcess().responseTimeout : 0.0;
+  for (const auto& process : slot.processes) most = std::max(most, process->profile.responseTimeout);
   return most;
 }
 
@@ -492,7 +492,7 @@ Result<void> RobotSlots::start(RobotSlot& slot, SlotProcess& process) {
   managed.spec.stopSignal = profile.stopSignal;
   managed.restart = profile.restart;
   managed.delay = profile.delay;
-  managed.silentAfter = RestartRule::Seconds(profile.silentAfter);
+  managed.responseTimeout = RestartRule::Seconds(profile.responseTimeout);
   TRY(profile.isReference() ? describeReference(slot, process, managed)
                             : describeTeamProgram(slot, profile, managed));
   if (!profile.isReference() && slot.cycle.index >= 0) {

@@ -40,7 +40,7 @@ void ProcessManager::watch(Entry& entry, Time now) {
   ProcessStatus& status = entry.status;
   if (listens && isOverdue(entry, now)) {
     if (status.state == ProcessState::NotResponding) return;  // it has been reported
-    reportOverdue(entry, now, "no sign of life for " + inSeconds(process.silentAfter));
+    reportOverdue(entry, now, "no sign of life for " + inSeconds(process.responseTimeout));
   } else if (listens && status.state == ProcessState::NotResponding) {
     status.state = ProcessState::Running;
     changed();
@@ -57,9 +57,9 @@ void ProcessManager::showSign(Entry& entry, Time now) const {
 /// speed not less of the computer's than it takes to notice it.
 bool ProcessManager::isOverdue(const Entry& entry, Time now) const {
   constexpr Seconds least{1.0};
-  const Seconds silentAfter = entry.process.silentAfter;
-  if (!entry.clock) return now - entry.lastSign >= silentAfter;
-  return Seconds(m_matchSeconds - entry.lastSignMatch) >= silentAfter &&
+  const Seconds responseTimeout = entry.process.responseTimeout;
+  if (!entry.clock) return now - entry.lastSign >= responseTimeout;
+  return Seconds(m_matchSeconds - entry.lastSignMatch) >= responseTimeout &&
          now - entry.lastSign >= least;
 }
 
@@ -86,7 +86,7 @@ void ProcessManager::setResponding(int id, bool responding, Time now) {
   if (!entry || !entry->child) return;
   ProcessStatus& status = entry->status;
   if (!responding) {
-    reportOverdue(*entry, now, "no cycle done for " + inSeconds(entry->process.silentAfter));
+    reportOverdue(*entry, now, "no cycle done for " + inSeconds(entry->process.responseTimeout));
   } else if (status.state == ProcessState::NotResponding) {
     status.state = ProcessState::Running;
     changed();
@@ -131,8 +131,9 @@ void ProcessManager::sample(Entry& entry, Time now) {
       status.state = ProcessState::Running;
       changed();
     }
-  } else if (now - entry.stoppedSince >= entry.process.silentAfter) {
-    reportOverdue(entry, now, "stopped by a signal for " + inSeconds(entry.process.silentAfter));
+  } else if (now - entry.stoppedSince >= entry.process.responseTimeout) {
+    reportOverdue(entry, now,
+                  "stopped by a signal for " + inSeconds(entry.process.responseTimeout));
   }
 }
 

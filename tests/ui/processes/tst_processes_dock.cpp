@@ -218,7 +218,7 @@ class TestProcessesDock : public QObject {
     QFile profile(folder.filePath(QStringLiteral("mine.json")));
     QVERIFY(profile.open(QIODevice::WriteOnly));
     profile.write(R"({"version": 1, "name": "mine", "processes": [
-      {"name": "thinks", "command": ["sleep", "600"], "silent_after": 0.3}]})");
+      {"name": "thinks", "command": ["sleep", "600"], "response_timeout": 0.3}]})");
     profile.close();
     open(oneRobot(profile.fileName()));
     QTRY_VERIFY_WITH_TIMEOUT(runs("thinks"), 30'000);

@@ -94,7 +94,7 @@ class RobotSlots {
   /// Returns null if there is no such robot.
   const sim::RobotModel* model(RobotId id) const;
   /// Returns the time in s after which the robot's programs count as not responding.
-  static double silentAfter(const RobotSlot& slot);
+  static double responseTimeout(const RobotSlot& slot);
   /// Returns whether programs outside this one can write to the blackboard of any robot.
   bool haveTeamPrograms() const;
   /// Returns the robots whose processes were started by somebody else and continue after the match.

@@ -46,7 +46,7 @@ struct ManagedProcess {
   Watch watch = Watch::None;
   IntVar heartbeat{-1};    ///< for Watch::Variable
   bool clears = false;     ///< the manager clears the heartbeat
-  Seconds silentAfter{5};  ///< without a sign of life, or stopped by somebody
+  Seconds responseTimeout{5};  ///< without a sign of life, or stopped by somebody
   bool watchFile = false;  ///< restart when the file of its program is replaced
   bool ownTime = false;    ///< a team program whose clocks follow setTime()
   /// Called before every start; may change `spec`.
