@@ -125,7 +125,7 @@ class TestExplore : public QObject {
   }
 
   /// The ball is 6 m away and nobody is near it: a second changes nothing.
-  void alikeActionsAreNotTold() {
+  void similarActionsAreNotListed() {
     MatchFrame frame = openGoal();
     frame.robots[0].pose.position = frame.robots[0].belief->position = {-4.0, -2.5};
     frame.robots[0].ball.reset();
@@ -191,7 +191,7 @@ class TestExplore : public QObject {
     QVERIFY(contains(truth->notes, "true positions"));
   }
 
-  void unknownRobotsAreLeftOutAndTold() {
+  void unknownRobotsAreLeftOutAndReported() {
     MatchFrame frame = openGoal();
     frame.robots.push_back(robotAt(TeamColor::Blue, 4, {{0, 0}, 0}, "supporter"));
     frame.robots.back().belief.reset();

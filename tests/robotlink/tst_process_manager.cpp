@@ -87,7 +87,7 @@ class TestProcessManager : public QObject {
     removeSegment(m_key);
   }
 
-  void aCrashTellsItsSignalAndLastWordsAndStartsAgain() {
+  void aCrashReportsItsSignalAndLastOutputAndIsRestarted() {
     const int id = add(shell("echo ouch; kill -SEGV $$"));
     QTRY_VERIFY(count(Kind::Restarted) >= 1);
     const auto died = std::find_if(m_news.begin(), m_news.end(),
@@ -99,22 +99,22 @@ class TestProcessManager : public QObject {
   }
 
   // Who waits for it need not ask.
-  void itSaysWhenAProcessHasSomethingToTell() {
-    const auto tells = [this] {
+  void itSignalsWhenAProcessHasNews() {
+    const auto reports = [this] {
       pollfd waited{m_manager->descriptor(), POLLIN, 0};
       return ::poll(&waited, 1, 0) == 1;
     };
     const int id =
         add(shell("echo here; read nothing < /dev/null; exec sleep 1000", RestartPolicy::Never));
-    QTRY_VERIFY(tells());
+    QTRY_VERIFY(reports());
     QTRY_VERIFY(wrote("here"));
     look();
-    QVERIFY(!tells());
+    QVERIFY(!reports());
     m_manager->kill(id);
-    QTRY_VERIFY(tells());
+    QTRY_VERIFY(reports());
     QTRY_COMPARE(count(Kind::Died), 1);
     look();
-    QVERIFY(!tells());
+    QVERIFY(!reports());
   }
 
   void restartPolicies_data() {
@@ -308,7 +308,7 @@ class TestProcessManager : public QObject {
     QCOMPARE(status(id).restarts, 1);
   }
 
-  void aFloodOfLinesIsBoundedAndHoldsNobodyUp() {
+  void aFloodOfLinesIsBoundedAndDelaysNoProcess() {
     ManagedProcess process = shell("exec yes");
     const int id = add(process);
     for (int i = 0; i < 30; ++i) look();

@@ -112,7 +112,7 @@ class TestReferee : public QObject {
  private slots:
   // In every state that a match comes to: what checkCall() refuses changes nothing, and the match
   // says the same.
-  void checkSaysWhatTheCallWouldSay() {
+  void checkReturnsTheErrorOfTheCall() {
     const std::vector<std::function<bool(Game&)>> way{
         to(PlayState::Ready),
         to(PlayState::Set),

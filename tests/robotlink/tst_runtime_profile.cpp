@@ -148,11 +148,12 @@ class TestRuntimeProfile : public QObject {
         "{\"version\": 1,\n\"name\": \"team\",\n\"processes\": " + processes + "}";
     const auto profile = runtimeProfileFromJson(text.toStdString(), "team.json");
     QVERIFY(!profile);
-    const QByteArray said = QByteArray::fromStdString(profile.error().text());
-    QVERIFY2(said.contains(message) && said.startsWith("team.json:3: "), said.constData());
+    const QByteArray reported = QByteArray::fromStdString(profile.error().text());
+    QVERIFY2(reported.contains(message) && reported.startsWith("team.json:3: "),
+             reported.constData());
   }
 
-  void choicesInWords_data() {
+  void choicesAsText_data() {
     QTest::addColumn<QByteArray>("text");
     for (const char* text : {"own", "reference", "team.json", "program=/home/me/decide",
                              "published-tree:folder=/home/robot,python=python3",
@@ -160,7 +161,7 @@ class TestRuntimeProfile : public QObject {
       QTest::addRow("%s", text) << QByteArray(text);
     }
   }
-  void choicesInWords() {
+  void choicesAsText() {
     QFETCH(QByteArray, text);
     const auto read = runtimeChoiceFromText(text.toStdString());
     QVERIFY(read && read->isChosen());
@@ -188,7 +189,7 @@ class TestRuntimeProfile : public QObject {
     QVERIFY(!loadRuntime(choice("/no/such/file.json")));
   }
 
-  void scenariosSayWhoRuns() {
+  void scenariosChooseTheRuntime() {
     const auto scenario = scenarioFromJson(R"({"version": 1, "runtime": {"red": "own"}, "robots": [
       {"team": "blue", "number": 1, "x": -1, "y": 0, "runtime": "program=/home/me/decide"},
       {"team": "red", "number": 1, "x": 1, "y": 0},
@@ -301,7 +302,7 @@ class TestRuntimeProfile : public QObject {
   }
 
   // What the referee says reaches a robot of somebody else as it reaches one of ours.
-  void aRobotOfSomebodyElseReceivesTheReferee() {
+  void aRobotWithItsOwnProgramsReceivesTheReferee() {
     QTemporaryDir folder;
     QFile file(folder.filePath("hears.json"));
     QVERIFY(file.open(QIODevice::WriteOnly));
@@ -316,7 +317,7 @@ class TestRuntimeProfile : public QObject {
     scenario.robots[1].runtime.profile = file.fileName().toStdString();
     auto match = SimulatedMatch::create(scenario, separate()).value();
     const IntVar word = match.variables().comReferee;
-    std::set<int> told;
+    std::set<int> given;
     for (int i = 0; i < 60 * 15; ++i) {
       if (i == 60 * 9) {
         const sim::RefereeCall call{.kind = sim::CallKind::SetPlay,
@@ -329,9 +330,9 @@ class TestRuntimeProfile : public QObject {
       match.tick();
       const int one = match.blackboard(RobotId{1})->read(word);
       QCOMPARE(one, inside.blackboard(RobotId{1})->read(word));
-      told.insert(one);
+      given.insert(one);
     }
-    QCOMPARE(told, (std::set<int>{1, 2, 11, 12}));
+    QCOMPARE(given, (std::set<int>{1, 2, 11, 12}));
     QCOMPARE(match.blackboard(RobotId{2})->read(word), 0);  // its own program would write it
   }
 
@@ -447,14 +448,14 @@ class TestRuntimeProfile : public QObject {
     QCOMPARE(namesOf(match, 1),
              (std::vector<std::string>{"localization", "team", "decision", "communication"}));
     const std::string wanted = "key " + std::to_string(m_base + 100);
-    const auto said = [&] {
+    const auto reported = [&] {
       match.pace().lookAfterProcesses(std::chrono::steady_clock::now());
       for (const ProcessStatus& one : match.robots().processes().statuses()) {
         if (one.name == "decision" && !one.lastLines.empty()) return one.lastLines.back() == wanted;
       }
       return false;
     };
-    QTRY_VERIFY(said());
+    QTRY_VERIFY(reported());
     match.tick();
   }
 

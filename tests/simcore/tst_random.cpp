@@ -16,7 +16,7 @@ class TestRandom : public QObject {
   Q_OBJECT
 
  private slots:
-  void sameKeySameDraws() {
+  void sameKeySameNumbers() {
     CounterRandom a(7, 3, NoiseStream::Motion, 99);
     CounterRandom b(7, 3, NoiseStream::Motion, 99);
     for (int i = 0; i < 100; ++i) QCOMPARE(a.uniform(), b.uniform());
@@ -81,7 +81,7 @@ class TestRandom : public QObject {
   }
 
   // Whatever is drawn in which order, and however many robots there are.
-  void aBatchIsTheDrawsOfEach() {
+  void aBatchHasTheNumbersOfEachRobot() {
     RandomBatch many;
     for (int robots = 1; robots <= 22; ++robots) {
       std::vector<int> numbers;
@@ -132,7 +132,7 @@ class TestRandom : public QObject {
     QCOMPARE(all(*wide), all(narrow));
   }
 
-  void noSigmaDrawsNothing() {
+  void withoutSigmaNoNumberIsUsed() {
     CounterRandom a(1, 1, NoiseStream::Motion, 1);
     CounterRandom b(1, 1, NoiseStream::Motion, 1);
     QCOMPARE(a.normal(4.0, 0.0), 4.0);

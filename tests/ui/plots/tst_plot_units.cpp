@@ -162,7 +162,7 @@ class TestPlotUnits : public QObject {
     QCOMPARE(stranger.side, QStringLiteral("right [V]"));
   }
 
-  void theWishIsKept() {
+  void theChosenAxisIsKept() {
     Units b({"cm", "cm"});
     b.dock->plotVariables(b.names);
     ChartPane* chart = b.chart();
