@@ -47,7 +47,7 @@ void addMerge(CLI::App& parent, int& exitCode) {
                             "Example: pitchboard-cli experiment merge part1 part2 --out all");
   command->add_option("parts", options->parts, "Folders of the shards")
       ->required()
-      ->type_name("DIR...");
+      ->type_name("DIR");
   command->add_option("--out", options->out, "New folder for the results")
       ->required()
       ->type_name("DIR");

@@ -216,10 +216,12 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
   shared::addDuration(*command, "--duration", options->duration,
                       "Stop after this time instead of at Ctrl+C");
   addListenOptions(*command, options->network);
-  command->add_option(
-      "--monitor", options->monitor,
-      "Ask the GameController (2026) at this address for monitor mode: the only thing that "
-      "listen can send");
+  command
+      ->add_option(
+          "--monitor", options->monitor,
+          "Ask the GameController (2026) at this address for monitor mode: the only thing that "
+          "listen can send")
+      ->type_name("ADDRESS");
   command->add_flag(
       "--json", options->json,
       "Print one JSON object per message, and the health of each link once a second and at "
