@@ -182,7 +182,7 @@ class TestExplore : public QObject {
     QCOMPARE(believed->belief.robots[0].sigma, 0.05);
     QCOMPARE(believed->belief.ball.place, (Point{3.2, 0.0}));
     QVERIFY(believed->belief.ball.sigma > 0.0);
-    QVERIFY(contains(believed->notes, "where they believe to be"));
+    QVERIFY(contains(believed->notes, "where they believe they are"));
     const auto truth = exploreStart(frame, {.useTruth = true, .base = nullptr, .earlier = {}});
     QVERIFY(truth);
     QCOMPARE(truth->belief.robots[0].pose.position, (Point{2.0, 1.0}));

@@ -241,7 +241,8 @@ Result<CalibrationLog> checkedLog(CalibrationLog log, const std::vector<std::str
                   log.session.c_str(), 1.0 / log.period);
     log.notes.emplace_back(text);
   } else if (gaps > 0) {
-    std::snprintf(text, sizeof text, "%s has %zu gaps of more than %.1f s; each one starts again.",
+    std::snprintf(text, sizeof text,
+                  "%s has %zu gaps of more than %.1f s; the fit starts anew after each.",
                   log.session.c_str(), gaps, longestGap);
     log.notes.emplace_back(text);
   }

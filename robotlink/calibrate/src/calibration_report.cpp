@@ -180,8 +180,8 @@ std::string calibrationReport(const Calibration& c, const sim::FieldSpec& field)
   }
   out += valueTable(c) + trajectories(c, field) + residualCharts(c);
   return out +
-         "<footer>Intervals hold the number with 95 % if the model is right; see "
-         "docs/calibrate.md.</footer>\n</main></body></html>\n";
+         "<footer>If the model is right, an interval contains the true value in 95 of 100 "
+         "calibrations; see docs/calibrate.md.</footer>\n</main></body></html>\n";
 }
 
 }  // namespace pitchboard::link

@@ -54,8 +54,8 @@ Table endsTable(const ExperimentSummary& s) {
   if (some) {
     table.head.emplace_back("Not repeatable");
     table.note =
-        "A run is not repeatable if a team's program played that the match does not wait for, or "
-        "that did not finish a cycle in time, or if it ended differently when it was played again.";
+        "A run is not repeatable if the match did not wait for a team's program, if a program did "
+        "not finish a cycle in time, or if the run ended differently when it was played again.";
   }
   for (const ConditionSummary& condition : s.conditions) {
     std::vector<std::string> row{condition.name, std::to_string(condition.runs)};

@@ -188,7 +188,7 @@ class TestExplorePanel : public QObject {
     QTRY_VERIFY(s.window.replay()->frame() && s.window.replay()->frame()->robots.size() == 6);
     panel.press("exploreStart");
     QTRY_VERIFY_WITH_TIMEOUT(panel.hasResult(), patience_ms);
-    QVERIFY(panel.text("exploreNotes").contains(QStringLiteral("where they believe to be")));
+    QVERIFY(panel.text("exploreNotes").contains(QStringLiteral("where they believe they are")));
     panel.press("exploreCancel");
   }
 

@@ -98,7 +98,7 @@ void SituationDialog::makeForm() {
   form->addRow(QStringLiteral("Name"), m_name);
   form->addRow(QStringLiteral("Folder"), makeFolder());
   makeRobotRows(form);
-  form->addRow(QStringLiteral("What must hold"), makeAssertions());
+  form->addRow(QStringLiteral("Assertions"), makeAssertions());
   form->addRow(QStringLiteral("A run ends after"), makeEnds());
   m_runs->setObjectName(QStringLiteral("testRuns"));
   m_runs->setRange(1, mostTestRuns);
