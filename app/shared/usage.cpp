@@ -97,8 +97,7 @@ std::string typeOf(const CLI::Option& option) {
 
 /// Remove what CLI11 writes after a flag that is false: "--read-only{false}".
 std::string withoutFlagValues(std::string name) {
-  while (name.contains('{')) {
-    const std::size_t at = name.find('{');
+  for (std::size_t at = name.find('{'); at != std::string::npos; at = name.find('{')) {
     name.erase(at, name.find('}', at) - at + 1);
   }
   return name;
