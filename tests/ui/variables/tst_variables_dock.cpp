@@ -26,7 +26,7 @@ class TestVariablesDock : public QObject {
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
   // Over the curve beside them, though columns that are hidden stand between the two.
-  void wordsOfCodesAreReadWhole() {
+  void labelsOfCodesAreReadCompletely() {
     Bench bench;
     bench.hand.take(twoRobots(), SourceKind::Simulate);
     bench.choose(action);
@@ -92,7 +92,7 @@ class TestVariablesDock : public QObject {
     QCOMPARE(filter.rowCount(), 0);
   }
 
-  void valuesWithWordsUnitsAndRates() {
+  void valuesWithLabelsUnitsAndRates() {
     Bench bench;
     bench.hand.take(twoRobots(), SourceKind::Simulate);
     bench.view->openAll();
@@ -381,7 +381,7 @@ class TestVariablesDock : public QObject {
     QVERIFY(bench.view->isExpanded(bench.at(QStringLiteral("B2\nDecision"))));
   }
 
-  void emptyStatesAreWords() {
+  void emptyStatesAreTexts() {
     Bench bench;
     auto* empty = bench.dock->findChild<QLabel*>(QStringLiteral("emptyVariables"));
     QTRY_VERIFY(empty->isVisible());
