@@ -11,6 +11,7 @@
 #include <base/random.h>
 #include <base/repeatable_math.h>
 #include <base/try.h>
+#include <simcore/world/gait_step.h>
 #include <simcore/world/published_frame.h>
 
 namespace pitchboard::rollout {
