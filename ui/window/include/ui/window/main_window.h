@@ -122,6 +122,7 @@ class MainWindow : public QMainWindow {
   void fitScreen();
   /// Gives panels the room that is theirs in a window of this size.
   void distributeSpace();
+  void distributeSpaceLater();
   void notifyFinished(const link::MatchFrame& frame);
   void askForSpeed(const QStringList& programs, double wanted);
 
