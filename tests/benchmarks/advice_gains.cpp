@@ -151,10 +151,25 @@ class Comparison {
     const std::size_t best = result.best;
     ++m_questions;
     if (best == 0 && m_onlySuggested) return;
-    const double usualFast = meanOf(fast(0)), usualWhole = meanOf(whole(0));
+    const double usualFast = meanOf(fast(0));
+    const std::vector<double> usual = whole(0);
+    const double usualWhole = meanOf(usual);
+    // The best one of what half of the continuations show, and what it gains in the other half.
+    double bestShown = 0.0, shownOther = 0.0;
+    std::size_t shown = 0;
     for (std::size_t i = 1; i < candidates.size(); ++i) {
       if (m_onlySuggested && i != best) continue;
-      const double gain = meanOf(fast(i)) - usualFast, real = meanOf(whole(i)) - usualWhole;
+      const std::vector<double> played = whole(i);
+      const double gain = meanOf(fast(i)) - usualFast, real = meanOf(played) - usualWhole;
+      double halves[2] = {0.0, 0.0};
+      for (std::size_t j = 0; j < played.size(); ++j) {
+        halves[j % 2] += 2.0 * (played[j] - usual[j]) / static_cast<double>(played.size());
+      }
+      if (halves[0] > bestShown) {
+        bestShown = halves[0];
+        shownOther = halves[1];
+        shown = i;
+      }
       Row* const suggested = i == best ? &m_suggested : nullptr;
       Row* const surely = suggested && result.gainLow > 0.0 ? &m_surely : nullptr;
       for (Row* row : {&m_rows[wordsOf(candidates[i].kind)], suggested, surely}) {
@@ -163,6 +178,9 @@ class Comparison {
         row->matches.add(real);
       }
     }
+    m_possible.rollouts.add(bestShown);
+    m_possible.matches.add(shownOther);
+    ++m_shown[shown == 0 ? "as usual" : wordsOf(candidates[shown].kind)];
   }
 
   void print() const {
@@ -176,6 +194,8 @@ class Comparison {
     for (const auto& [name, row] : m_rows) print(name.c_str(), row);
     print("what the advisor suggests", m_suggested);
     print("of these, with a gain above 0 at 95 %", m_surely);
+    print("the best as half of the continuations show, in them and in the other half", m_possible);
+    for (const auto& [name, times] : m_shown) std::printf("of these %s: %d\n", name.c_str(), times);
     std::printf("%d questions\n", m_questions);
   }
 
@@ -184,7 +204,8 @@ class Comparison {
   bool m_onlySuggested;
   int m_questions = 0;
   std::map<std::string, Row> m_rows;
-  Row m_suggested, m_surely;
+  Row m_suggested, m_surely, m_possible;
+  std::map<std::string, int> m_shown;
 };
 
 /// Asks the robots of one match; returns how often.
