@@ -9,9 +9,9 @@ usage() {
 Usage: scripts/fuzz.sh [SECONDS] [NAME...]
 Builds the fuzz targets (tests/fuzz/fuzz_NAME.cpp) with clang and sanitizers, and runs all of them, or
 those that are named, for SECONDS each (default: 60), two at a time. One line for each says how many
-inputs it tried, how many a second, and whether one broke something; the exit code is 1 when one did.
-Such an input stands in build/asan-core/fuzz/findings, what was said about it in build/asan-core/fuzz/logs: turn it into a
-test. New inputs stay in build/asan-core/fuzz/corpus. Missing packages are installed.
+inputs it tried, how many a second, and whether one made it fail; then the exit code is 1, the input
+is in build/asan-core/fuzz/findings and its report in build/asan-core/fuzz/logs: turn it into a test.
+New inputs are kept in build/asan-core/fuzz/corpus. Missing packages are installed.
 Example: scripts/fuzz.sh 300 session moments
 END
 }
@@ -44,7 +44,7 @@ cp tests/data/sessions/{small,plain_broken_off}.mcap "$seeds/session/"  # small 
 cp tests/data/sessions/*.mcap "$seeds/moments/"
 cp resources/scenarios/*.json "$seeds/scenario/"
 cp tests/data/catalogs/* resources/*.json "$seeds/catalog/"
-printf '[Communication]\nno_player_robofei = 3\n[Pitchboard Management]\nprocesses = vision decision\ncommand.vision = python3 "a b.py" --key {key}\nsilent_after = 5\n' \
+printf '[Communication]\nno_player_robofei = 3\n[Pitchboard Management]\nprocesses = vision decision\ncommand.vision = python3 "a b.py" --key {key}\nresponse_timeout = 5\n' \
   > "$seeds/scenario/robot.ini"
 printf '{"pitchboardPlots": 1, "current": 0, "tabs": [{"name": "A", "plots": [{"kind": "chart", "title": "T", "values": [0, 1], "rightValues": [2, 3], "curves": [{"kind": "difference", "inputs": ["B1/A", "first/B"], "colour": "#ff8800"}]}]}]}' \
   > "$seeds/layout/one.json"
@@ -115,7 +115,7 @@ referee = pathlib.Path("tests/data/gamecontroller/v12hl640_PLAYING_1-0.bin").rea
                                          + record(1, referee) + record(0, message))
 PYTHON
 
-# fuzz NAME: one line about it; fails when an input broke something. (Entropic schedules would take more
+# fuzz NAME: one line about it; fails if an input made the target fail. (Entropic schedules would take more
 # time than what is tested.)
 fuzz() {
   local target=$1 length=2000 log=$build/logs/$1.log code=0 runs rate

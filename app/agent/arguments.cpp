@@ -88,10 +88,12 @@ Result<void> takeOption(Arguments& arguments, std::string_view option, std::stri
 }  // namespace
 
 const char* const helpText =
-    R"(Pitchboard: sends the variables of a robot's blackboard to Pitchboard.
-Runs on the robot, reads its blackboard and changes nothing. Waits for a blackboard that is not
-there yet, and for the network. Receives nothing.
-Example: pitchboard-agent --robot 1 --to 192.168.0.7
+    R"(Send the variables of a robot's blackboard to Pitchboard. Runs on the robot, reads its blackboard
+and changes nothing. Waits until there is a blackboard and a network. Receives nothing.
+
+Example:
+  pitchboard-agent --robot 1 --to 192.168.0.7
+
 Usage: pitchboard-agent --robot N [OPTIONS]
 
 Options:
@@ -107,8 +109,8 @@ Options:
   --catalog FILE        The team's own map of variables: .json, .h, .hpp or .py (default: the
                         published map)
   --key K               Key of the blackboard instead of 100 x robot number
-  -h,--help             Print this help message and exit
-  --version             Print the version and exit
+  -h, --help            Print this page
+  --version             Print the version
 )";
 
 Result<Arguments> parseArguments(std::span<const char* const> argv) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The agent's command line. Read by hand: a library for it would be larger than the rest of the
-// program.
+// The command line of pitchboard-agent. It is parsed without a library, because that would be
+// larger than the rest of the program. Plain values; any thread.
 
 #include <optional>
 #include <span>
@@ -18,7 +18,7 @@ namespace pitchboard::agent {
 
 struct Receiver {
   telemetry::Address address;
-  std::optional<int> port;  ///< nothing: 1340 + the robot's number
+  std::optional<int> port;  ///< empty: 1340 + the robot's number
 };
 
 struct Arguments {
@@ -28,8 +28,8 @@ struct Arguments {
 
   int robot = 0;
   std::optional<int> key;
-  std::string catalog;  ///< a file; empty: the published map
-  double rate = 20.0;
+  std::string catalog;             ///< a file; empty: the published map
+  double rate = 20.0;              ///< samples of the blackboard per second
   std::vector<std::string> globs;  ///< empty: every variable
   std::vector<Receiver> receivers;
   std::optional<double> limit;  ///< kbit/s
@@ -38,14 +38,16 @@ struct Arguments {
 
 extern const char* const helpText;
 
-/// Without the program's name. Error InvalidArgument with the option and what it should be.
+/// Parses the arguments, without the program's name. Fails with InvalidArgument; the message names
+/// the option and its valid values.
 Result<Arguments> parseArguments(std::span<const char* const> argv);
 
-/// `*` stands for any characters, `?` for one.
+/// Returns whether the name matches. `*` stands for any characters, `?` for one.
 bool matchesGlob(std::string_view glob, std::string_view name);
 
-/// Those that match one of the globs, in the catalog's order. Error NotFound for a glob that
-/// matches none, Unsupported for a name that is too long to be sent.
+/// Returns the variables that match one of the globs (all if there are none), in the catalog's
+/// order. Fails with NotFound for a glob without a match, with Unsupported for a name that is too
+/// long to be sent.
 Result<std::vector<link::Variable>> chosenVariables(const link::VariableCatalog& catalog,
                                                     std::span<const std::string> globs);
 

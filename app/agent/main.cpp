@@ -24,7 +24,7 @@ Time now() {
 }
 
 /// For a person or the journal: nothing of it is read by programs.
-void tell(const std::string& text) {
+void printLine(const std::string& text) {
   if (!text.empty()) std::fprintf(stderr, "pitchboard-agent: %s\n", text.c_str());
 }
 
@@ -49,17 +49,17 @@ Result<void> run(const Arguments& arguments) {
   };
   Schedule schedule(options, variables);
   RobotSegment segment(arguments.key.value_or(100 * arguments.robot), layout);
-  tell("robot " + std::to_string(arguments.robot) + ": " + std::to_string(variables.size()) +
-       " variables to " + receivers);
+  printLine("robot " + std::to_string(arguments.robot) + ": " + std::to_string(variables.size()) +
+            " variables to " + receivers);
 
   const Time step(static_cast<Time::rep>(1e6 / arguments.rate));
   std::vector<std::uint32_t> words;
   for (Time tick = now();;) {
     const Time time = now();
-    tell(segment.look(time));
+    printLine(segment.look(time));
     segment.read(schedule.variables(), words);
     for (const std::string& datagram : schedule.next(time, words)) {
-      for (Output& output : outputs) tell(output.send(datagram, time));
+      for (Output& output : outputs) printLine(output.send(datagram, time));
     }
     // Ticks that were missed, because the computer slept or was busy, are left out.
     tick = std::max(tick + step, now());

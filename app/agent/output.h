@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sends the agent's datagrams. Reports once when the network fails, and once when it works again.
-// One thread.
+// Sends the agent's datagrams to one receiver. Reports once that the network fails, and once that
+// it works again. One thread at a time.
 
 #include <chrono>
 #include <optional>
@@ -17,8 +17,8 @@ class Output {
  public:
   static Result<Output> to(telemetry::Address address, int port);
 
-  /// Returns what a person should be told; empty: nothing. It works again when nothing has failed
-  /// for two seconds.
+  /// Sends a datagram. Returns a message for the log, or an empty text. The network counts as
+  /// working again after two seconds without a failure.
   std::string send(std::string_view datagram, std::chrono::microseconds now);
   const std::string& name() const { return m_name; }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The robot's blackboard as the agent reads it: attached read-only when there is one, and again
-// when it was removed and another one made. One thread.
+// The robot's blackboard, which the agent only reads. It is attached as soon as it exists, and
+// attached again if it was removed and created anew. One thread at a time.
 
 #include <chrono>
 #include <cstdint>
@@ -20,12 +20,13 @@ class RobotSegment {
  public:
   RobotSegment(int key, const link::SegmentLayout& layout) : m_key(key), m_layout(layout) {}
 
-  /// Looks for it, at most five times a second. Returns what a person should be told, once for
-  /// each change; empty: nothing.
+  /// Looks for the segment, at most five times a second. Returns a message for the log after each
+  /// change, otherwise an empty text.
   std::string look(std::chrono::microseconds now);
 
   bool isThere() const { return m_view.has_value(); }
-  /// Each word of a variable is read atomically, one after the other.
+  /// Reads the variables into `words`, which becomes empty if there is no blackboard. Each word is
+  /// read atomically, but not all at the same instant.
   void read(std::span<const link::Variable> variables, std::vector<std::uint32_t>& words) const;
 
  private:

@@ -2,8 +2,8 @@
 #pragma once
 
 // Decides what the agent sends and when: changed values at once, every value at least every two
-// seconds, never more than a bandwidth limit. Given values and a clock it makes datagrams; it calls
-// nothing of the system. One thread.
+// seconds, never more than a bandwidth limit. It turns values and times into datagrams and makes no
+// system calls. One thread at a time.
 
 #include <chrono>
 #include <cstdint>
@@ -21,21 +21,23 @@ using Time = std::chrono::microseconds;  ///< of the robot's monotonic clock
 
 struct ScheduleOptions {
   int robot = 1;
-  double rate = 20.0;           ///< how often next() is called, Hz
-  double bytesPerSecond = 0.0;  ///< of all receivers, with IP and UDP headers; 0: no limit
-  int receivers = 1;            ///< how often each datagram is sent
+  double rate = 20.0;  ///< how often next() is called, Hz
+  double bytesPerSecond =
+      0.0;            ///< for all receivers together, including IP and UDP headers; 0: no limit
+  int receivers = 1;  ///< how often each datagram is sent
 };
 
 class Schedule {
  public:
   /// IP and UDP headers of a datagram.
   static constexpr std::size_t headerBytes = 28;
-  /// The smallest limit that lets every variable through.
+  /// The smallest limit with which every variable can still be sent.
   static constexpr double leastBytesPerSecond = 2000.0;
-  /// Every value is promised each 2 s: a little sooner, because datagrams leave at ticks.
+  /// Every value is sent at least every promisedPeriod. The schedule aims at a slightly shorter
+  /// period, because datagrams are only sent at ticks.
   static constexpr Time refreshPeriod = std::chrono::milliseconds(1900);
   static constexpr Time promisedPeriod = std::chrono::seconds(2);
-  /// The refresh alone makes no more datagrams than one in this time.
+  /// The refresh alone makes at most one datagram in this time.
   static constexpr Time refreshStep = std::chrono::milliseconds(95);
   static constexpr Time statusStep = std::chrono::seconds(1);
 
@@ -43,13 +45,13 @@ class Schedule {
 
   std::span<const link::Variable> variables() const { return m_variables; }
 
-  /// What to send now. `words` are the variables' words, read at `now`, in the order of
-  /// variables(); empty while there is no blackboard. Valid until the next call.
+  /// Returns the datagrams to send now; valid until the next call. `words` are the values of
+  /// variables(), read at `now`, in their order; empty while there is no blackboard.
   const std::vector<std::string>& next(Time now, std::span<const std::uint32_t> words);
 
-  /// Variables whose change waits for bandwidth.
+  /// Returns how many changed variables wait for bandwidth.
   std::size_t waiting() const { return m_queue.size(); }
-  /// In this time every value is sent once, at present.
+  /// Returns the time in which every value is currently sent once.
   Time refreshTime(Time now) const;
 
  private:
@@ -79,16 +81,17 @@ class Schedule {
   std::vector<link::Variable> m_variables;
   std::vector<State> m_states;
   std::vector<std::uint32_t> m_words;  // the newest sample
-  std::deque<std::size_t> m_queue;     // changed, who waits longest first
+  std::deque<std::size_t> m_queue;     // changed variables, those that wait longest first
   std::vector<std::string> m_datagrams;
   std::vector<telemetry::Pb2Writer> m_open;  // at most one
   std::uint32_t m_sequence = 0;
 
-  // Bandwidth: what may be spent now, what of it only the refresh may spend, and the last second.
+  // Bandwidth: the bytes that may be sent now, those of them that are reserved for the refresh, and
+  // what was sent in the last second.
   double m_tokens = 0.0, m_reserve = 0.0;
   std::deque<Spent> m_lastSecond;
   double m_spentLastSecond = 0.0;
-  double m_spentNow = 0.0;  // in this call, when there is no limit, too
+  double m_spentNow = 0.0;  // in this call, also without a limit
 
   // Refresh: the number of values whose refresh is overdue, and the next one.
   double m_due = 0.0;

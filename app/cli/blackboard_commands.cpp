@@ -131,6 +131,7 @@ void addListCommand(CLI::App& parent, int& exitCode) {
       "List the blackboards on this computer with owner and attached processes.\n"
       "Example: pitchboard-cli blackboard list");
   command->add_option("--key-base", options->keyBase, "Added to 100 x robot number")
+      ->type_name("B")
       ->check(CLI::Range(0, 2'000'000'000));
   command->add_flag("--json", options->json, "Print JSON");
   command->callback(
@@ -160,8 +161,10 @@ void addRemoveCommand(CLI::App& parent, int& exitCode) {
                             "Example: pitchboard-cli blackboard remove --orphans");
   command->add_option("ROBOT", options->robots, "Robot numbers")->check(CLI::Range(1, 64));
   command->add_option("--key", options->key, "System V key instead of a robot number")
+      ->type_name("K")
       ->check(CLI::PositiveNumber);
   command->add_option("--key-base", options->keyBase, "Added to 100 x robot number")
+      ->type_name("B")
       ->check(CLI::Range(0, 2'000'000'000));
   command->add_flag("--orphans", options->orphans,
                     "Remove all Pitchboard blackboards without users whose creator has ended");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the blackboard commands share: which blackboard is meant, and by which names.
+// Options that the blackboard commands share: which blackboard they use. Used at the start of a
+// command, on the main thread.
 
 #include <string>
 #include <vector>
@@ -18,12 +19,13 @@ struct BlackboardTarget {
   int key = 0;
   int keyBase = 0;
 
-  /// For a command whose one argument is the robot.
+  /// Adds ROBOT and the keys to a command whose only argument is the robot.
   void addTo(CLI::App& command);
+  /// Adds only --key and --key-base.
   void addKeysTo(CLI::App& command);
-  /// For a command with more arguments: without --key, the first is the robot.
+  /// For a command with more arguments: takes the robot from the first one unless --key is given.
   Result<void> takeRobotFrom(std::vector<std::string>& arguments);
-  /// The System V key; an error when neither or both of robot and key are given.
+  /// Returns the System V key. Fails if neither or both of robot and key are given.
   Result<int> resolve() const;
 };
 

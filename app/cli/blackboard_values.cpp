@@ -35,8 +35,10 @@ void BlackboardTarget::addTo(CLI::App& command) {
 
 void BlackboardTarget::addKeysTo(CLI::App& command) {
   command.add_option("--key", key, "System V key instead of a robot number")
+      ->type_name("K")
       ->check(CLI::PositiveNumber);
   command.add_option("--key-base", keyBase, "Added to 100 x robot number")
+      ->type_name("B")
       ->check(CLI::Range(0, 2'000'000'000));
 }
 
@@ -308,9 +310,11 @@ Result<int> set(SetOptions& options) {
 }
 
 void addCatalogOption(CLI::App& command, std::string& file) {
-  command.add_option("--catalog", file,
-                     "Variable catalog: a team's blackboard.h, SharedMemory.py or JSON (default: "
-                     "the published one)");
+  command
+      .add_option("--catalog", file,
+                  "Variable catalog: a team's blackboard.h, SharedMemory.py or JSON (default: the "
+                  "published one)")
+      ->type_name("FILE");
 }
 
 }  // namespace
@@ -339,9 +343,11 @@ void addWatchCommand(CLI::App& parent, int& exitCode) {
                       "Robot number, then the variables to watch (default: all)");
   addCatalogOption(*command, options->catalog);
   command->add_option("--interval", options->intervalMs, "Milliseconds between two samples")
+      ->type_name("MS")
       ->check(CLI::Range(1, 60'000))
       ->capture_default_str();
   command->add_option("--count", options->count, "Stop after this many changes")
+      ->type_name("N")
       ->check(CLI::PositiveNumber);
   shared::addDuration(*command, "--duration", options->duration, "Stop after this time");
   command->add_flag("--json", options->json, "Print one JSON object per line");

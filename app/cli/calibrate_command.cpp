@@ -136,6 +136,7 @@ void addCalibrateCommand(CLI::App& parent, int& exitCode) {
   command
       ->add_option("--hold-out", options->holdOut,
                    "Share at the end of each recording that is predicted instead of fitted")
+      ->type_name("SHARE")
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
   command->add_flag("--force", options->force, "Replace existing files");

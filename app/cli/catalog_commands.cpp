@@ -61,7 +61,7 @@ void addCatalogCommands(CLI::App& parent, int& exitCode) {
       "it.\nExample: pitchboard-cli catalog import blackboard.h --json -o our-team.json");
   command->add_option("FILE", options->file, "The catalog: .h, .hpp, .py or .json")->required();
   command->add_flag("--json", options->json, "Print JSON that --catalog reads");
-  command->add_option("-o,--output", options->output, "Write to this file");
+  command->add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
   command->callback([options, &exitCode] { exitCode = importCatalog(*options); });
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The subcommands of pitchboard-cli: each file adds one group to the parser and leaves its exit
-// code in `exitCode` (0 done, 1 done with differences, 2 an error already printed as "error: ...").
+// The commands of pitchboard-cli. Each file adds one command or group to the parser. A command sets
+// `exitCode`: 0 done, 1 the answer is no, 2 an error that was printed as "error: ...". Main thread.
 
 #include <CLI/CLI.hpp>
 
@@ -15,17 +15,17 @@
 
 namespace pitchboard::cli {
 
-/// Who writes a file, for its head.
+/// Name and version of the program, which are written into its files.
 inline constexpr const char* programName = "pitchboard " PITCHBOARD_VERSION;
 
-/// Returns the text, left-aligned in so many characters (not bytes).
+/// Returns the text, padded with blanks to this many characters (not bytes).
 inline std::string padded(const std::string& text, std::size_t width) {
   const auto shown = static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
   return text + std::string(shown < width ? width - shown : 0, ' ');
 }
 
-/// What a group of commands looks like to main(): the one registration list is in main.cpp.
+/// A function that adds a command. The list of all of them is in main.cpp.
 using AddCommand = void (*)(CLI::App& parent, int& exitCode);
 
 void addSimulateCommand(CLI::App& parent, int& exitCode);
@@ -53,6 +53,7 @@ inline int exitCodeOf(const Result<int>& done) {
   return done ? *done : reportError(done.error());
 }
 
+/// Runs `run(*options)` when this command was chosen, and sets the exit code.
 template <class Options, class Run>
 void whenChosen(CLI::App& command, const std::shared_ptr<Options>& options, int& exitCode,
                 Run run) {

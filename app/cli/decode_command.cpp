@@ -246,8 +246,10 @@ void addDecodeCommand(CLI::App& parent, int& exitCode) {
       "Binary: one per file, or lines of JSON with the bytes under \"hex\".\n"
       "Example: pitchboard-cli decode telemetry --profile mitecom message.bin");
   telemetry->add_option("FILE", text->files, "Files; - is standard input")->required();
-  telemetry->add_option("--profile", text->profile,
-                        "Format of the messages: a file (docs/live.md), or " + profileNames());
+  telemetry
+      ->add_option("--profile", text->profile,
+                   "Format of the messages: a file (docs/live.md), or " + profileNames())
+      ->type_name("FILE|NAME");
   telemetry->add_flag("--json", text->json, "One JSON object per datagram");
   whenChosen(*telemetry, text, exitCode, decodeTelemetry);
 

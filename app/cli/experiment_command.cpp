@@ -43,11 +43,11 @@ void addMerge(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<Merge>();
   CLI::App* command =
       parent.add_subcommand("merge",
-                            "Merge the results of shards into the files of a single run.\n"
+                            "Merge the results of shards into the files of one experiment.\n"
                             "Example: pitchboard-cli experiment merge part1 part2 --out all");
   command->add_option("parts", options->parts, "Folders of the shards")
       ->required()
-      ->type_name("DIR...");
+      ->type_name("DIR");
   command->add_option("--out", options->out, "New folder for the results")
       ->required()
       ->type_name("DIR");

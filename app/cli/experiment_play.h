@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How `experiment`, `tournament` and `learn` play their runs into a folder: the options that they
-// have in common, the playing, and what they print at the end. Used in the program's first thread.
+// What the commands `experiment`, `tournament` and `learn` share: options, playing runs into a
+// folder, and printing the results. Main thread.
 
 #include <cstddef>
 #include <string>
@@ -20,24 +20,25 @@ struct PlayInto {
   bool resume = false, progress = false;
 };
 
-/// --out, --jobs, --shard, --resume, --progress and --robot-program.
+/// Adds --out, --jobs, --shard, --resume, --progress and --robot-program.
 void addPlayInto(CLI::App& command, PlayInto& options);
 struct Shard {
   std::size_t index = 1, count = 1;
 };
-/// Of "2/8"; the only one of an empty text.
+/// Reads "2/8". An empty text means that there is a single shard.
 Result<Shard> shardFrom(const std::string& text);
-/// The chosen number, else one per processor, or per two with a team's own programs.
+/// Returns the chosen number of jobs; by default one per processor, or one per two processors with
+/// team programs.
 std::size_t jobsFor(const PlayInto& options, bool teamPrograms);
-/// pitchboard-robot, if `chosen` is empty that beside this program.
+/// Returns the path of pitchboard-robot: `chosen`, or the one beside this program if that is empty.
 std::string robotProgram(const std::string& chosen);
 
-/// Plays the runs of this shard that are not there yet, records those that are to be recorded, and
-/// prints the results once all are there. 1 if an assertion fails.
+/// Plays the missing runs of this shard, records those that the experiment asks for, and prints the
+/// results once all runs are complete. Returns 1 if an assertion fails.
 Result<int> playInto(const link::Experiment& experiment, const PlayInto& options);
-/// Prints a table or conditions, and assertions. 1 if one fails.
+/// Prints the table of a tournament or the conditions, and the assertions. Returns 1 if one fails.
 int printSummary(const link::Experiment& experiment, const link::ExperimentSummary& summary);
-/// Prints the results of a complete folder. 1 if an assertion fails.
+/// Prints the results of a complete folder. Returns 1 if an assertion fails.
 Result<int> printResults(const link::Experiment& experiment, const link::ExperimentFolder& folder);
 
 }  // namespace pitchboard::cli

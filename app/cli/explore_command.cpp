@@ -185,7 +185,7 @@ void addExploreCommand(CLI::App& parent, int& exitCode) {
   CLI::App* command = parent.add_subcommand(
       "explore",
       "Explore what may follow a moment of a recording: where the ball goes, how likely goals are, "
-      "and what a robot had best do.\n"
+      "and which action of a robot is best.\n"
       "Example: pitchboard-cli explore match.mcap --at 1:18.7 --robot B2");
   command->add_option("file", options->file, "The recording")->required()->type_name("FILE");
   command->add_option("--at", options->at, "The moment to explore")->required()->type_name("T");

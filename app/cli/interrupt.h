@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Ctrl+C and its like end a command in an orderly way.
+// Ends a command cleanly after Ctrl+C, SIGTERM or SIGHUP. Main thread.
 
 #include <atomic>
 #include <csignal>
 
 namespace pitchboard::cli {
 
-/// Set by a signal while an InterruptGuard lives.
+/// Becomes true when a signal arrives while an InterruptGuard exists.
 inline std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
-/// Catches SIGINT, SIGTERM and SIGHUP, and puts back what was there before.
+/// Handles SIGINT, SIGTERM and SIGHUP, and restores the previous handlers when it is destroyed.
 class InterruptGuard {
  public:
   InterruptGuard() {

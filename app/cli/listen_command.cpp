@@ -33,7 +33,8 @@ class Printer : public link::LiveObserver {
   void received(const link::LiveDatagram& datagram) override {
     const auto* state = datagram.state();
     const int version = m_options.refereeVersion;
-    if (datagram.isStranger() || (state && version != 0 && state->version != version)) return;
+    if (datagram.isFromRefusedSender() || (state && version != 0 && state->version != version))
+      return;
     if (!m_json) {
       put(datagram.view.time, datagram.view.sender.text(), messageLine(datagram, m_options));
       return;
@@ -215,10 +216,12 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
   shared::addDuration(*command, "--duration", options->duration,
                       "Stop after this time instead of at Ctrl+C");
   addListenOptions(*command, options->network);
-  command->add_option(
-      "--monitor", options->monitor,
-      "Ask the GameController (2026) at this address for monitor mode: the only thing that "
-      "listen can send");
+  command
+      ->add_option(
+          "--monitor", options->monitor,
+          "Ask the GameController (2026) at this address for monitor mode: the only thing that "
+          "listen can send")
+      ->type_name("ADDRESS");
   command->add_flag(
       "--json", options->json,
       "Print one JSON object per message, and the health of each link once a second and at "

@@ -59,8 +59,10 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
       .add_option("--profile", options.profile,
                   "Format of the robots' messages: a file (docs/live.md), or " + profileNames())
       ->type_name("FILE|NAME");
-  command.add_option("--team", options.teams,
-                     "Team setup as JSON (ports, senders, profile, colour); may be repeated");
+  command
+      .add_option("--team", options.teams,
+                  "Team setup as JSON (ports, senders, profile, colour); may be repeated")
+      ->type_name("FILE");
   command
       .add_option("--our-team", options.ourTeam,
                   "Our team, by the referee's number or its colour, such as blue or red: gives its "
@@ -72,10 +74,14 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
           "Accept only this version of the referee's packets; default: the highest received")
       ->type_name("N")
       ->check(CLI::Range(7, 255));
-  command.add_option("--from", options.senders,
-                     "Accept only robots at this address or network; may be repeated");
-  command.add_option("--referee-from", options.refereeSenders,
-                     "Accept only a referee at this address or network; may be repeated");
+  command
+      .add_option("--from", options.senders,
+                  "Accept only robots at this address or network; may be repeated")
+      ->type_name("ADDRESS");
+  command
+      .add_option("--referee-from", options.refereeSenders,
+                  "Accept only a referee at this address or network; may be repeated")
+      ->type_name("ADDRESS");
   shared::addGroup(
       command, "Network",
       {"--bind", "--port-base", "--robots", "--variables-port-base", "--catalog",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the commands that receive from the network have in common.
+// Options of all commands that receive from the network. Main thread.
 
 #include <CLI/CLI.hpp>
 #include <map>
@@ -27,9 +27,9 @@ struct ListenOptions {
   std::string ourTeam;
 };
 
-/// "b-human, barelangfc, ...": the profiles that are part of the program.
+/// Returns the names of the built-in profiles: "b-human, barelangfc, ...".
 std::string profileNames();
-/// The first error of any of the files.
+/// Reads the team setups. Returns the first error.
 Result<std::vector<telemetry::TeamSetup>> loadTeams(const std::vector<std::string>& files);
 
 void addListenOptions(CLI::App& command, ListenOptions& options);
@@ -38,12 +38,12 @@ Result<link::LiveOptions> liveOptions(const ListenOptions& options);
 /// Returns the state of the ports once the watch has tried them. Fails if nothing can be received.
 Result<link::LiveDetails> whenListening(const link::LiveWatch& watch);
 
-/// Tells on stderr what is received.
+/// Prints to stderr on which ports the program listens.
 void reportListening(const link::LiveOptions& options, const telemetry::ReceiverStatus& network);
-/// Says on stderr which ports are not received, once for each change.
+/// Prints to stderr which ports cannot be opened, once for each change.
 void reportPorts(const telemetry::ReceiverStatus& status,
                  std::map<std::size_t, std::string>& reported);
-/// "; refused: 12 of senders that are not on the list, ...": nothing where nothing was.
+/// Returns "; refused: 12 of senders that are not on the list, ..."; empty if nothing was refused.
 std::string refusedText(const link::LiveDetails& details);
 
 }  // namespace pitchboard::cli

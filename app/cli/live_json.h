@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What listen and decode print: one JSON object, or one line for people, per message.
+// Formats what `listen` and `decode` print: a JSON object, or a line for people, per message. Pure
+// functions; any thread.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,31 +14,34 @@ namespace pitchboard::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// "telemetry", "variables", "drawing" or "referee".
+/// Returns "telemetry", "variables", "drawing" or "referee".
 const char* typeOf(const link::LiveDatagram& datagram);
-/// It could be read.
+/// Returns whether the datagram could be decoded.
 bool isGood(const link::LiveDatagram& datagram);
-/// As everywhere: "B1", "Robot 1"; empty for number 0.
+/// Returns the robot's name, such as "B1" or "Robot 1"; empty for number 0.
 std::string nameOf(const RobotKey& robot, const link::Teams& teams);
-/// What a datagram says (docs/live.md). What stands in it when it could not be read is "text".
+/// Returns the content of a datagram (docs/live.md). If it could not be decoded, "text" has its
+/// bytes as text.
 Json messageJson(const link::LiveDatagram& datagram, const link::LiveOptions& options);
 std::string messageLine(const link::LiveDatagram& datagram, const link::LiveOptions& options);
 
-/// {"type": "health", "robot": 1, "name": "B1", "received": 900, "lost": 300, ...}: docs/live.md.
+/// Returns {"type": "health", "robot": 1, "name": "B1", "received": 900, "lost": 300, ...}
+/// (docs/live.md).
 Json healthJson(const telemetry::RobotStatus& robot, const std::string& name,
                 telemetry::WallTime now);
-/// "B1: 900 received, 300 lost (25.0 %), 0 twice, 0 late"
+/// Returns "B1: 900 received, 300 lost (25.0 %), 0 duplicates, 0 late".
 std::string healthLine(const telemetry::RobotStatus& robot, const std::string& name);
 
-/// {"type": "variablesHealth", "robot": 1, "name": "B1", "received": 900, ...}: docs/live.md.
+/// Returns {"type": "variablesHealth", "robot": 1, "name": "B1", "received": 900, ...}
+/// (docs/live.md).
 Json healthJson(const link::SentStatus& sent, telemetry::WallTime now);
-/// "B1 variables: 205 from 192.168.0.1, 900 received, ..."
+/// Returns "B1 variables: 205 from 192.168.0.1, 900 received, ...".
 std::string healthLine(const link::SentStatus& sent);
 
-/// Text of any bytes: what is not UTF-8 is replaced.
+/// Returns the JSON as text; bytes that are not UTF-8 are replaced.
 std::string dump(const Json& json);
 
-/// Seconds since 1970 with microseconds.
+/// Returns the seconds since 1970, rounded to microseconds.
 double unixSeconds(telemetry::WallTime time);
 
 }  // namespace pitchboard::cli

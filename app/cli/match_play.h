@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How `simulate` and `record` play a match: their common options, the match that these ask for, and
-// the loop that plays it to its end. Used in the program's first thread.
+// What the commands `simulate` and `record` share: options, creating the match, and the loop that
+// plays it to its end. Main thread.
 
 #include <functional>
 #include <optional>
@@ -17,7 +17,7 @@
 
 namespace pitchboard::cli {
 
-/// s simulated, where neither the options nor the scenario say when a match ends.
+/// Simulated seconds after which a match ends if neither options nor scenario set an end.
 inline constexpr double defaultDuration = 60.0;
 
 struct MatchPlayOptions {
@@ -33,28 +33,29 @@ struct MatchPlayOptions {
   std::optional<int> answerReferee;
 };
 
-/// Everything above but --duration, which every command describes in its own way.
+/// Adds all options above except --duration, which each command describes itself.
 void addPlayOptions(CLI::App& command, MatchPlayOptions& options);
 
-/// Errors name the option.
+/// Reads the option --cognition. Errors name the option.
 Result<link::Cognition> cognitionOf(const MatchPlayOptions& options);
-/// Times real time; 0 = as fast as possible.
+/// Returns the speed, times real time; 0: as fast as possible.
 Result<double> speedOf(const MatchPlayOptions& options, link::Cognition cognition,
                        const link::Scenario& scenario);
 
-/// `scenario` with the options' rules and runtimes, and with an end: --duration, else its own stop
-/// conditions, else the final whistle of an automatic referee, else defaultDuration (none with
-/// Cognition::None). Fails if programs of a team are to be started and cannot.
+/// Returns the scenario with the rules and runtimes of the options and an end: --duration, or else
+/// its own stop conditions, the final whistle of an automatic referee, or defaultDuration (none
+/// with Cognition::None). Fails if team programs would have to be started and cannot be.
 Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario,
                                       const MatchPlayOptions& options, link::Cognition cognition);
 
-/// Warns on stderr of settings that have no effect, and says which match on this computer it is.
+/// Creates the match. Prints to stderr a warning about settings without effect, and the number of
+/// the match on this computer.
 Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario,
                                          const MatchPlayOptions& options,
                                          link::Cognition cognition);
 
-/// Plays until the match is over, the user interrupts it, or `goOn` says no (called after each
-/// batch of ticks), and looks after the robots' processes.
+/// Plays until the match is over, the user interrupts it, or `goOn`, which is called after each
+/// batch of ticks, returns false. Watches the robots' processes meanwhile.
 Outcome playToEnd(link::MatchPlayer& player, double speed, const std::function<bool()>& goOn);
 
 }  // namespace pitchboard::cli

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Pictures and videos of the field from a session. The studio program paints them, offscreen: then
-// they look like the studio, and nothing here needs Qt. The command's thread, which waits.
+// Makes pictures and videos of the field from a session. The studio program paints them without a
+// window, so that they look like the studio and this program needs no Qt. Blocks the calling thread
+// until the file is complete.
 
 #include <optional>
 #include <string>
@@ -13,23 +14,24 @@
 
 namespace pitchboard::cli {
 
-/// "svg", "png", "mp4", "webm".
+/// Returns whether this is "svg", "png", "mp4" or "webm".
 bool isPictureFormat(std::string_view format);
 
 struct PictureRequest {
   std::string format;
-  std::optional<double> from, until;  ///< s; a picture is of `from`
-  double rate = 10.0;                 ///< pictures a second of a video
+  std::optional<double> from, until;  ///< s; a picture shows `from`
+  double rate = 10.0;                 ///< pictures per second of a video
   std::string output;
-  std::vector<std::string> robots = {};  ///< only these; empty: all
+  std::vector<std::string> robots = {};  ///< robots to paint; empty: all
 };
 
-/// The file appears when it is whole. Error InvalidArgument, NotFound without the studio, Conflict
-/// when interrupted, or SystemError with what the studio said.
+/// Writes the file, which appears when it is complete. Fails with InvalidArgument, with NotFound if
+/// the studio is not installed, with Conflict after an interrupt, or with SystemError and the
+/// studio's message.
 Result<void> exportPictures(const telemetry::SessionReader& session, const PictureRequest& request,
                             const telemetry::ExportProgress& progress);
 
-/// A picture of a moment (s) as the text of an SVG document.
+/// Returns a picture of a moment (s) as an SVG document.
 Result<std::string> svgPicture(const telemetry::SessionReader& session, double time,
                                const std::vector<std::string>& robots = {});
 

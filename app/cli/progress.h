@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One line on stderr that says how far a command is: only on a terminal, or when it is asked for.
+// Shows the progress of a command in a line on stderr, if that is a terminal or the user asked for
+// it. One thread at a time.
 
 #include <chrono>
 #include <string>
@@ -12,11 +13,11 @@ class Progress {
  public:
   /// `what` begins the line: "exporting".
   Progress(std::string what, bool wanted);
-  ~Progress();  ///< takes the line away from a terminal
+  ~Progress();  ///< removes the line from a terminal
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// 0 to 1. False when the user interrupted the command (interrupt.h).
+  /// Shows the progress, 0 to 1. Returns false if the user interrupted the command (interrupt.h).
   bool operator()(double part);
   /// Shows a text instead of a percentage.
   void show(const std::string& text);

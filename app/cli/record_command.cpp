@@ -56,7 +56,7 @@ class Health {
  public:
   explicit Health(bool progress) : m_progress("recording", progress) {}
 
-  void say(const SessionStatus& status) {
+  void showStatus(const SessionStatus& status) {
     const RecordingTrouble trouble = troubleOf(status);
     if (trouble != RecordingTrouble::None && m_reported.insert(trouble).second) {
       std::fprintf(stderr, "%swarning: %s\n", m_progress.fresh().c_str(),
@@ -96,7 +96,7 @@ Result<int> recordMatch(const RecordOptions& options) {
   {
     Health health(options.progress);
     outcome = playToEnd(player, speed, [&] {
-      health.say(writer->status());
+      health.showStatus(writer->status());
       return writer->status().recording;
     });
   }
@@ -130,7 +130,7 @@ Result<int> recordLive(const RecordOptions& options) {
     };
     while (!interrupted && !isOver() && recorder->status().recording) {
       reportPorts(watch.details().network, reported);
-      health.say(recorder->status());
+      health.showStatus(recorder->status());
       std::this_thread::sleep_for(healthInterval);
     }
   }

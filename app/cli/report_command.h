@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// `export FILE --to report`: the report of a session, without a display.
+// The command `export FILE --to report`, which writes the report of a session. It needs no display.
+// Main thread.
 
 #include <functional>
 #include <string>
@@ -11,8 +12,8 @@
 
 namespace pitchboard::cli {
 
-/// The part of the session in the closed range (s; may reach beyond it) as an HTML page. Never over
-/// an existing file.
+/// Writes the part of the session in the closed range (s, may exceed the session) as an HTML page.
+/// Never overwrites a file.
 Result<void> exportReport(const telemetry::SessionReader& session, telemetry::TimeRange range,
                           const std::vector<std::string>& robots, const std::string& output);
 

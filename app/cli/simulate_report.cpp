@@ -87,7 +87,7 @@ void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
               outcome.simulatedSeconds, outcome.wallSeconds, outcome.ticks, speedOf(outcome));
   std::printf("  State hash %s\n", hashText(match.simulation().hash()).c_str());
   if (!match.isRepeatable()) {
-    std::printf("  Repeatable no: a program decided that the match did not wait for\n");
+    std::printf("  Repeatable no: the match did not wait for a program's decision\n");
   }
   for (const link::ProcessStatus& one : teamPrograms(match)) {
     if (one.missedCycles == 0) continue;

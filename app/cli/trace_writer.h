@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Writes a simulated match as CSV: one row per tick, metres, metres per second and degrees. The
-// file appears when it is whole.
+// Writes a simulated match as CSV: a row per tick, in metres, metres per second and degrees. The
+// file appears when it is complete. One thread at a time.
 
 #include <string>
 
@@ -14,13 +14,14 @@ namespace pitchboard::cli {
 
 class TraceWriter {
  public:
-  /// Writes the header for the robots of `first`. Errors as FileTarget; `source` is what is read.
+  /// Writes the header for the robots of `first`. Fails as FileTarget does; `source` is the file
+  /// that is read and must not be overwritten.
   static Result<TraceWriter> create(const std::string& path, IfExists ifExists,
                                     const std::string& source, const sim::Snapshot& first);
 
-  /// Fails when the system cannot write (a full disk, ...).
+  /// Adds a row. Fails if the system cannot write, for example because the disk is full.
   Result<void> add(const sim::Snapshot& snapshot);
-  /// The file is whole, on the disk and has its name.
+  /// Completes the file, flushes it to the disk and gives it its name.
   Result<void> finish();
 
  private:
@@ -31,7 +32,7 @@ class TraceWriter {
 
   FileTarget m_target;
   NewFile m_file;
-  std::string m_text;  ///< lines that wait
+  std::string m_text;  ///< lines that are not written yet
   std::string m_line;
 };
 

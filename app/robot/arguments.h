@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The options of pitchboard-robot, on the command line and in the section [Pitchboard] of the
-// robot's INI file, where they have the same names (with _ or -). The command line wins.
+// The options of pitchboard-robot, from the command line and from the section [Pitchboard] of the
+// robot's INI file, where they have the same names (with _ or -). The command line takes
+// precedence. Main thread.
 
 #include <CLI/CLI.hpp>
 
@@ -21,7 +22,7 @@ struct Arguments {
   std::optional<int> key;
   int keyBase = 0, match = 0;
   std::optional<int> lockStepSlot;  // passed by the match that runs this process
-  // Instead of the match's.
+  // Replace those of the match.
   std::optional<int> telemetryPortBase, teamPortBase, refereePort;
   std::string behaviour = "striker", field = "published", model = "published", attack;
   std::string parameters;                // a file
@@ -34,18 +35,19 @@ struct Arguments {
     return usual;
   }();
 
-  int blackboardKey() const;  // once settled
+  int blackboardKey() const;  // valid after settle()
 };
 
-/// Every process takes every option, so that a starter can give one list to all of them.
+/// Adds all options. Every process accepts all of them, so that whoever starts the processes can
+/// pass the same list to each.
 void addOptions(CLI::App& command, Arguments& arguments);
 
-/// Reads the INI file, if one was named, takes over what the command line did not say, and fills
-/// Arguments::process. Errors name the file and the line. The file is handed back.
+/// Reads the INI file, if one was named, uses its values where the command line gives none, and
+/// fills Arguments::process. Returns the file. Errors name file and line.
 Result<link::IniFile> settle(CLI::App& command, Arguments& arguments);
 
-/// The options given on the command line, for a process that is to get the same; without the
-/// robot's number, key and file. Call before settle().
+/// Returns the options of the command line for another process, without the robot's number, key and
+/// file. Call it before settle().
 std::vector<std::string> givenOptions(const CLI::App& command);
 
 }  // namespace pitchboard::robot

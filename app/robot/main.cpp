@@ -102,7 +102,7 @@ int parseAndRun(int argc, char** argv) {
   const auto add = [&](std::string_view name, std::string_view description,
                        std::string_view example) {
     CLI::App* command = app.add_subcommand(
-        std::string(name), asSentence(description) + "\nExample: " + std::string(example));
+        std::string(name), asSentence(description) + ".\nExample: " + std::string(example));
     addOptions(*command, arguments);
     return command;
   };

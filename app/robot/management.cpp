@@ -103,11 +103,11 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
     process.spec.isTeamProgram = config.commands.contains(name);
     process.restart = config.timing.restart;
     process.delay = config.timing.startInterval.count();
-    process.silentAfter = config.timing.silentAfter;
+    process.responseTimeout = config.timing.responseTimeout;
     process.heartbeat = link::workingFlagOf(name);
     // A program of the team's own may block for as long as it wants.
     process.watch = link::isPresent(process.heartbeat) ? link::ManagedProcess::Watch::Variable
-                    : process.spec.isTeamProgram       ? link::ManagedProcess::Watch::Nobody
+                    : process.spec.isTeamProgram       ? link::ManagedProcess::Watch::None
                                                        : link::ManagedProcess::Watch::Sleeps;
     process.clears = !clearedByOther;
     processes.push_back(std::move(process));

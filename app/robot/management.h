@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// pitchboard-robot management: the other processes of this robot, started and watched over.
+// The process `management` of pitchboard-robot, which starts and watches the robot's other
+// processes. Main thread.
 
 #include "arguments.h"
 
@@ -10,9 +11,9 @@ namespace pitchboard::robot {
 inline constexpr const char* managementDescription =
     "starts, watches and restarts the robot's other processes";
 
-/// Runs until SIGTERM, SIGINT or SIGHUP (held by holdEndSignals()), then ends what it started and
-/// removes the blackboard if it made it. Errors: options, the INI file (with its line), a program
-/// that cannot be started.
+/// Runs until SIGTERM, SIGINT or SIGHUP arrives (see holdEndSignals()), then ends the processes
+/// that it started and removes the blackboard if it created it. Fails for invalid options, for a
+/// mistake in the INI file (with its line), and for a program that cannot be started.
 Result<void> manage(CLI::App& command, Arguments& arguments);
 
 }  // namespace pitchboard::robot

@@ -25,7 +25,7 @@ class Display {
   Display(RobotId robot, link::CognitionDebugSender* sender) : m_robot(robot), m_sender(sender) {}
 
   /// Sends the debug data of the process, unless it was sent less than `period` ago.
-  void tell(const link::CognitiveProcess& process, std::chrono::milliseconds period) {
+  void send(const link::CognitiveProcess& process, std::chrono::milliseconds period) {
     const Clock::time_point now = Clock::now();
     if (m_sender == nullptr || now < m_last + period) return;
     link::CognitionDebug cognitionDebug;
@@ -74,7 +74,7 @@ void runUntilStopped(link::CognitiveProcess& process, link::Blackboard& board, R
   Display shown(robot, display);
   while (true) {
     process.step(board, {std::chrono::duration<double>(Clock::now() - start).count()});
-    shown.tell(process, displayPeriod);
+    shown.send(process, displayPeriod);
     next += period;
     const Clock::time_point now = Clock::now();
     if (next < now) next += (now - next) / period * period + period;
@@ -105,7 +105,7 @@ Result<void> runInLockStep(std::unique_ptr<link::CognitiveProcess> process,
       process->step(board, {last});
       slot.done();
     }
-    shown.tell(*process, cycle ? displayPeriod : refreshPeriod);
+    shown.send(*process, cycle ? displayPeriod : refreshPeriod);
     sigset_t pending;
     sigpending(&pending);
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {

@@ -95,8 +95,16 @@ std::string typeOf(const CLI::Option& option) {
   return isPositional(option) && isTheLibrarys ? option.get_name(true) : type;
 }
 
+/// Remove what CLI11 writes after a flag that is false: "--read-only{false}".
+std::string withoutFlagValues(std::string name) {
+  for (std::size_t at = name.find('{'); at != std::string::npos; at = name.find('{')) {
+    name.erase(at, name.find('}', at) - at + 1);
+  }
+  return name;
+}
+
 std::string entryOf(const CLI::Option& option) {
-  std::string name = option.get_name(isPositional(option), true);
+  std::string name = withoutFlagValues(option.get_name(isPositional(option), true));
   std::ranges::replace(name, ',', '\0');
   for (std::size_t at = 0; (at = name.find('\0', at)) != std::string::npos; at += 2) {
     name.replace(at, 1, ", ");
@@ -228,7 +236,7 @@ std::string helpText(const CLI::App& app, CLI::AppFormatMode mode) {
     } else {
       std::string names;
       for (const CLI::Option* one : options) {
-        names += (names.empty() ? "" : " ") + one->get_name(false, false);
+        names += (names.empty() ? "" : " ") + withoutFlagValues(one->get_name(false, false));
       }
       rare += entry(group, names);
     }

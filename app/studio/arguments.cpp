@@ -32,7 +32,7 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"separate", "inline", "none"}))
       // The name up to version 0.14.
       ->transform([](std::string text) { return text == "external" ? "separate" : text; });
-  app.add_option("--speed", a.speed, "Simulated seconds per second, 0.01 to 1000, or max")
+  app.add_option("--speed", a.speed, "Speed, 0.01 to 1000 times real time, or max")
       ->type_name("X|max")
       ->capture_default_str();
   shared::addRobotsOptions(app, a.processes);
@@ -48,7 +48,7 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "File for layout and preferences instead of the user's own")
       ->type_name("FILE");
   app.add_option("--session", a.session, "Open this recording in Replay")->type_name("FILE.mcap");
-  app.add_option("--at", a.at, std::string("Start Replay at this time: ") + timeForms)
+  app.add_option("--at", a.at, "Start Replay at this time: 78.7, 1:18.7 or 0:01:18.7")
       ->type_name("T");
   app.add_option("file", a.file,
                  "A recording to replay, or a scenario (FILE.json) to play. A recording alone is "

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The studio's command line. No Qt: it is read before there is an application.
+// The command line of the studio. It needs no Qt, because it is parsed before the application
+// exists. Main thread.
 
 #include <optional>
 #include <string>
@@ -35,18 +36,18 @@ struct Arguments {
   std::string paint;  ///< session to paint into `picture`
   std::string picture;
   std::string from, until;               ///< times of the session
-  double rate = 10.0;                    ///< pictures a second of a video
+  double rate = 10.0;                    ///< pictures per second of a video
   std::vector<std::string> paintRobots;  ///< only these; empty: all
   std::string settings;
-  std::string file;          ///< named without an option: a session or a scenario to open
+  std::string file;          ///< argument without an option: a session or a scenario to open
   std::string session;       ///< a recorded session to open in Replay
   std::string at;            ///< where Replay starts; empty: at the beginning
-  bool onlySession = false;  ///< nothing else was asked for: a studio that runs can open it
+  bool onlySession = false;  ///< no other option was given, so a running studio can open it
   std::string record;        ///< session file to record into from the first moment; empty: none
   bool live = false;
   bool overlay = false;
-  bool scenarioGiven = false;  ///< else Live starts without a simulated match
-  // Of Live, instead of the saved settings; empty: as saved.
+  bool scenarioGiven = false;  ///< if false, Live starts without a simulated match
+  // Settings of Live that replace the saved ones; empty: as saved.
   std::string bind;
   std::optional<int> portBase, variablesPortBase, robots, refereePort;
   std::string ourTeam;
@@ -55,21 +56,23 @@ struct Arguments {
   std::vector<std::string> attached;  ///< blackboards: KEY[,catalog=FILE][,size=BYTES][,robot=N]
 };
 
-/// Fills `arguments`; returns an exit code when the program is to end here (help, bad usage).
+/// Parses the command line into `arguments`. Returns an exit code if the program has to end now
+/// (help, or an invalid option).
 std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments);
 
-/// Nothing when no size was given.
+/// Returns the window size; empty if none was given.
 Result<std::optional<WindowSize>> sizeOf(const Arguments& arguments);
-/// The scenario with seed, noise and physics of the command line in it.
+/// Returns the scenario with the seed, noise and physics of the command line.
 Result<link::Scenario> scenarioOf(const Arguments& arguments);
 link::Cognition cognitionOf(const Arguments& arguments);
-/// Second of the session at which Replay starts, where one is given. Reads the session.
+/// Returns the second of the session at which Replay starts; empty if none was given. Reads the
+/// session.
 Result<std::optional<double>> startOf(const Arguments& arguments);
-/// The second that is meant by `text`, the value of this option; nothing when it is empty.
+/// Converts `text`, the value of this option, to a second of the session; empty if `text` is empty.
 Result<std::optional<double>> timeIn(const telemetry::SessionReader& session,
                                      const std::string& text, const char* option);
 
-/// The saved options of Live with those of the command line in them.
+/// Returns the saved options of Live, changed by those of the command line.
 Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOptions saved);
 
 }  // namespace pitchboard::studio

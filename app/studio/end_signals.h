@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// An end that the system asks for, told to the event loop. Window thread; one per program, owned by
-// its main function.
+// Ends the studio when the system asks for it (SIGINT, SIGTERM, SIGHUP). UI thread; owned by
+// main().
 
 #include <QObject>
 
 namespace pitchboard::studio {
 
-/// Turns SIGINT, SIGTERM and SIGHUP into a signal of the event loop, so that the studio ends as if
-/// its window had been closed. One per program.
+/// Turns SIGINT, SIGTERM and SIGHUP into a Qt signal, so that the studio ends as if its window had
+/// been closed. Create only one.
 class EndSignals : public QObject {
   Q_OBJECT
  public:

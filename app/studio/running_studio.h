@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The studio that already runs, and files for it: `pitchboard FILE` hands FILE over a local socket
-// to the studio of this user with these settings. The socket lies in the user's own folder for such
-// things, never on a network. One studio serves; when it ends or is killed, another one that runs
-// takes its place. UI thread only.
+// Opens a file in the studio that is already running: `pitchboard FILE` passes FILE through a local
+// socket to the user's studio with the same settings. The socket is in the user's runtime folder,
+// never on a network. One studio serves; if it ends or is killed, another running one takes over.
+// UI thread only.
 
 #include <QLocalServer>
 #include <QLocalSocket>
@@ -16,19 +16,19 @@ namespace pitchboard::studio {
 
 struct Arguments;
 
-/// Path of the socket of the studios that share these settings; empty when this one takes no part:
-/// it only makes a picture, or nobody can see its window.
+/// Returns the path of the socket of the studios that share these settings; empty if this one does
+/// not take part, because it only makes a picture or has no visible window.
 QString studioSocket(const Arguments& arguments);
 
-/// Whether the studio behind this socket took the file. No other studio, or one that does not
-/// answer within seconds: false.
+/// Passes the file to the studio behind this socket. Returns false if there is none, or if it does
+/// not answer within seconds.
 bool handOver(const QString& socket, const QString& file);
 
 class RunningStudio : public QObject {
   Q_OBJECT
  public:
-  /// `open` is called with the absolute path of each file that is handed over; false when it cannot
-  /// be taken any more.
+  /// `open` is called with the absolute path of each file that arrives, and returns false if it can
+  /// no longer be opened.
   RunningStudio(const QString& socket, std::function<bool(const QString&)> open);
 
  private:
@@ -37,9 +37,9 @@ class RunningStudio : public QObject {
 
   QString m_socket;
   std::function<bool(const QString&)> m_open;
-  QLockFile m_lock;  // held by the studio that serves; a killed one's is found stale
+  QLockFile m_lock;  // held by the studio that serves; recognized as stale if that was killed
   QLocalServer m_server;
-  QLocalSocket m_other;  // to the studio that serves: it tells when that one ends
+  QLocalSocket m_other;  // to the studio that serves, to notice when that ends
 };
 
 }  // namespace pitchboard::studio

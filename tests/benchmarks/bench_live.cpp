@@ -206,7 +206,7 @@ int main(int argc, char** argv) {
                 static_cast<unsigned long long>(lost), 100.0 * (cpuSeconds() - cpu) / passed);
     return lost == 0 ? 0 : 1;
   }
-  [[maybe_unused]] const auto told = write(go[1], "g", 1);
+  [[maybe_unused]] const auto reported = write(go[1], "g", 1);
   spin(std::chrono::seconds(2));  // everything has its size by then
   const double early = residentMib();
   const auto storeEarly = static_cast<double>(window.live()->series()->memoryBytes());

@@ -7,7 +7,7 @@
 
 int main() {
   using namespace std::chrono_literals;
-  const auto say = [](const char* what) {
+  const auto report = [](const char* what) {
     std::puts(what);
     std::fflush(stdout);
   };
@@ -15,10 +15,10 @@ int main() {
   std::mutex mutex;
   std::unique_lock lock(mutex);
   const auto never = [] { return false; };
-  say("began");
+  report("began");
   condition.wait_for(lock, 1s, never);
-  say("wait_for");
+  report("wait_for");
   condition.wait_until(lock, std::chrono::steady_clock::now() + 1s, never);
-  say("wait_until");
+  report("wait_until");
   while (true) condition.wait_for(lock, 60s, never);
 }

@@ -36,7 +36,7 @@ class TestCliExplore : public QObject {
                                 "--seconds", "5",    "--rollouts", "60"};
     const ProgramRun run = explore(arguments);
     QVERIFY2(run.exitCode == 0, run.err.constData());
-    QVERIFY2(run.out.contains("where they believe to be"), run.out.constData());
+    QVERIFY2(run.out.contains("where they believe they are"), run.out.constData());
     QVERIFY2(run.out.contains("60 rollouts of 5 s from 6.00 s"), run.out.constData());
     QVERIFY2(run.out.contains("Goal of the left team"), run.out.constData());
     QVERIFY2(run.out.contains("Plays on (striker)"), run.out.constData());

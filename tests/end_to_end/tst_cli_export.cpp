@@ -288,7 +288,7 @@ class TestCliExport : public QObject {
   }
 
   /// ffmpeg alone takes a video without its end for a good one.
-  void aVideoWithoutRoomForItsEndIsNone() {
+  void aVideoThatDoesNotFitOnTheDiskIsRemoved() {
     if (QStandardPaths::findExecutable(QStringLiteral("ffmpeg")).isEmpty()) {
       QSKIP("ffmpeg is not installed");
     }

@@ -103,7 +103,7 @@ class Listener {
 class TestCliLive : public QObject {
   Q_OBJECT
  private slots:
-  void hearsRobotsWrittenByOthers() {
+  void receivesRobotsWrittenByOthers() {
     Listener listener;
     QVERIFY(listener.start());
     QProcess sender;
@@ -133,7 +133,7 @@ class TestCliLive : public QObject {
     QVERIFY2(listener.err.contains("10 datagrams from 2 robots"), listener.err.constData());
   }
 
-  void hearsTheRefereeAndSurvivesRubbish() {
+  void receivesTheRefereeAndSurvivesInvalidPackets() {
     Listener listener;
     QVERIFY(listener.start());
     const TestSocket socket;
@@ -173,13 +173,13 @@ class TestCliLive : public QObject {
     const TestSocket robot;
     const auto port = static_cast<std::uint16_t>(listener.base + 1);
     // Every fourth of 1200 numbers that wrap five times is missing; one comes twice, one late.
-    const auto say = [&](int i) {
+    const auto sendOne = [&](int i) {
       return robot.send(port, "1 " + std::to_string(i % 256) + " OUT");
     };
     for (int i = 0; i < 1200; ++i) {
       if (i % 4 == 2 || i == 600) continue;
-      QVERIFY(say(i));
-      if (i == 601) QVERIFY(say(600) && say(601));
+      QVERIFY(sendOne(i));
+      if (i == 601) QVERIFY(sendOne(600) && sendOne(601));
       if (i % 100 == 99) QCOMPARE(listener.read(i == 699 ? 76 : 75).size(), i == 699 ? 76 : 75);
     }
     listener.process.setReadChannel(QProcess::StandardOutput);

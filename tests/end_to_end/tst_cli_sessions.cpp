@@ -99,7 +99,7 @@ class TestCliSessions : public QObject {
     QVERIFY2(run.out.contains("10.000 s, 4207 rows"), run.out.constData());
   }
 
-  void inspectSaysWhatIsInIt() {
+  void inspectListsTheContents() {
     const Run run = cli({"inspect", m_session, "--json", "--events"});
     QVERIFY2(run.exitCode == 0, run.err.constData());
     const QJsonObject json = QJsonDocument::fromJson(run.out).object();
@@ -144,7 +144,7 @@ class TestCliSessions : public QObject {
     compare(found, valuesOf(m_session, always));
   }
 
-  void longCsvHasWhatWasAskedFor() {
+  void longCsvHasTheSelectedVariables() {
     const QString path = newPath(".csv");
     const Run run =
         cli({"export", m_session, "--to", "csv-long", "--robots", "B1,R2", "--variables",

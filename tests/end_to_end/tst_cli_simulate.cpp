@@ -86,7 +86,7 @@ class TestCliSimulate : public QObject {
   }
 
   /// Who won is the same before and after a change of sides.
-  void aMatchInWhichNobodyWasToldToPlaySaysSo() {
+  void aMatchWithoutOrdersToPlayPrintsAWarning() {
     const Run idle = simulate({"--scenario", "match", "--referee", "published", "--duration", "6"});
     QCOMPARE(idle.exitCode, 0);
     QVERIFY2(idle.err.contains("no robot was told to"), idle.err.constData());
@@ -301,13 +301,13 @@ class TestCliSimulate : public QObject {
     QCOMPARE(out["simulated_seconds"].toDouble(), 15.0);
     const double walked = out["robots"].toArray()[0].toObject()["distance_m"].toDouble();
     QCOMPARE(walked > 0.1, plays);
-    const QByteArray told =
+    const QByteArray given =
         "warning: B1 decision has not attached to its blackboard after 10 s; the match starts "
         "without it\n";
     // Another test may play match 0 at the same time; the command line says so first.
-    QByteArray said = run.err;
-    if (said.startsWith("match ")) said.remove(0, said.indexOf('\n') + 1);
-    QCOMPARE(said, plays ? QByteArray() : told);
+    QByteArray reported = run.err;
+    if (reported.startsWith("match ")) reported.remove(0, reported.indexOf('\n') + 1);
+    QCOMPARE(reported, plays ? QByteArray() : given);
   }
 
   // A second of Python's work in ten of its own: "max" is what it manages.

@@ -24,13 +24,13 @@ class TestCooperation : public QObject {
   const QTemporaryDir m_folder;
 
   QString profileOf(const QStringList& command, bool cooperates = true,
-                    double silentAfter = 5.0) const {
+                    double responseTimeout = 5.0) const {
     QJsonObject profile{
         {"version", 1},
         {"name", "team"},
         {"processes", QJsonArray{QJsonObject{{"name", "decision"},
                                              {"command", QJsonArray::fromStringList(command)},
-                                             {"silent_after", silentAfter}}}}};
+                                             {"response_timeout", responseTimeout}}}}};
     if (cooperates) profile["cycle"] = "MATCH_CYCLE";
     QFile file(m_folder.filePath("profile.json"));
     if (!file.open(QIODevice::WriteOnly)) qFatal("cannot write");
@@ -117,7 +117,7 @@ class TestCooperation : public QObject {
   void aLateOneIsNamed_data() {
     QTest::addColumn<QByteArray>("after");
     QTest::addColumn<bool>("cooperates");
-    QTest::addColumn<QByteArray>("told");
+    QTest::addColumn<QByteArray>("reported");
     QTest::newRow("hangs") << QByteArray("time.sleep(1000)") << true
                            << QByteArray(
                                   "no cycle finished for 0.3 s; the match continues without it");
@@ -128,7 +128,7 @@ class TestCooperation : public QObject {
   void aLateOneIsNamed() {
     QFETCH(QByteArray, after);
     QFETCH(bool, cooperates);
-    QFETCH(QByteArray, told);
+    QFETCH(QByteArray, reported);
     QFile program(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/cycle_robot.py");
     QVERIFY(program.open(QIODevice::ReadOnly));
     QByteArray text = program.readAll();
@@ -142,8 +142,8 @@ class TestCooperation : public QObject {
         play(profileOf({"python3", late.fileName(), "${key}"}, cooperates, 0.3), "max", "3");
     QVERIFY2(run.exitCode == 0, run.err.constData());
     QCOMPARE(resultOf(run)["repeatable"], QJsonValue(false));
-    QVERIFY2(run.err.contains(told), run.err.constData());
-    QCOMPARE(run.err.contains("B1 did not finish its cycle in time"), !told.isEmpty());
+    QVERIFY2(run.err.contains(reported), run.err.constData());
+    QCOMPARE(run.err.contains("B1 did not finish its cycle in time"), !reported.isEmpty());
   }
 
   // Without the key of the profile, or a program that knows the word, it is the team's.

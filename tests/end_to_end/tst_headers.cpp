@@ -36,13 +36,13 @@ QString problemOf(const QByteArray& text) {
 class TestHeaders : public QObject {
   Q_OBJECT
  private slots:
-  void everyHeaderSaysWhatItIsFor_data() {
+  void everyHeaderExplainsItsPurpose_data() {
     QTest::addColumn<QString>("folder");
     for (const char* folder : {"simcore", "telemetry", "robotlink", "ui", "app", "tests"}) {
       QTest::newRow(folder) << QString::fromLatin1(folder);
     }
   }
-  void everyHeaderSaysWhatItIsFor() {
+  void everyHeaderExplainsItsPurpose() {
     QFETCH(const QString, folder);
     QDirIterator files(source + folder, {"*.h"}, QDir::Files, QDirIterator::Subdirectories);
     QStringList wrong;

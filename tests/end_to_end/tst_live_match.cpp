@@ -63,9 +63,9 @@ class TestLiveMatch : public QObject {
         const link::RobotVariables variables;
         const int x = board->read(variables.localizationX);
         const int y = board->read(variables.localizationY);
-        const auto said =
+        const auto reported =
             sim::published_frame::localizationFromStudio(frame->settings->field, robot.pose);
-        const double away = std::hypot(x - said.x, y - said.y);
+        const double away = std::hypot(x - reported.x, y - reported.y);
         if (away < 60.0 && robot.poseKnown()) ++agree;
       }
       agreed = agreed || agree == 6;

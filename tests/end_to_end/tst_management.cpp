@@ -67,7 +67,7 @@ class TestManagement : public QObject {
     while (found.hasNext()) pids.push_back(found.next().captured(1).toLongLong());
     return pids;
   }
-  bool said(const char* text) { return output().contains(text); }
+  bool reported(const char* text) { return output().contains(text); }
   void endsWithoutRemains(int signal = SIGTERM) {
     std::vector<qint64> pids;
     for (const char* name :
@@ -138,7 +138,7 @@ class TestManagement : public QObject {
     QTRY_VERIFY(!pidsOf("communication").empty());
     ::kill(static_cast<pid_t>(pidsOf("decision").front()), SIGKILL);
     QTRY_COMPARE(pidsOf("decision").size(), std::size_t{2});
-    QVERIFY(said("decision ended: killed by signal 9"));
+    QVERIFY(reported("decision ended: killed by signal 9"));
     auto board = SystemVSegments::open(m_key, AttachMode::AttachOnly);
     board->write(m_variables.decisionWorking, 0);
     QTRY_COMPARE(board->read(m_variables.decisionWorking), 1);
@@ -151,10 +151,10 @@ class TestManagement : public QObject {
   void waitsLongerEveryTime() {
     start("processes = own\nrestart_wait = 0.1\nlongest_wait = 0.4\ncommand.own = false\n");
     QTRY_VERIFY(pidsOf("own").size() >= 5);
-    QVERIFY(said("own ended: exit code 1; restarting in 0.1 s"));
-    QVERIFY(said("restarting in 0.2 s"));
-    QVERIFY(said("restarting in 0.4 s"));
-    QVERIFY(!said("restarting in 0.8 s"));
+    QVERIFY(reported("own ended: exit code 1; restarting in 0.1 s"));
+    QVERIFY(reported("restarting in 0.2 s"));
+    QVERIFY(reported("restarting in 0.4 s"));
+    QVERIFY(!reported("restarting in 0.8 s"));
     endsWithoutRemains();
   }
 
@@ -172,28 +172,29 @@ class TestManagement : public QObject {
     QFETCH(QString, name);
     QFETCH(QByteArray, list);
     start("processes = " + list +
-          "\nstart_interval = 0.05\nsilent_after = 2.5\nrestart_wait = 0.05\n");
+          "\nstart_interval = 0.05\nresponse_timeout = 2.5\nrestart_wait = 0.05\n");
     QTRY_VERIFY(!pidsOf(name).empty());
     ::kill(static_cast<pid_t>(pidsOf(name).front()), SIGSTOP);
     QElapsedTimer timer;
     timer.start();
     QTRY_COMPARE_WITH_TIMEOUT(pidsOf(name).size(), std::size_t{2}, 30'000);
     QVERIFY(timer.elapsed() > 1000);
-    QVERIFY(said(qPrintable(name + " showed no sign of life for 2.5 s and was ended")));
+    QVERIFY(reported(qPrintable(name + " showed no sign of life for 2.5 s and was ended")));
     QVERIFY(!alive(pidsOf(name).front()));
     QCOMPARE(output().count("no sign of life"), qsizetype{1});  // the others are not blamed
     endsWithoutRemains();
   }
 
-  void aProcessOfOnesOwn() {
+  void aTeamProgram() {
     start(
         "processes = decision own\n"
         "command.own = sh -c \"echo robot {robot} key {key}; exec sleep 600\"\n");
-    QTRY_VERIFY(said(("own: robot 3 key " + QByteArray::number(m_key)).constData()));
+    QTRY_VERIFY(reported(("own: robot 3 key " + QByteArray::number(m_key)).constData()));
     endsWithoutRemains();
   }
 
-  // A receiver may wait for its next packet for as long as it wants.
+  // A receiver may wait for its next packet for as long as it wants. The key is that of version
+  // 0.8.
   void aReceiverThatBlocksLives() {
     start(
         "processes = own, decision\nsilent_after = 0.5\nstart_interval = 0.05\n"
@@ -204,7 +205,7 @@ class TestManagement : public QObject {
     timer.start();
     while (timer.elapsed() < 2500) {
       QTest::qWait(50);
-      QVERIFY2(!said("own showed"), output().constData());
+      QVERIFY2(!reported("own showed"), output().constData());
     }
     QCOMPARE(pidsOf("own").size(), std::size_t{1});
     endsWithoutRemains();
@@ -232,12 +233,12 @@ class TestManagement : public QObject {
         "line 4: 'team' is listed twice");
     row("nothing to start", "[Pitchboard Management]\nprocesses =\n",
         "line 4: processes must name");
-    row("time", "[Pitchboard Management]\n\nsilent_after = soon\n",
-        "line 5: silent_after must be a number of seconds");
+    row("time", "[Pitchboard Management]\n\nresponse_timeout = soon\n",
+        "line 5: response_timeout must be a number of seconds");
     row("negative time", "[Pitchboard Management]\nrestart_wait = -1\n",
         "line 4: restart_wait must be");
-    row("unknown key", "[Pitchboard Management]\nsilent_afer = 3\n",
-        "did you mean \"silent_after\"");
+    row("unknown key", "[Pitchboard Management]\nresponse_timeot = 3\n",
+        "did you mean \"response_timeout\"");
     row("no program", "[Pitchboard Management]\ncommand.own =\n", "line 4: command.own must name");
     row("no such program",
         "[Pitchboard Management]\nprocesses = own\ncommand.own = /no/such/thing\n",

@@ -103,8 +103,8 @@ class TestManyMatches : public QObject {
     for (int i = 0; i < matches; ++i) {
       QProcess& program = *programs[static_cast<std::size_t>(i)];
       QVERIFY(program.waitForFinished(240'000));
-      const QByteArray said = program.readAllStandardError();
-      QVERIFY2(program.exitCode() == 0, said.constData());
+      const QByteArray reported = program.readAllStandardError();
+      QVERIFY2(program.exitCode() == 0, reported.constData());
       const QJsonObject outcome = QJsonDocument::fromJson(program.readAllStandardOutput()).object();
       QCOMPARE(outcome["state_hash"].toString(),
                QStringLiteral("0x%1").arg(wanted[static_cast<std::size_t>(i)], 16, 16,
@@ -112,7 +112,7 @@ class TestManyMatches : public QObject {
     }
   }
 
-  void robotsOfOneMatchNeverHearThoseOfAnother() {
+  void robotsOfOneMatchNeverReceiveThoseOfAnother() {
     // The last one has a whole team; the others lack robot 2, and would hear it in its place.
     // Running freely they talk by UDP, as on the field.
     std::vector<SimulatedMatch> all;

@@ -104,7 +104,7 @@ class TestOneCapture : public QObject {
   }
 
  private slots:
-  void oneCaptureFourWays() {
+  void oneCaptureThroughFourPaths() {
     const QString keys = write("keys.json", R"({"name": "keys", "format": "key=value", "end": "",
       "fields": [{"name": "id", "type": "int", "meaning": "robot"},
                  {"name": "x", "type": "float", "unit": "cm", "meaning": "x"},
@@ -154,9 +154,9 @@ class TestOneCapture : public QObject {
     listen.start(program, QStringList{"listen", "--json"} + arguments(ports[0]));
     record.start(program, QStringList{"record", "--live", "-o", file} + arguments(ports[1]));
     for (QProcess* process : {&listen, &record}) {
-      QByteArray said;
-      QTRY_VERIFY_WITH_TIMEOUT((said += process->readAllStandardError()).contains("listening at"),
-                               30'000);
+      QByteArray reported;
+      QTRY_VERIFY_WITH_TIMEOUT(
+          (reported += process->readAllStandardError()).contains("listening at"), 30'000);
     }
     // A blackboard that says what robot 3 of ours says.
     const int key = testKeyBase() + 900;
@@ -176,7 +176,7 @@ class TestOneCapture : public QObject {
     studio.setOptions(live);
     const auto rows = std::make_shared<RowObserver>();
     studio.observe(rows);
-    QSignalSpy told(&studio, &ui::LiveController::eventsReceived);
+    QSignalSpy given(&studio, &ui::LiveController::eventsReceived);
     studio.start();
     QTRY_VERIFY(studio.details().network.ports.size() == 17);
 
@@ -197,7 +197,7 @@ class TestOneCapture : public QObject {
     const link::LiveDetails details = studio.details();
     // Its last events may wait for the next frame.
     QTRY_VERIFY(studio.frame()->serial > frame->serial + 3);
-    for (const auto& args : told) {
+    for (const auto& args : given) {
       for (const auto& event : args[0].value<std::vector<link::MatchEvent>>()) {
         const SessionEvent words = link::sessionEvent(event);
         studioSaw.events.insert(

@@ -130,7 +130,7 @@ class TestRefereeObeyed : public QObject {
     QVERIFY(free + penalised > 0);
   }
 
-  void aPenalisedRobotStandsSoonerThanTelemetrySpeaks() {
+  void aPenalisedRobotStopsBeforeItsNextTelemetry() {
     const QString playing = "v11hl592_PLAYING", penalised = "v11hl592_PENALISED";
     int team = 0, shirt = 0;
     for (const QJsonValue& t : expected(penalised)["teams"].toArray()) {
@@ -189,13 +189,13 @@ class TestRefereeObeyed : public QObject {
   // Only where the decision is ours: a team's own map may have something else on these words.
   void aSetPlayIsReportedToOurDecision_data() {
     QTest::addColumn<QByteArray>("decision");
-    QTest::addColumn<bool>("told");
+    QTest::addColumn<bool>("reported");
     QTest::newRow("ours") << QByteArray() << true;
     QTest::newRow("a team's") << QByteArray("command.decision = /bin/sleep 600\n") << false;
   }
   void aSetPlayIsReportedToOurDecision() {
     QFETCH(QByteArray, decision);
-    QFETCH(bool, told);
+    QFETCH(bool, reported);
     const QString corner = "v12hl688_CORNER_KICK";
     const auto packetRead = telemetry::decodeReferee(packet(corner).toStdString()).value();
     const auto& state = std::get<telemetry::RefereeState>(packetRead);
@@ -229,8 +229,8 @@ class TestRefereeObeyed : public QObject {
       return board->read(m_variables.comReferee) != 0;
     };
     QTRY_VERIFY(hasReceived());
-    QTRY_COMPARE(board->read(kind), told ? static_cast<int>(sim::SetPlay::CornerKick) : 77);
-    QCOMPARE(board->read(ours), told ? 1 : 0);
+    QTRY_COMPARE(board->read(kind), reported ? static_cast<int>(sim::SetPlay::CornerKick) : 77);
+    QCOMPARE(board->read(ours), reported ? 1 : 0);
     management.terminate();
     QVERIFY(management.waitForFinished());
   }

@@ -75,7 +75,7 @@ class TestRunningStudio : public QObject {
     QTRY_VERIFY(seen(studio).startsWith(QStringLiteral("minimized")));
     verifyShows(desk, studio, first);
     verifyShows(desk, studio, second);
-    // Nobody else may speak to it.
+    // None else may speak to it.
     const auto others = QFile::ReadGroup | QFile::WriteGroup | QFile::ReadOther | QFile::WriteOther;
     QCOMPARE(desk.sockets().first().permissions() & others, QFile::Permissions());
     studio.terminate();

@@ -118,7 +118,7 @@ class TestSameEvents : public QObject {
       return referee.send(static_cast<std::uint16_t>(options.refereePort),
                           live_rig::packet(QLatin1String(file)));
     };
-    QVERIFY(robot.say());
+    QVERIFY(robot.sendMessage());
     QTRY_VERIFY(received(Kind::RobotReceived));
     QVERIFY(send("v12hl688_INITIAL.bin"));
     QTRY_VERIFY(received(Kind::RefereeReceived));
@@ -126,7 +126,7 @@ class TestSameEvents : public QObject {
     QTRY_VERIFY(received(Kind::Goal));
     watch.stopObserving(recorder);
     QVERIFY(recorder->finish());
-    // Nobody is sent any more: what a slow machine still adds came after the recording.
+    // None is sent any more: what a slow machine still adds came after the recording.
     const auto read = eventsOf(telemetry::SessionReader::open(path.toStdString()).value());
     QVERIFY(!read.empty());
     QTRY_VERIFY((received(Kind::Goal), events.size() >= read.size()));

@@ -205,7 +205,7 @@ class TestSeparateMatch : public QObject {
     QFile profile(folder.filePath("short.json"));
     QVERIFY(profile.open(QIODevice::WriteOnly));
     profile.write(R"({"version": 1, "name": "short", "processes": [
-      {"name": "decision", "reference": "decision", "silent_after": 0.3, "restart": "never"}]})");
+      {"name": "decision", "reference": "decision", "response_timeout": 0.3, "restart": "never"}]})");
     profile.close();
     Scenario scenario = loadScenario("scenario-1").value();
     scenario.robots[0].runtime.profile = profile.fileName().toStdString();

@@ -121,9 +121,9 @@ class TestStudioProcess : public QObject {
 
   void badArgumentsEndWithASentence_data() {
     QTest::addColumn<QStringList>("arguments");
-    QTest::addColumn<QString>("says");
-    const auto row = [](const char* name, const QString& line, const char* says) {
-      QTest::newRow(name) << line.split(QLatin1Char(' ')) << QString::fromUtf8(says);
+    QTest::addColumn<QString>("hasText");
+    const auto row = [](const char* name, const QString& line, const char* hasText) {
+      QTest::newRow(name) << line.split(QLatin1Char(' ')) << QString::fromUtf8(hasText);
     };
     row("option", QStringLiteral("--nonsense"), "nonsense");
     row("scenario", QStringLiteral("--scenario no-such"), "no-such");
@@ -142,14 +142,14 @@ class TestStudioProcess : public QObject {
   }
   void badArgumentsEndWithASentence() {
     QFETCH(QStringList, arguments);
-    QFETCH(QString, says);
+    QFETCH(QString, hasText);
     Studio studio(m_folder);
     QVERIFY(studio.launch(arguments));
     QVERIFY(studio.waitForFinished(60'000));
     QCOMPARE(studio.exitCode(), 2);
     const QString error = QString::fromUtf8(studio.readAllStandardError());
     QVERIFY2(error.startsWith(QStringLiteral("error: ")), qPrintable(error));
-    QVERIFY2(error.contains(says), qPrintable(error));
+    QVERIFY2(error.contains(hasText), qPrintable(error));
   }
 
   void helpShowsAnExample() {

@@ -144,7 +144,7 @@ class TestStudioRecording : public QObject {
 
   void whatCannotBeRecordedIsReported_data() {
     QTest::addColumn<QStringList>("arguments");
-    QTest::addColumn<QByteArray>("says");
+    QTest::addColumn<QByteArray>("hasText");
     QTest::newRow("a session") << QStringList{QStringLiteral("--record"), QStringLiteral("a.mcap"),
                                               QStringLiteral("b.mcap")}
                                << QByteArray("b.mcap is a recording already");
@@ -154,13 +154,13 @@ class TestStudioRecording : public QObject {
   }
   void whatCannotBeRecordedIsReported() {
     QFETCH(QStringList, arguments);
-    QFETCH(QByteArray, says);
+    QFETCH(QByteArray, hasText);
     Studio studio(m_folder);
     QVERIFY(studio.launch(arguments));
     QVERIFY(studio.waitForFinished(longWait));
     QCOMPARE(studio.exitCode(), 2);
     const QByteArray words = studio.readAllStandardError();
-    QVERIFY2(words.contains("error: ") && words.contains(says), words);
+    QVERIFY2(words.contains("error: ") && words.contains(hasText), words);
   }
 
   void aFullDiskEndsTheRecordingOnly() {

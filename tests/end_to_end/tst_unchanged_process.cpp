@@ -79,18 +79,19 @@ class TestUnchangedProcess : public QObject {
   }
 
   static void waitsAsLong(MatchRunner& runner, const std::vector<std::string>& lines) {
-    std::vector<std::string> said;
+    std::vector<std::string> reported;
     std::vector<double> times;  // of the match
     const auto isDone = [&] {
       for (const LogLine& line : runner.takeLog()) {
-        said.push_back(line.text);
+        reported.push_back(line.text);
         times.push_back(line.time);
       }
-      return said.size() >= lines.size();
+      return reported.size() >= lines.size();
     };
     // A wait that does not return fails here.
-    QTRY_VERIFY2_WITH_TIMEOUT(isDone(), said.empty() ? "nothing" : said.back().c_str(), 60'000);
-    QCOMPARE(said, lines);
+    QTRY_VERIFY2_WITH_TIMEOUT(isDone(), reported.empty() ? "nothing" : reported.back().c_str(),
+                              60'000);
+    QCOMPARE(reported, lines);
     for (std::size_t i = 1; i < times.size(); ++i) {
       const double waited = times[i] - times[i - 1];
       QVERIFY2(waited > 0.3 && waited < 20.0, qPrintable(QString::number(waited)));
@@ -274,13 +275,13 @@ class TestUnchangedProcess : public QObject {
         startWith(profileOf({"/bin/sleep", "600"}, R"(, "clock": "real")"), false, 8.0, {}, false);
     QTRY_VERIFY(firstProgram(*runner).pid != 0);
     QCOMPARE(timeVariables(*runner), QByteArray());
-    QStringList told;
+    QStringList given;
     const auto isAnnounced = [&] {
       for (const MatchEvent& event : runner->takeEvents()) {
         if (event.kind != MatchEventKind::ProcessRealTime) continue;
-        told << QString::fromStdString(sentenceOf(event));
+        given << QString::fromStdString(sentenceOf(event));
       }
-      return !told.isEmpty();
+      return !given.isEmpty();
     };
     QTRY_VERIFY_WITH_TIMEOUT(isAnnounced(), 30'000);
     QTRY_COMPARE_WITH_TIMEOUT(runner->latest()->slowestTeamProgram, std::optional(1.0), 30'000);
@@ -297,7 +298,7 @@ class TestUnchangedProcess : public QObject {
     runner->setSpeed(4.0);
     QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).speed, 4.0, 30'000);
     (void)isAnnounced();
-    QCOMPARE(told, QStringList{sentence});
+    QCOMPARE(given, QStringList{sentence});
   }
 
   // A minute is played in no time: without waiting it would be over before Python runs.

@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
       if (robot->value < 1 || robot->value > 64) std::abort();
     }
     if (const auto management = link::managementFromIni(*file, {"vision", "decision"})) {
-      if (management->timing.silentAfter.count() <= 0.0) std::abort();
+      if (management->timing.responseTimeout.count() <= 0.0) std::abort();
       for (const auto& [name, words] : management->commands) {
         if (words.empty()) std::abort();
       }

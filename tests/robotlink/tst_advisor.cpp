@@ -215,7 +215,7 @@ class TestAdvisor : public QObject {
   }
 
   /// What makes no difference is not thought about for long.
-  void thoughtsEndWhenNobodyCanGain() {
+  void aSearchEndsWhenNoActionCanGain() {
     const ProcessOptions options = kidSize();
     const Situation now = atBall({1.0, 0.0}, 0.0);
     auto rollouts = rollout::Rollouts::create(setupFor(options)).value();
@@ -287,7 +287,7 @@ class TestAdvisor : public QObject {
     QVERIFY(differ > 0);
   }
 
-  void itSaysWhatItThought() {
+  void itPublishesItsCandidates() {
     auto match = played(scenarioOf(true), 60);
     int lookaheads = 0, last = 0;
     for (int i = 0; i < 1800; ++i) {
@@ -315,7 +315,7 @@ class TestAdvisor : public QObject {
   }
 
   /// A moment in the middle of a thought goes on as the match did.
-  void thoughtsAreRemembered() {
+  void aSearchIsContinuedAfterRestoring() {
     SimulatedMatch match = played(scenarioOf(true), 300);
     for (int i = 0; i < 3000 && wordOf(match, 1, "ADVISOR_STATE") != 2; ++i) match.tick();
     QCOMPARE(wordOf(match, 1, "ADVISOR_STATE"), 2);
@@ -347,7 +347,7 @@ class TestAdvisor : public QObject {
     QVERIFY(told.kicks(40));  // nobody says it again
   }
 
-  void adviceSaysWhoGoesAndWhereToStand() {
+  void adviceSendsARobotToTheBallOrToAPlace() {
     const auto mindWith = [](const Point& mate, Intention intention) {
       State mind;
       mind.see(1.0, 0.0);
@@ -362,7 +362,7 @@ class TestAdvisor : public QObject {
     first.advise(leave);
     first.actions(3);
     QCOMPARE(first.word("DECISION_STATE"), static_cast<int>(Intention::Support));
-    // Nobody else would go.
+    // None else would go.
     State alone = mindWith({-2.0, 0.5}, Intention::Idle);
     alone.advise(leave);
     alone.actions(3);
@@ -382,7 +382,7 @@ class TestAdvisor : public QObject {
   }
 
   /// As without: advice that nobody renews, of an earlier program, and numbers without sense.
-  void staleAndHostileWordsMoveNobody_data() {
+  void staleAndHostileValuesMoveNoRobot_data() {
     QTest::addColumn<int>("choice");
     QTest::addColumn<float>("x");
     QTest::addColumn<bool>("renewed");
@@ -396,7 +396,7 @@ class TestAdvisor : public QObject {
     QTest::newRow("negative choice") << -1 << 450.0F << true;
     QTest::newRow("to the own goal") << 1 << 0.0F << true;
   }
-  void staleAndHostileWordsMoveNobody() {
+  void staleAndHostileValuesMoveNoRobot() {
     QFETCH(int, choice);
     QFETCH(float, x);
     QFETCH(bool, renewed);
@@ -467,7 +467,7 @@ class TestAdvisor : public QObject {
     }
   }
 
-  void scenariosSayIt() {
+  void scenariosSetTheAdvisor() {
     const auto read = [](const char* teams) {
       return scenarioFromJson(QString(R"({"version": 1, "teams": %1})").arg(teams).toStdString(),
                               "test");

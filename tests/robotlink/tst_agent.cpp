@@ -60,7 +60,7 @@ class Agent {
   bool hasLast(const QByteArray& name, double value) {
     return take() && !values[name].empty() && values[name].back() == value;
   }
-  QString said() { return m_said += QString::fromUtf8(m_process.readAllStandardError()); }
+  QString reported() { return m_printed += QString::fromUtf8(m_process.readAllStandardError()); }
   bool runs() const { return m_process.state() == QProcess::Running; }
   qint64 process() const { return m_process.processId(); }
   const TestSocket& socket() const { return m_socket; }
@@ -72,7 +72,7 @@ class Agent {
  private:
   TestSocket m_socket;
   QProcess m_process;
-  QString m_said;
+  QString m_printed;
 };
 
 /// A program that uses the segment (tests/support/segment_user.cpp).
@@ -110,7 +110,7 @@ class TestAgent : public QObject {
   void itWaitsForTheBlackboard() {
     Agent agent({"--key", QString::number(m_key)});
     QTRY_VERIFY(agent.take() && agent.status.blackboard == false);
-    QTRY_VERIFY(agent.said().contains(QStringLiteral("waiting for blackboard %1").arg(m_key)));
+    QTRY_VERIFY(agent.reported().contains(QStringLiteral("waiting for blackboard %1").arg(m_key)));
     auto board = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
     QVERIFY(board);
     board->write(IntVar{17}, 42);
@@ -134,7 +134,7 @@ class TestAgent : public QObject {
     QTRY_VERIFY(agent.hasLast("DECISION_ACTION_A", 1));
     QVERIFY(SystemVSegments::remove(m_key));
     board->write(IntVar{17}, 2);
-    QTRY_VERIFY(agent.said().contains("still use it"));
+    QTRY_VERIFY(agent.reported().contains("still use it"));
     board->write(IntVar{17}, 3);
     QTRY_VERIFY(agent.hasLast("DECISION_ACTION_A", 3));
     {
@@ -156,9 +156,9 @@ class TestAgent : public QObject {
   void aSegmentOfAnotherSizeIsReportedOnce() {
     QVERIFY(shmget(m_key, 4096, IPC_CREAT | IPC_EXCL | 0600) >= 0);
     Agent agent({"--key", QString::number(m_key)});
-    QTRY_VERIFY(agent.said().contains("has 4096 bytes, not 2048"));
+    QTRY_VERIFY(agent.reported().contains("has 4096 bytes, not 2048"));
     QTRY_VERIFY(agent.take() && agent.datagrams >= 2);
-    QCOMPARE(agent.said().count("4096"), 1);
+    QCOMPARE(agent.reported().count("4096"), 1);
     removeSegment(m_key);
     QVERIFY(SystemVSegments::create(m_key));
     QTRY_VERIFY(agent.take() && agent.status.blackboard == true);

@@ -170,24 +170,24 @@ class TestAgentSchedule : public QObject {
     while (rig.now < 10 * second) rig.step();  // all is known
     rig.sent.clear();
     const Time from = rig.now;
-    Time told{};
+    Time reported{};
     while (rig.now < from + 60 * second) {
       for (std::size_t i = 0; i < 100; ++i) ++rig.words[i];
       rig.step();
-      told = std::max<Time>(told, std::chrono::milliseconds(rig.status.refresh_ms.value()));
+      reported = std::max<Time>(reported, std::chrono::milliseconds(rig.status.refresh_ms.value()));
     }
     QVERIFY(rig.status.waiting.value() > 0);
     QVERIFY(rig.schedule.waiting() > 0);
     // Twelve letters and a number of four, in turn with what changes: 200 fields of at most 18
     // bytes, and headers for up to ten datagrams a second.
     const double bound = 200 * 18 / (limit / 4 - 10 * 60);
-    QVERIFY2(told > 2 * second, "it grows");
+    QVERIFY2(reported > 2 * second, "it grows");
     for (int i = 100; i < 200; ++i) {
       const auto& list = rig.sent[rig.schedule.variables()[static_cast<std::size_t>(i)].name];
       QVERIFY(static_cast<double>(list.size()) >= 60 / bound - 2);
       for (std::size_t k = 1; k < list.size(); ++k) {
         const Time gap = list[k].at - list[k - 1].at;
-        QVERIFY2(gap <= told + 4 * tick, qPrintable(QString::number(gap.count())));
+        QVERIFY2(gap <= reported + 4 * tick, qPrintable(QString::number(gap.count())));
         QVERIFY2(static_cast<double>(gap.count()) < bound * 1e6,
                  qPrintable(QString::number(gap.count())));
       }
@@ -273,9 +273,9 @@ class TestAgentSchedule : public QObject {
   }
   void theCommandLineIsRefused_data() {
     QTest::addColumn<QStringList>("words");
-    QTest::addColumn<QString>("says");
-    const auto row = [](const QStringList& words, const char* says) {
-      QTest::newRow(qPrintable(words.join(' '))) << words << QString(says);
+    QTest::addColumn<QString>("hasText");
+    const auto row = [](const QStringList& words, const char* hasText) {
+      QTest::newRow(qPrintable(words.join(' '))) << words << QString(hasText);
     };
     row({}, "--robot is missing");
     row({"--robot"}, "--robot needs a value");
@@ -294,7 +294,7 @@ class TestAgentSchedule : public QObject {
   }
   void theCommandLineIsRefused() {
     QFETCH(QStringList, words);
-    QFETCH(QString, says);
+    QFETCH(QString, hasText);
     std::vector<QByteArray> bytes;
     for (const QString& word : words) bytes.push_back(word.toUtf8());
     std::vector<const char*> pointers;
@@ -302,7 +302,7 @@ class TestAgentSchedule : public QObject {
     const auto read = parseArguments(pointers);
     QVERIFY(!read);
     const QString error = QString::fromStdString(read.error().text());
-    QVERIFY2(error.contains(says), qPrintable(error));
+    QVERIFY2(error.contains(hasText), qPrintable(error));
   }
 
   void aNetworkThatFailsIsReportedOnce() {
@@ -310,8 +310,8 @@ class TestAgentSchedule : public QObject {
     QVERIFY(output);
     const std::string tooLong(70'000, 'x');
     QCOMPARE(output->send("x", second), std::string());
-    const QString told = QString::fromStdString(output->send(tooLong, 2 * second));
-    QVERIFY2(told.startsWith("cannot send to 127.0.0.1:9: "), qPrintable(told));
+    const QString reported = QString::fromStdString(output->send(tooLong, 2 * second));
+    QVERIFY2(reported.startsWith("cannot send to 127.0.0.1:9: "), qPrintable(reported));
     QCOMPARE(output->send(tooLong, 3 * second), std::string());
     // One that works between two that fail says nothing.
     QCOMPARE(output->send("x", 4 * second), std::string());

@@ -109,7 +109,7 @@ class TestBehaviourParameters : public QObject {
   void errorsNameLineAndKey_data();
   void errorsNameLineAndKey();
   void programsRefuseWhatIsOutOfRange();
-  void theRobotDoesWhatTheySay();
+  void theRobotFollowsItsParameters();
   void experimentsVaryThem();
   void separateProcessesGetThem();
   void theDocumentHasTheTable();
@@ -216,9 +216,9 @@ void TestBehaviourParameters::aFileGivesNumbersToAll() {
 
 void TestBehaviourParameters::errorsNameLineAndKey_data() {
   QTest::addColumn<QString>("behaviour");
-  QTest::addColumn<QString>("says");
-  const auto row = [](const char* name, const char* behaviour, const char* says) {
-    QTest::newRow(name) << behaviour << says;
+  QTest::addColumn<QString>("hasText");
+  const auto row = [](const char* name, const char* behaviour, const char* hasText) {
+    QTest::newRow(name) << behaviour << hasText;
   };
   row("unknown", R"({"name": "striker", "kick_distanze": 0.1})",
       "test.json:3: robots[0].behaviour.kick_distanze");
@@ -238,10 +238,10 @@ void TestBehaviourParameters::errorsNameLineAndKey_data() {
 
 void TestBehaviourParameters::errorsNameLineAndKey() {
   QFETCH(QString, behaviour);
-  QFETCH(QString, says);
+  QFETCH(QString, hasText);
   const auto scenario = scenarioFromJson(scenarioWith(behaviour.toStdString()), "test.json");
   QVERIFY(!scenario);
-  QVERIFY2(QString::fromStdString(scenario.error().text()).startsWith(says),
+  QVERIFY2(QString::fromStdString(scenario.error().text()).startsWith(hasText),
            scenario.error().text().c_str());
 }
 
@@ -258,7 +258,7 @@ void TestBehaviourParameters::programsRefuseWhatIsOutOfRange() {
   }
 }
 
-void TestBehaviourParameters::theRobotDoesWhatTheySay() {
+void TestBehaviourParameters::theRobotFollowsItsParameters() {
   const double usual = firstKickFrom(R"("striker")");
   const double far = firstKickFrom(R"({"name": "striker", "kick_distance": 0.12})");
   qInfo("kicks from %.3f m, with 0.12 m from %.3f m", usual, far);
@@ -291,11 +291,13 @@ void TestBehaviourParameters::experimentsVaryThem() {
     QVERIFY(numbers.aimMost >= radiansFromDegrees(18.0));
     QVERIFY(numbers.aimMost <= radiansFromDegrees(22.0));
   }
-  const auto wrong = [](const char* more, const QString& says) {
+  const auto wrong = [](const char* more, const QString& hasText) {
     const auto experiment = experimentFromJson(experimentText(more), "test.json");
     if (experiment) return QStringLiteral("was read");
-    const QString said = QString::fromStdString(experiment.error().text());
-    return said.contains(says) && said.contains(QStringLiteral("test.json:6")) ? QString() : said;
+    const QString reported = QString::fromStdString(experiment.error().text());
+    return reported.contains(hasText) && reported.contains(QStringLiteral("test.json:6"))
+               ? QString()
+               : reported;
   };
   QCOMPARE(wrong(R"("grid": {"robots[B1].behaviour.kick_distanze": [0.1]})", "kick_distanze"),
            QString());

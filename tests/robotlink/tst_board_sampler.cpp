@@ -140,7 +140,7 @@ class TestBoardSampler : public QObject {
     shmdt(bytes);
   }
 
-  void saysThatTheSegmentIsGone() {
+  void reportsARemovedSegment() {
     const Segment segment;
     QVERIFY(SystemVSegments::create(segment.key));
     Sampled sampled(segment.key, 500.0);

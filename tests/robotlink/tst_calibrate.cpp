@@ -60,7 +60,7 @@ class TestCalibrate : public QObject {
   Q_OBJECT
 
  private slots:
-  void samplesAreCountedInWords() {
+  void samplesAreCountedInText() {
     QCOMPARE(samplesText({"turn", 1, 1, 1, 1, "actions"}), std::string("1 action"));
     QCOMPARE(samplesText({"turn", 1, 1, 1, 2, "actions"}), std::string("2 actions"));
     QCOMPARE(samplesText({"noise.landmark_probability", 1, 1, 1, 1, "corners in view"}),
@@ -211,7 +211,7 @@ class TestCalibrate : public QObject {
   }
 
   /// A team-mate that knows its place says where it sees the robot.
-  void teamMatesTellWhereTheRobotIs() {
+  void sightingsOfTeamMatesLocateTheRobot() {
     telemetry::SeriesStore store;
     const auto groupOf = [&](const char* name, const char* number,
                              const std::vector<const char*>& columns) {

@@ -374,13 +374,13 @@ class TestCapi : public QObject {
     QVERIFY(std::abs(distance_cm + 100.0 * x) < 1e-9);
     QCOMPARE(first(worlds, WorldArray::Percepts, "ball_angle_deg"), 0.0);
     const std::vector<Variable> distance{worldVariable("VISION_BALL_DIST").value()};
-    std::vector<double> told(1);
-    QVERIFY(worlds.readVariables(distance, told).has_value());
-    QCOMPARE(told[0], static_cast<double>(static_cast<float>(distance_cm)));
+    std::vector<double> reported(1);
+    QVERIFY(worlds.readVariables(distance, reported).has_value());
+    QCOMPARE(reported[0], static_cast<double>(static_cast<float>(distance_cm)));
     std::vector<std::uint32_t> board(512);
     QVERIFY(worlds.readBoards(board).has_value());
     const auto word = static_cast<std::size_t>(Blackboard::floatOffset + distance[0].index);
-    QCOMPARE(std::bit_cast<float>(board[word]), static_cast<float>(told[0]));
+    QCOMPARE(std::bit_cast<float>(board[word]), static_cast<float>(reported[0]));
   }
 
   void aWorldThatIsOverStandsStill() {
@@ -415,20 +415,20 @@ class TestCapi : public QObject {
     QVERIFY(worlds.writeCommands(commands).has_value());
     const std::vector<Variable> action{worldVariable("DECISION_ACTION_A").value(),
                                        worldVariable("DECISION_SEARCH_ON").value()};
-    std::vector<double> told(2);
-    QVERIFY(worlds.readVariables(action, told).has_value());
-    QCOMPARE(told, (std::vector<double>{1, 1}));
+    std::vector<double> reported(2);
+    QVERIFY(worlds.readVariables(action, reported).has_value());
+    QCOMPARE(reported, (std::vector<double>{1, 1}));
     commands[0] = 7;
     commands[2] = 0;
     QVERIFY(worlds.writeCommands(commands).has_value() &&
-            worlds.readVariables(action, told).has_value());
-    QCOMPARE(told, (std::vector<double>{7, 0}));
-    told = {std::nan(""), 1};
-    QVERIFY(worlds.writeVariables(action, told).has_value() &&
-            worlds.readVariables(action, told).has_value());
-    QCOMPARE(told, (std::vector<double>{7, 1}));
-    told = {1.5, 1};
-    QVERIFY(!worlds.writeVariables(action, told));
+            worlds.readVariables(action, reported).has_value());
+    QCOMPARE(reported, (std::vector<double>{7, 0}));
+    reported = {std::nan(""), 1};
+    QVERIFY(worlds.writeVariables(action, reported).has_value() &&
+            worlds.readVariables(action, reported).has_value());
+    QCOMPARE(reported, (std::vector<double>{7, 1}));
+    reported = {1.5, 1};
+    QVERIFY(!worlds.writeVariables(action, reported));
   }
 
   void programsOfATeamAreRefused() {

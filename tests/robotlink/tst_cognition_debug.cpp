@@ -61,26 +61,26 @@ class TestCognitionDebug : public QObject {
   }
 
   void thereAndBack() {
-    const CognitionDebug told = example();
-    const std::vector<std::string> datagrams = debugDatagrams(told);
+    const CognitionDebug reported = example();
+    const std::vector<std::string> datagrams = debugDatagrams(reported);
     QCOMPARE(datagrams.size(), std::size_t{2});
     QVERIFY(datagrams[0].size() < 20'000);
     CognitionDebug received;
     for (const std::string& datagram : datagrams) QVERIFY(readDebugDatagram(datagram, received));
-    QCOMPARE(received.robot, told.robot);
-    QVERIFY(*received.cloud == *told.cloud);
-    QVERIFY(*received.path == *told.path);
+    QCOMPARE(received.robot, reported.robot);
+    QVERIFY(*received.cloud == *reported.cloud);
+    QVERIFY(*received.path == *reported.path);
   }
 
   void strangeNumbersDoNoHarm() {
-    CognitionDebug told;
-    told.robot = {1};
+    CognitionDebug reported;
+    reported.robot = {1};
     auto cloud = std::make_shared<ParticleCloud>();
     cloud->particles.resize(2000, {{std::nan(""), 1e300}, INFINITY, -5});
     cloud->sigma = 1e300;
-    told.cloud = cloud;
+    reported.cloud = cloud;
     CognitionDebug received;
-    QVERIFY(readDebugDatagram(debugDatagrams(told).front(), received));
+    QVERIFY(readDebugDatagram(debugDatagrams(reported).front(), received));
     QCOMPARE(received.cloud->particles.size(), ParticleCloud::most);
     QVERIFY(std::isfinite(received.cloud->particles[0].position.y));
   }
@@ -150,7 +150,7 @@ class TestCognitionDebug : public QObject {
     QVERIFY(!CognitionDebugReceiver::listen(first.port()));
   }
 
-  void inlineProcessesAreAsked() {
+  void inlineProcessesSendDebugData() {
     MatchOptions options;
     options.process.particles = 2000;
     QVERIFY(SimulatedMatch::create(match(6), options).value().cognitionDebug().empty());  // nobody
@@ -227,12 +227,12 @@ class TestCognitionDebug : public QObject {
     QVERIFY(farthest() < 25.0);
   }
 
-  void separateProcessesTellThem_data() {
+  void separateProcessesSendDebugData_data() {
     QTest::addColumn<bool>("asked");
     QTest::newRow("asked") << true;
     QTest::newRow("not asked") << false;
   }
-  void separateProcessesTellThem() {
+  void separateProcessesSendDebugData() {
     QFETCH(bool, asked);
     const MatchOptions options = separateProcesses(80, asked);
     auto runner = MatchRunner::start(match(2), options).value();

@@ -184,7 +184,7 @@ class TestCommunication : public QObject {
     QVERIFY(telemetry.take().endsWith("OUT"));
   }
 
-  void nobodyListens() {
+  void sendingWithoutAListenerIsNoError() {
     int freePort = 0;
     {
       Receiver gone;

@@ -250,7 +250,7 @@ class TestDrawings : public QObject {
   }
 
   // A program of any language that knows the port; nothing of it reaches the state.
-  void aProgramThatNobodyStartedDraws() {
+  void aProgramStartedByHandDraws() {
     MatchOptions options;
     options.cognition = Cognition::None;
     options.keyBase = m_base;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include <robotlink/experiment/run_result.h>
 #include <robotlink/experiment/statistics.h>
 #include <robotlink/report/quantile.h>
 
@@ -36,6 +37,7 @@ class TestExperimentStatistics : public QObject {
   void fisherAgainstOthers();
   void withoutSpreadThereIsNoTest();
   void ratesAndCountsHaveTheirIntervals();
+  void countsAreNotRates();
   void bootstrapIsThatOfTheMean();
   void pairsAndHistograms();
   void checksReadStatistics();
@@ -188,6 +190,18 @@ void TestExperimentStatistics::ratesAndCountsHaveTheirIntervals() {
   const Comparison both = compared({0.8, 0.4, 70}, {0.6, 0.5, 80}, true);
   QVERIFY(near(both.difference95->low, 0.0524, 5e-5) &&
           near(both.difference95->high, 0.3339, 5e-5));
+}
+
+// One goal in each of ten matches is a count: the interval of a rate would be wrong for it.
+void TestExperimentStatistics::countsAreNotRates() {
+  std::size_t rates = 0;
+  for (const MetricInfo& metric : teamMetrics()) {
+    if (!metric.rate) continue;
+    ++rates;
+    QVERIFY2(metric.title.starts_with("Runs ") || metric.title == "Good runs",
+             metric.title.c_str());
+  }
+  QCOMPARE(rates, std::size_t{7});
 }
 
 void TestExperimentStatistics::bootstrapIsThatOfTheMean() {

@@ -120,15 +120,15 @@ void TestExperimentTeamPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
     QVERIFY(result.values[metrics.size() - 2] < 9.0);  // it is asked not to be faster than 8
     QVERIFY(result.values.back() > 0.0 && result.values.back() <= 1.0);
   }
-  const auto says = [&out](const char* file, const char* words) {
+  const auto hasText = [&out](const char* file, const char* words) {
     return readFile(out + '/' + file, 1 << 24).value().find(words) != std::string::npos;
   };
   for (const char* file : {"runs.csv", "summary.json"}) {
-    QVERIFY(says(file, "times_real_time") && says(file, "own_programs_kept"));
+    QVERIFY(hasText(file, "times_real_time") && hasText(file, "own_programs_kept"));
   }
   for (const char* file : {"report.md", "report.html"}) {
-    QVERIFY2(says(file, "Speed (times real time)"), file);
-    QVERIFY2(says(file, "at most 8 times as fast as real time"), file);
+    QVERIFY2(hasText(file, "Speed (times real time)"), file);
+    QVERIFY2(hasText(file, "at most 8 times as fast as real time"), file);
   }
   // Only the runs without a kick were wanted, and they were recorded while they were played.
   for (const std::size_t number : {1U, 2U, 3U, 4U}) {
@@ -143,9 +143,9 @@ void TestExperimentTeamPrograms::aProgramThatDoesNotRunIsNamed() {
   auto player = RunPlayer::create(*e, settingsFor({}));
   const auto result = player->play(1);
   QVERIFY(!result);
-  const QString said = QString::fromStdString(result.error().text());
-  QVERIFY2(said.startsWith(QStringLiteral("B1 decision does not run")), qPrintable(said));
-  QVERIFY2(said.contains(QStringLiteral("no_such_program.py")), qPrintable(said));
+  const QString reported = QString::fromStdString(result.error().text());
+  QVERIFY2(reported.startsWith(QStringLiteral("B1 decision does not run")), qPrintable(reported));
+  QVERIFY2(reported.contains(QStringLiteral("no_such_program.py")), qPrintable(reported));
 }
 
 /// Conditions differ in who plays: one of ours inside, the team's program beside an inline robot.

@@ -125,7 +125,7 @@ class TestExplore : public QObject {
   }
 
   /// The ball is 6 m away and nobody is near it: a second changes nothing.
-  void alikeActionsAreNotTold() {
+  void similarActionsAreNotListed() {
     MatchFrame frame = openGoal();
     frame.robots[0].pose.position = frame.robots[0].belief->position = {-4.0, -2.5};
     frame.robots[0].ball.reset();
@@ -182,7 +182,7 @@ class TestExplore : public QObject {
     QCOMPARE(believed->belief.robots[0].sigma, 0.05);
     QCOMPARE(believed->belief.ball.place, (Point{3.2, 0.0}));
     QVERIFY(believed->belief.ball.sigma > 0.0);
-    QVERIFY(contains(believed->notes, "where they believe to be"));
+    QVERIFY(contains(believed->notes, "where they believe they are"));
     const auto truth = exploreStart(frame, {.useTruth = true, .base = nullptr, .earlier = {}});
     QVERIFY(truth);
     QCOMPARE(truth->belief.robots[0].pose.position, (Point{2.0, 1.0}));
@@ -191,7 +191,7 @@ class TestExplore : public QObject {
     QVERIFY(contains(truth->notes, "true positions"));
   }
 
-  void unknownRobotsAreLeftOutAndTold() {
+  void unknownRobotsAreLeftOutAndReported() {
     MatchFrame frame = openGoal();
     frame.robots.push_back(robotAt(TeamColor::Blue, 4, {{0, 0}, 0}, "supporter"));
     frame.robots.back().belief.reset();

@@ -347,8 +347,8 @@ class TestLearn : public QObject {
     const auto made =
         learningFromJson(replaced(noisy, what.toStdString(), by.toStdString()), "test.json");
     QVERIFY(!made);
-    const QString said = QString::fromStdString(made.error().text());
-    QVERIFY2(said.contains(words) && said.contains("test.json"), qPrintable(said));
+    const QString reported = QString::fromStdString(made.error().text());
+    QVERIFY2(reported.contains(words) && reported.contains("test.json"), qPrintable(reported));
   }
 };
 

@@ -53,7 +53,8 @@ CmaSearch begun(std::size_t dimensions, std::size_t population = 12, std::uint32
 Generation play(CmaSearch& search, const Function& function) {
   Generation out{search.ask().value(), {}};
   for (const auto& point : out.points) out.values.push_back(function(point));
-  if (const auto told = search.tell(out.values); !told) qFatal("%s", told.error().text().c_str());
+  if (const auto reported = search.tell(out.values); !reported)
+    qFatal("%s", reported.error().text().c_str());
   return out;
 }
 
@@ -112,7 +113,7 @@ class TestLearnSearch : public QObject {
     }
   }
 
-  void asksTheSameUntilTold() {
+  void asksTheSamePointsUntilTell() {
     CmaSearch search = begun(3);
     for (int i = 0; i < 4; ++i) {
       const auto points = search.ask();
@@ -153,7 +154,7 @@ class TestLearnSearch : public QObject {
     }
   }
 
-  void refusesAForeignJournal() {
+  void refusesTheJournalOfAnotherLearning() {
     CmaSearch other = begun(3, 12, 9);
     const Generation foreign = play(other, sphere);
     CmaSearch search = begun(3);

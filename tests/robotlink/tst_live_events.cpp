@@ -70,21 +70,21 @@ class TestLiveEvents : public QObject {
   void aRobotGoesOfflineAndComesBack() {
     Stage s;
     s.robot(3, TeamColor::Red);
-    auto told = s.at(1.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::RobotReceived}));
-    QCOMPARE(told[0].detail, std::string("192.168.0.3:4000"));
+    auto reported = s.at(1.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::RobotReceived}));
+    QCOMPARE(reported[0].detail, std::string("192.168.0.3:4000"));
     s.frame.robots[0].link->timedOut = true;
-    told = s.at(7.5);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::RobotOffline}));
-    QCOMPARE(told[0].time, 7.5);
-    QCOMPARE(told[0].robot, red(3));
-    QCOMPARE(told[0].name, std::string("R3"));
-    QCOMPARE(sentenceOf(told[0]), std::string("R3 went offline"));
+    reported = s.at(7.5);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::RobotOffline}));
+    QCOMPARE(reported[0].time, 7.5);
+    QCOMPARE(reported[0].robot, red(3));
+    QCOMPARE(reported[0].name, std::string("R3"));
+    QCOMPARE(sentenceOf(reported[0]), std::string("R3 went offline"));
     s.frame.robots[0].link->timedOut = false;
     QCOMPARE(kindsOf(s.at(8.0)), (Kinds{Kind::RobotBack}));
   }
 
-  void aRobotThatLosesTheBallSaysSoOnce() {
+  void losingTheBallIsReportedOnce() {
     Stage s;
     s.robot(3).ball.emplace();
     (void)s.at(1.0);
@@ -119,10 +119,10 @@ class TestLiveEvents : public QObject {
     s.frame.robots[0].link->sender.port = 4001;
     QVERIFY(s.at(2.0).empty());  // a new socket is no other address
     s.frame.robots[0].link->sender.address = *telemetry::parseAddress("192.168.0.77");
-    const auto told = s.at(3.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::AddressChanged}));
-    QCOMPARE(told[0].robot, blue(3));
-    QCOMPARE(told[0].detail, std::string("192.168.0.3 to 192.168.0.77"));
+    const auto reported = s.at(3.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::AddressChanged}));
+    QCOMPARE(reported[0].robot, blue(3));
+    QCOMPARE(reported[0].detail, std::string("192.168.0.3 to 192.168.0.77"));
     QVERIFY(s.at(4.0).empty());
   }
 
@@ -131,10 +131,10 @@ class TestLiveEvents : public QObject {
     LiveEvents events;
     QVERIFY(events.compareClock(0s, 1.0).empty());
     QVERIFY(events.compareClock(40ms, 2.0).empty());  // drift
-    const auto told = events.compareClock(1h, 3.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::ClockSet}));
-    QCOMPARE(told[0].time, 3.0);
-    QCOMPARE(told[0].value, std::optional(3600));
+    const auto reported = events.compareClock(1h, 3.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::ClockSet}));
+    QCOMPARE(reported[0].time, 3.0);
+    QCOMPARE(reported[0].value, std::optional(3600));
     QVERIFY(events.compareClock(1h + 10ms, 4.0).empty());
     QCOMPARE(events.compareClock(-1h, 5.0).at(0).value, std::optional(-7200));
   }
@@ -144,9 +144,9 @@ class TestLiveEvents : public QObject {
     s.robot(1);
     (void)s.at(1.0);
     s.frame.robots[0].link->conflict = true;
-    const auto told = s.at(2.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::SecondSender}));
-    QCOMPARE(told[0].detail, std::string("192.168.0.1:4000"));
+    const auto reported = s.at(2.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::SecondSender}));
+    QCOMPARE(reported[0].detail, std::string("192.168.0.1:4000"));
     QVERIFY(s.at(3.0).empty());
     s.frame.robots[0].link->conflict = false;
     QVERIFY(s.at(4.0).empty());
@@ -159,11 +159,11 @@ class TestLiveEvents : public QObject {
     s.robot(1);
     (void)s.at(1.0);
     s.frame.robots[0].penalty = Penalty{"pushing", 30};
-    auto told = s.at(2.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::Penalised}));
-    QCOMPARE(told[0].detail, std::string("pushing"));
-    QCOMPARE(told[0].value, 30);
-    QCOMPARE(sentenceOf(told[0]), std::string("B1 penalised: pushing, 30 s"));
+    auto reported = s.at(2.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::Penalised}));
+    QCOMPARE(reported[0].detail, std::string("pushing"));
+    QCOMPARE(reported[0].value, 30);
+    QCOMPARE(sentenceOf(reported[0]), std::string("B1 penalised: pushing, 30 s"));
     s.frame.robots[0].penalty->secondsLeft = 12;  // counting down is no event
     QVERIFY(s.at(3.0).empty());
     s.frame.robots[0].penalty->text = "pickup";
@@ -175,20 +175,20 @@ class TestLiveEvents : public QObject {
   void theGameGoesOn() {
     Stage s;
     s.referee();
-    auto told = s.at(1.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::RefereeReceived, Kind::GameState}));
-    QCOMPARE(told[0].value, 17);
-    QCOMPARE(told[1].detail, std::string("INITIAL"));
+    auto reported = s.at(1.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::RefereeReceived, Kind::GameState}));
+    QCOMPARE(reported[0].value, 17);
+    QCOMPARE(reported[1].detail, std::string("INITIAL"));
     s.frame.referee->state = "PLAYING";
     s.frame.referee->secondsLeft = 595;
-    told = s.at(2.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::GameState}));
-    QCOMPARE(sentenceOf(told[0]), std::string("PLAYING at 09:55"));
-    QCOMPARE(labelOf(told[0]), std::string("PLAYING"));
+    reported = s.at(2.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::GameState}));
+    QCOMPARE(sentenceOf(reported[0]), std::string("PLAYING at 09:55"));
+    QCOMPARE(labelOf(reported[0]), std::string("PLAYING"));
     s.frame.referee->setPlay = "corner kick";
-    told = s.at(3.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::SetPlay}));
-    QCOMPARE(sentenceOf(told[0]), std::string("corner kick"));
+    reported = s.at(3.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::SetPlay}));
+    QCOMPARE(sentenceOf(reported[0]), std::string("corner kick"));
     s.frame.referee->setPlay.clear();
     QCOMPARE(sentenceOf(s.at(4.0).at(0)), std::string("normal play"));
     s.frame.referee->stopped = true;
@@ -196,9 +196,9 @@ class TestLiveEvents : public QObject {
     s.frame.referee->stopped = false;
     QCOMPARE(kindsOf(s.at(6.0)), (Kinds{Kind::PlayGoesOn}));
     s.frame.referee->firstHalf = false;
-    told = s.at(7.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::Half}));
-    QCOMPARE(told[0].value, 2);
+    reported = s.at(7.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::Half}));
+    QCOMPARE(reported[0].value, 2);
     s.frame.referee->phase = "overtime";
     QCOMPARE(kindsOf(s.at(8.0)), (Kinds{Kind::GamePhase}));
   }
@@ -218,26 +218,26 @@ class TestLiveEvents : public QObject {
     s.referee();
     (void)s.at(1.0);
     s.frame.referee->teams[0].score = 1;
-    auto told = s.at(2.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::Goal}));
-    QVERIFY(told[0].side == Side::Left);
-    QCOMPARE(told[0].team, 12);
-    QCOMPARE(told[0].colour, std::string("blue"));
-    QCOMPARE(told[0].score, (sim::Score{1, 0}));
-    QCOMPARE(sentenceOf(told[0]), std::string("goal for BLUE, 1 : 0"));
+    auto reported = s.at(2.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::Goal}));
+    QVERIFY(reported[0].side == Side::Left);
+    QCOMPARE(reported[0].team, 12);
+    QCOMPARE(reported[0].colour, std::string("blue"));
+    QCOMPARE(reported[0].score, (sim::Score{1, 0}));
+    QCOMPARE(sentenceOf(reported[0]), std::string("goal for BLUE, 1 : 0"));
     // At half-time the teams change sides: nobody scored.
     std::swap(s.frame.referee->teams[0], s.frame.referee->teams[1]);
     QVERIFY(s.at(3.0).empty());
     s.frame.referee->teams[0].score = 1;
-    told = s.at(4.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::Goal}));
-    QVERIFY(told[0].side == Side::Left);
-    QCOMPARE(told[0].team, 5);
-    QCOMPARE(labelOf(told[0]), std::string("goal TEAM 5"));
+    reported = s.at(4.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::Goal}));
+    QVERIFY(reported[0].side == Side::Left);
+    QCOMPARE(reported[0].team, 5);
+    QCOMPARE(labelOf(reported[0]), std::string("goal TEAM 5"));
     s.frame.referee->teams[0].score = 0;
-    told = s.at(5.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::ScoreCorrected}));
-    QCOMPARE(told[0].score, (sim::Score{0, 1}));
+    reported = s.at(5.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::ScoreCorrected}));
+    QCOMPARE(reported[0].score, (sim::Score{0, 1}));
   }
 
   void theRefereeGoesOfflineAndAnotherOneSends() {
@@ -251,9 +251,9 @@ class TestLiveEvents : public QObject {
     s.frame.referee->conflict = true;
     QCOMPARE(kindsOf(s.at(4.0)), (Kinds{Kind::SecondReferee}));
     s.frame.referee->sender = "192.168.0.98:3838";
-    const auto told = s.at(5.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::RefereeReceived}));
-    QCOMPARE(told[0].detail, std::string("192.168.0.98:3838"));
+    const auto reported = s.at(5.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::RefereeReceived}));
+    QCOMPARE(reported[0].detail, std::string("192.168.0.98:3838"));
   }
 
   void portsAreLostAndFoundAgain() {
@@ -264,16 +264,16 @@ class TestLiveEvents : public QObject {
     network.ports[0].bound = true;
     network.ports[1].port = 1242;
     network.ports[1].problem = "Port 1242 is taken by another program.";
-    auto told = events.comparePorts(network, 1.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::PortLost}));
-    QCOMPARE(told[0].value, 1242);
-    QCOMPARE(told[0].detail, network.ports[1].problem);
+    auto reported = events.comparePorts(network, 1.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::PortLost}));
+    QCOMPARE(reported[0].value, 1242);
+    QCOMPARE(reported[0].detail, network.ports[1].problem);
     QVERIFY(events.comparePorts(network, 2.0).empty());
     network.ports[1].bound = true;
     network.ports[1].problem.clear();
-    told = events.comparePorts(network, 3.0);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::PortBack}));
-    QCOMPARE(sentenceOf(told[0]), std::string("port 1242 is open now"));
+    reported = events.comparePorts(network, 3.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::PortBack}));
+    QCOMPARE(sentenceOf(reported[0]), std::string("port 1242 is open now"));
   }
 
   void afterClearEverythingIsNewAgain() {

@@ -33,7 +33,7 @@ const telemetry::WallTime start{std::chrono::seconds(1'700'000'000)};
 const auto decoder = std::make_shared<const telemetry::TextDecoder>();
 
 /// A robot that said this message (the published order, without the end).
-RobotStatus robotSaying(const std::string& message) {
+RobotStatus robotSending(const std::string& message) {
   RobotStatus robot;
   const std::string text = message + " OUT";
   telemetry::DecodedText decoded;
@@ -130,8 +130,8 @@ class TestLiveFrame : public QObject {
     QVERIFY(frame.robot(receivedAs(1)) == nullptr);
   }
 
-  void aRobotStandsWhereItSays() {
-    Received received({robotSaying("3 " + atTheCentre)});
+  void aRobotStandsAtItsReportedPose() {
+    Received received({robotSending("3 " + atTheCentre)});
     const MatchFrame frame = received.frame();
     QCOMPARE(frame.robots.size(), std::size_t{1});
     const RobotFrame& robot = frame.robots[0];
@@ -159,7 +159,7 @@ class TestLiveFrame : public QObject {
   }
 
   void itsLinkIsPassedOnUnchanged() {
-    RobotStatus status = robotSaying("2 " + atTheCentre);
+    RobotStatus status = robotSending("2 " + atTheCentre);
     status.age = 1500ms;
     status.rate = 1.25;
     status.jitter = 0.02;
@@ -191,7 +191,8 @@ class TestLiveFrame : public QObject {
 
   void numbersBeyondTheFieldAreDrawnSomewhere() {
     const MatchFrame frame =
-        Received({robotSaying("1 2000000000 -2000000000 999999999 1e30 99999 0 1 1 1 1 1 99 0 -5")})
+        Received(
+            {robotSending("1 2000000000 -2000000000 999999999 1e30 99999 0 1 1 1 1 1 99 0 -5")})
             .frame();
     const RobotFrame& robot = frame.robots.at(0);
     QVERIFY(std::abs(robot.pose.position.x) < 200 && std::abs(robot.pose.position.y) < 200);
@@ -201,7 +202,7 @@ class TestLiveFrame : public QObject {
   }
 
   void withoutAPositionItIsReceivedButNotShown() {
-    RobotStatus status = robotSaying("4 " + atTheCentre);
+    RobotStatus status = robotSending("4 " + atTheCentre);
     status.values[1] = std::nan("");
     const MatchFrame frame = Received({status}).frame();
     QVERIFY(!frame.robots.at(0).poseKnown());
@@ -210,10 +211,10 @@ class TestLiveFrame : public QObject {
 
   void robotsThatAgreeMakeTheTeamsBall() {
     // The third one sees its ball elsewhere; the fourth has sent nothing for long.
-    Received received({robotSaying("1 450 300 0 20 100 0 1 1 1 1 1 8 0 165"),
-                       robotSaying("2 450 290 0 20 100 0 1 1 1 1 1 8 0 165"),
-                       robotSaying("3 100 100 0 20 100 90 1 1 1 1 1 8 0 165"),
-                       robotSaying("4 450 300 0 20 100 0 1 1 1 1 1 8 0 165")});
+    Received received({robotSending("1 450 300 0 20 100 0 1 1 1 1 1 8 0 165"),
+                       robotSending("2 450 290 0 20 100 0 1 1 1 1 1 8 0 165"),
+                       robotSending("3 100 100 0 20 100 90 1 1 1 1 1 8 0 165"),
+                       robotSending("4 450 300 0 20 100 0 1 1 1 1 1 8 0 165")});
     received.team.robots[3].timedOut = true;
     const MatchFrame frame = received.frame();
     QCOMPARE(frame.teamBalls.size(), std::size_t{1});
@@ -240,7 +241,7 @@ class TestLiveFrame : public QObject {
   }
 
   void aBlackboardAndAMessageOfTheSameAreSeenAlike() {
-    RobotFrame said = Received({robotSaying("3 " + atTheCentre)}).frame().robots.at(0);
+    RobotFrame reported = Received({robotSending("3 " + atTheCentre)}).frame().robots.at(0);
     const std::map<std::string, double> variables{
         {"LOCALIZATION_X", 450},      {"LOCALIZATION_Y", 300},   {"LOCALIZATION_THETA", 0},
         {"LOCALIZATION_RBT01_X", 20}, {"VISION_BALL_DIST", 100}, {"VISION_PAN_DEG", 90},
@@ -257,9 +258,9 @@ class TestLiveFrame : public QObject {
     store.append(store.addGroup(group), {1.0, {}, row});
     const std::vector<RobotFrame> read = RecordedFrames().boardsAt(store, 1.0);
     QCOMPARE(read.size(), std::size_t{1});
-    QVERIFY(read[0].belief == said.belief && read[0].pose == said.pose);
-    QVERIFY(read[0].sigma == said.sigma && read[0].ball == said.ball && said.ball);
-    QVERIFY(read[0].decided == said.decided);
+    QVERIFY(read[0].belief == reported.belief && read[0].pose == reported.pose);
+    QVERIFY(read[0].sigma == reported.sigma && read[0].ball == reported.ball && reported.ball);
+    QVERIFY(read[0].decided == reported.decided);
     for (const telemetry::ProcessHeartbeat& lamp : read[0].lamps) {
       QVERIFY(lamp.state == telemetry::HeartbeatState::Working);
     }
@@ -299,14 +300,14 @@ class TestLiveFrame : public QObject {
   }
 
   void aCentimetreIsNotCutOff() {
-    RobotStatus status = robotSaying("4 " + atTheCentre);
+    RobotStatus status = robotSending("4 " + atTheCentre);
     status.values[1] = 450.75;
     const MatchFrame frame = Received({status}).frame();
     QVERIFY(std::abs(frame.robots.at(0).pose.position.x - 0.0075) < 1e-9);
   }
 
   void twoSendersOfOneNumberAreTwoRobots() {
-    RobotStatus first = robotSaying("3 " + atTheCentre);
+    RobotStatus first = robotSending("3 " + atTheCentre);
     RobotStatus second = first;
     second.key.sender = 1;
     Received received({first, second});
@@ -331,7 +332,7 @@ class TestLiveFrame : public QObject {
   }
 
   void theRefereeGivesColourScoreAndPenalties() {
-    Received received({robotSaying("2 " + atTheCentre)});
+    Received received({robotSending("2 " + atTheCentre)});
     received.options.ourTeam = 6;
     received.options.ourColour = TeamColor::Yellow;
     RefereeState state = stateOfGame();
@@ -537,8 +538,8 @@ class TestLiveFrame : public QObject {
   }
 
   void coloursByNumber() {
-    Received received({robotSaying("1 " + atTheCentre), robotSaying("2 " + atTheCentre),
-                       robotSaying("6 " + atTheCentre)});
+    Received received({robotSending("1 " + atTheCentre), robotSending("2 " + atTheCentre),
+                       robotSending("6 " + atTheCentre)});
     received.options.colourByNumber = true;
     const MatchFrame frame = received.frame();
     QVERIFY(frame.robots[0].identity.team == teamColors[0].color);

@@ -295,7 +295,7 @@ class TestLiveReplay : public QObject {
     }
   }
 
-  void theReportKnowsRobotsScoreAndLink() {
+  void theReportHasRobotsScoreAndLink() {
     const auto session = telemetry::SessionReader::open(m_path);
     QVERIFY(session);
     const auto range = *session->range();

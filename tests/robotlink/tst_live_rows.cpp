@@ -135,7 +135,7 @@ class TestLiveRows : public QObject {
     QVERIFY(!rig.store->find("Robot 3", "RATE"));
   }
 
-  void silenceIsSeen() {
+  void missingMessagesAreNoticed() {
     Rig rig;
     for (int i = 0; i <= 4; ++i) rig.send(message, i * 1.0);
     for (int i = 4; i < 60; ++i) rig.report(i);
@@ -189,7 +189,7 @@ class TestLiveRows : public QObject {
     QCOMPARE(groups, 1);
   }
 
-  void aTextIsAColumnOfItsWords() {
+  void aTextIsAColumnOfLabels() {
     Rig rig;
     Profile profile = publishedProfile();
     profile.fields.push_back({"ROLE", FieldType::Text, "", "Decision"});
@@ -214,7 +214,7 @@ class TestLiveRows : public QObject {
     QCOMPARE(send("striker", 101.0), std::string("striker"));
   }
 
-  void keysThatNobodyNamedAreColumns() {
+  void keysMissingInTheProfileBecomeColumns() {
     Rig rig;
     auto profile = parseProfile(R"({"name": "kv", "format": "key=value", "fields": [
         {"name": "N", "type": "int", "meaning": "robot", "key": "id"},

@@ -45,7 +45,7 @@ class TestLiveTeams : public QObject {
   Q_OBJECT
  private slots:
   /// 12.4 V are low for a battery of five cells, but not for the three cells of a DARwIn-OP.
-  void theRobotModelOfASetupSaysWhenABatteryIsLow() {
+  void theRobotModelOfASetupDecidesWhenABatteryIsLow() {
     LiveOptions options = twoTeams();
     options.team.teams.pop_back();
     const auto lowWith = [&options](const std::string& model) {
@@ -209,19 +209,19 @@ class TestLiveTeams : public QObject {
     TeamMonitor monitor(options.profile, monitorOptions(options));
     auto store = std::make_shared<SeriesStore>();
     LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
-    const auto say = [&](double time) {
+    const auto send = [&](double time) {
       DatagramView datagram = from("10.0.0.3", 1243, words);
       datagram.time += std::chrono::duration_cast<Duration>(std::chrono::duration<double>(time));
       QCOMPARE(monitor.take(datagram), TeamMonitor::Verdict::Used);
       rows.take(datagram, monitor.decoded(), monitor.decoder(), monitor.used());
     };
-    say(1.0);
+    send(1.0);
     options.team.teams[0].colour = "yellow";
     rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), {});
-    say(2.0);
+    send(2.0);
     options.team.teams[0].colour = "blue";
     rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), {});
-    say(3.0);
+    send(3.0);
     const auto count = [&store](const char* name) {
       const auto group = store->findGroup(name);
       return group ? store->view(*group)->rows() : std::size_t(0);
@@ -236,7 +236,7 @@ class TestLiveTeams : public QObject {
     TeamMonitor& monitor = state.monitor;
     auto store = std::make_shared<SeriesStore>();
     LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
-    const auto say = [&](int second, const char* address) {
+    const auto send = [&](int second, const char* address) {
       DatagramView datagram = from(address, 1243, words);
       datagram.time += std::chrono::seconds(second);
       QCOMPARE(state.takeRobot(datagram, second), TeamMonitor::Verdict::Used);
@@ -252,14 +252,14 @@ class TestLiveTeams : public QObject {
       const auto robots = monitor.status(start + std::chrono::seconds(second)).robots;
       return robots.size() == 1 ? robots[0].key : RobotKey{};
     };
-    say(1, "10.0.0.3");
+    send(1, "10.0.0.3");
     QVERIFY(state.drawings.take("PBD1 3\nlayer plan 5\npoint 0 0", 1.0));
     const auto group = store->findGroup("Robot 3");
     QVERIFY(group);
     const TeamSetup ours = setupOf(R"({"colour": "blue", "senders": ["10.0.0.0/24"]})");
     const TeamSetup visitors = setupOf(R"({"colour": "red", "senders": ["10.0.1.0/24"]})");
     apply({ours, visitors});
-    say(2, "10.0.0.3");
+    send(2, "10.0.0.3");
     QCOMPARE(theOnlyOne(2), (RobotKey{1, 3, 0}));
     QCOMPARE(state.drawings.at(2.0).at(0).robot, (RobotKey{1, 3, 0}));
     QCOMPARE(store->findGroup("B3"), group);
@@ -269,17 +269,17 @@ class TestLiveTeams : public QObject {
     // A setup that moves takes its robots along, and one that is taken away leaves them.
     apply({visitors, ours});
     QCOMPARE(theOnlyOne(2), (RobotKey{2, 3, 0}));
-    say(3, "10.0.0.3");
+    send(3, "10.0.0.3");
     QCOMPARE(theOnlyOne(3), (RobotKey{2, 3, 0}));
     apply({});
-    say(4, "10.0.0.3");
+    send(4, "10.0.0.3");
     QCOMPARE(theOnlyOne(4), (RobotKey{0, 3, 0}));
     QCOMPARE(store->findGroup("Robot 3"), group);
     QCOMPARE(store->view(*group)->rows(), std::size_t(4));
   }
 
   /// Names are of the teams; the colour that a robot is drawn in says nothing of its team.
-  void theRefereeTellsTheColours() {
+  void theRefereeSetsTheColours() {
     LiveOptions options;
     RefereeState packet;
     packet.teams[0].number = 12;

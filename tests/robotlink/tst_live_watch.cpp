@@ -52,7 +52,7 @@ class Witness : public LiveObserver {
       numbers.push_back(datagram.decoded->robot);
       times.push_back(datagram.time);
       payloads.emplace_back(datagram.view.payload);
-    } else if (!datagram.isStranger()) {
+    } else if (!datagram.isFromRefusedSender()) {
       ++unused;
     }
   }
@@ -87,7 +87,7 @@ class TestLiveWatch : public QObject {
     QCOMPARE(validate(options).error().code, ErrorCode::InvalidArgument);
   }
 
-  void whatRobotsSayIsSeen() {
+  void messagesOfRobotsAreShown() {
     const LiveOptions options = freeOptions();
     LiveWatch watch(options);
     const auto witness = std::make_shared<Witness>();
@@ -316,15 +316,15 @@ class TestLiveWatch : public QObject {
       return std::any_of(events.begin(), events.end(),
                          [&](const MatchEvent& event) { return event.kind == kind; });
     };
-    const auto say = [&](std::size_t messages) {
+    const auto sendOne = [&](std::size_t messages) {
       return robot.send(portOf(options, 1), message(1, 300 + static_cast<int>(messages))) &&
              QTest::qWaitFor([&] { return witness->count() == messages; });
     };
-    QVERIFY(say(1));
+    QVERIFY(sendOne(1));
     for (const std::int64_t step : {3600, -3600}) {
       events.clear();
       hands->set = step;
-      QVERIFY(say(step > 0 ? 2 : 3));
+      QVERIFY(sendOne(step > 0 ? 2 : 3));
       QTRY_VERIFY(gather(MatchEventKind::ClockSet));
       const auto at = std::ranges::find(events, MatchEventKind::ClockSet, &MatchEvent::kind);
       QVERIFY(at->time < 600.0);  // not an hour off
@@ -339,7 +339,7 @@ class TestLiveWatch : public QObject {
     events.clear();
     hands->slept = 3600;
     QTRY_VERIFY(gather(MatchEventKind::RobotOffline));
-    QVERIFY(say(4));
+    QVERIFY(sendOne(4));
     QTRY_VERIFY(gather(MatchEventKind::RobotBack));
     QVERIFY(!gather(MatchEventKind::ClockSet));
     {
@@ -351,7 +351,7 @@ class TestLiveWatch : public QObject {
     QVERIFY(watch.began() == began);
   }
 
-  void onlyTheRefereeIsAskedAndOnlyWhenToldTo() {
+  void monitorRequestsGoOnlyToTheRefereeAndOnlyIfTurnedOn() {
     const TestSocket referee, robot;
     LiveOptions options = freeOptions();
     options.monitorPort = referee.port();

@@ -116,7 +116,7 @@ class TestMapExtension : public QObject {
     QCOMPARE(more, 127);
   }
 
-  void aTeamsOwnWordsStayItsOwn() {
+  void variablesOfATeamAreNotOverwritten() {
     const auto map = VariableCatalog::fromJson(
         R"({"int": {"OURS": 384, "PLANNING_PATH_POINTS": 9}, "float": {"VISION_RBT13_DIST": 3}})",
         "team");
@@ -204,12 +204,12 @@ class TestMapExtension : public QObject {
         const double x = double(board.read(*map.floatVar("LOCALIZATION_OPP01_X")));
         const double y = double(board.read(*map.floatVar("LOCALIZATION_OPP01_Y")));
         if (x < 0) continue;
-        const Point told =
+        const Point reported =
             sim::published_frame::studioFromLocalization(scenario.settings.field, {x, y, 0})
                 .position;
         double nearest = 1e9;
         for (std::size_t other = 11; other < now.robots.size(); ++other) {
-          nearest = std::min(nearest, distance(told, now.robots[other].pose.position));
+          nearest = std::min(nearest, distance(reported, now.robots[other].pose.position));
         }
         known += nearest < 0.7;
       }
@@ -229,7 +229,7 @@ class TestMapExtension : public QObject {
     QCOMPARE(p.pathPoints(), 0);
   }
 
-  void planningWalksRoundWhoStandsInTheWay() {
+  void planningWalksAroundObstacles() {
     Planner p;
     const VariableCatalog& map = VariableCatalog::published();
     const auto inTheWay = [&](const char* variable) {
@@ -279,7 +279,7 @@ class TestMapExtension : public QObject {
   }
 
   // Decision tells where, planning acts: without planning the action stays as it was.
-  void decisionLeavesTheWayToPlanning() {
+  void decisionLeavesPathsToPlanning() {
     ProcessOptions options;
     options.behaviour = "striker";
     options.facesLeft = false;

@@ -99,7 +99,7 @@ class TestMatchEvents : public QObject {
     }
   }
 
-  void aMatchTellsEachThingOnce() {
+  void aMatchReportsEachEventOnce() {
     Scenario scenario = loadScenario("one-robot").value();
     scenario.stop.duration = 60.0;
     auto match = SimulatedMatch::create(scenario, {}).value();
@@ -232,11 +232,11 @@ class TestMatchEvents : public QObject {
     simulation.reportChanged(sim::Setting::Noise, 8);
     simulation.reportUndone(8);
     simulation.reportChanged(sim::Setting::Noise, 8);
-    const auto told = taken(match);
-    QCOMPARE(kindsOf(told), (Kinds{Kind::SettingChanged, Kind::Undone, Kind::SettingChanged}));
-    QCOMPARE(sentenceOf(told[0]), std::string("noise changed"));
-    QCOMPARE(told[0].cause, std::uint32_t{8});
-    QVERIFY(isMarked(told[0]));
+    const auto reported = taken(match);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::SettingChanged, Kind::Undone, Kind::SettingChanged}));
+    QCOMPARE(sentenceOf(reported[0]), std::string("noise changed"));
+    QCOMPARE(reported[0].cause, std::uint32_t{8});
+    QVERIFY(isMarked(reported[0]));
     // Who looks at the events of the step finds all of them; here they were reported before.
     simulation.reportUndone(7);
     match.tick();
@@ -340,7 +340,7 @@ class TestMatchEvents : public QObject {
     }
   }
 
-  void aKindOfALaterVersionSaysWhatItWasCalled() {
+  void aKindOfALaterVersionKeepsItsName() {
     telemetry::SessionEvent later{3.0, "throw-in", "B1", "B1 throws in"};
     later.facts.emplace();
     const MatchEvent event = matchEvent(later);
@@ -371,7 +371,7 @@ class TestMatchEvents : public QObject {
     }
   }
 
-  void wordsOfOtherProgramsAreKept() {
+  void textsOfOtherProgramsAreKept() {
     const MatchEvent known = matchEvent(telemetry::SessionEvent{1.5, "kick", "B1", "with force"});
     QCOMPARE(known.kind, Kind::Kick);
     QCOMPARE(sentenceOf(known), std::string("B1 kicks the ball: with force"));

@@ -118,25 +118,25 @@ class TestMatchRunner : public QObject {
     QTRY_COMPARE(runner->latest()->snapshot.ball, (Point{1, 1}));
   }
 
-  void newsAreReportedOnceUntilSomebodyAsks() {
+  void newsAreReportedOnceUntilTaken() {
     auto runner = start(builtIn("one-robot"), true);
     QVERIFY(runner->waitUntilStill(10s));
     (void)runner->latest();
-    std::atomic<int> told = 0;
-    runner->setNews([&told] { ++told; });
+    std::atomic<int> reported = 0;
+    runner->setNews([&reported] { ++reported; });
     const auto change = [&] { runner->execute([](SimulatedMatch&) { return Changed::Yes; }); };
     const std::uint64_t before = runner->latest()->serial;
     change();
     change();
     QTRY_VERIFY(runner->latest()->serial > before);
-    QTRY_VERIFY(told >= 1);
+    QTRY_VERIFY(reported >= 1);
     runner->setNews({});
     change();  // waits for a call that is under way
-    const int then = told;
+    const int then = reported;
     change();
     runner->stepOnce();
     QVERIFY(runner->waitUntilStill(10s));
-    QCOMPARE(told, then);
+    QCOMPARE(reported, then);
   }
 
   // Its blackboards are shared: what others write to them is seen, and nothing else is told.
@@ -236,8 +236,8 @@ class TestMatchRunner : public QObject {
     QCOMPARE(notes->timed, std::size_t{0});
   }
 
-  /// Nobody looks at the world to find out.
-  void aCommandSaysWhetherItChangedTheWorld() {
+  /// None looks at the world to find out.
+  void aCommandReportsWhetherItChangedTheWorld() {
     auto runner = start(builtIn("one-robot"), true);
     const auto notes = std::make_shared<Notes>();
     runner->observe(notes);
@@ -288,7 +288,7 @@ class TestMatchRunner : public QObject {
     QVERIFY(runner->waitUntilStill(10s));
   }
 
-  void aMatchThatCannotBeMadeSaysWhy() {
+  void aMatchThatCannotBeCreatedReportsWhy() {
     MatchOptions options;
     options.cognition = Cognition::Separate;
     const auto runner = MatchRunner::start(builtIn("one-robot"), options);
@@ -366,7 +366,7 @@ class TestMatchRunner : public QObject {
     QFile file(folder.filePath("team.json"));
     QVERIFY(file.open(QIODevice::WriteOnly));
     file.write(R"({"version": 1, "name": "team", "cycle": "MATCH_CYCLE", "processes": [{"name":
-      "decision", "command": ["/bin/sleep", "600"], "silent_after": 0.2}]})");
+      "decision", "command": ["/bin/sleep", "600"], "response_timeout": 0.2}]})");
     file.close();
     Scenario scenario = builtIn("one-robot");
     scenario.robots[0].runtime.profile = file.fileName().toStdString();

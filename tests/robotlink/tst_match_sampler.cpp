@@ -62,7 +62,7 @@ class TestMatchSampler : public QObject {
   Q_OBJECT
 
  private slots:
-  void aBallOutOfViewIsAHoleButTheRowKeepsTheWord() {
+  void aBallOutOfViewIsAGapButTheRowKeepsTheValue() {
     using Lost = std::vector<telemetry::LostWhen>;
     Rig rig("kick-off");
     rig.play(60 * 60);
@@ -130,7 +130,7 @@ class TestMatchSampler : public QObject {
     QVERIFY(!Rig().store->find("B1", "ADVISOR_STAMP"));
   }
 
-  void oneSampleServesWhoeverWantsIt() {
+  void oneSampleServesAllReceivers() {
     class Places : public telemetry::RowSink {
      public:
       telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override {
@@ -269,7 +269,7 @@ class TestMatchSampler : public QObject {
     near("BALL_ANGLE_ERROR", 90.0);
   }
 
-  void unitsCategoriesAndWords() {
+  void unitsCategoriesAndLabels() {
     Rig rig;
     QCOMPARE(rig.column("B1", "VISION_BALL_DIST").unit, std::string("cm"));
     QCOMPARE(rig.column("B1", "VISION_BALL_DIST").category, std::string("Vision"));
@@ -290,11 +290,11 @@ class TestMatchSampler : public QObject {
       QCOMPARE(column.labels.at(22), actionLabel(22));
     }
     // What a team-mate told is its intention, not its action.
-    const auto& told = rig.column("B1", "COM_ACTION_ROBOT1");
-    QVERIFY(told.kind == ColumnKind::Enumeration);
-    QCOMPARE(told.labels, rig.column("B1", "DECISION_STATE").labels);
-    QCOMPARE(told.labels.size(), std::size_t{7});
-    QCOMPARE(told.labels.at(3), std::string("at the ball"));
+    const auto& reported = rig.column("B1", "COM_ACTION_ROBOT1");
+    QVERIFY(reported.kind == ColumnKind::Enumeration);
+    QCOMPARE(reported.labels, rig.column("B1", "DECISION_STATE").labels);
+    QCOMPARE(reported.labels.size(), std::size_t{7});
+    QCOMPARE(reported.labels.at(3), std::string("at the ball"));
     QCOMPARE(rig.column("B1", "TRUE_X").category, std::string("Truth"));
     QCOMPARE(rig.column("B1", "BELIEF_ERROR").category, std::string("Belief error"));
     for (const auto& column : rig.store->view(*rig.store->findGroup("B1"))->info().columns) {
@@ -311,7 +311,7 @@ class TestMatchSampler : public QObject {
     QCOMPARE(own.category, std::string("Other"));
   }
 
-  void whatSaysNotSeenIsAHole() {
+  void valuesForNotSeenAreGaps() {
     const VariableCatalog& catalog = VariableCatalog::published();
     const BoardColumns columns(catalog);
     Blackboard board = Blackboard::onHeap();

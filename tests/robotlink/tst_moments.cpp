@@ -385,14 +385,14 @@ class TestMoments : public QObject {
     game.left = TeamColor::Red;
     game.teams[TeamColor::Blue].score = 3;
     game.robots[RobotId{2}] = {.penalty = sim::PenaltyKind::Incapable, .left = 21.0};
-    const auto told = SimulatedMatch::create(scenario, {}).value();
+    const auto reported = SimulatedMatch::create(scenario, {}).value();
     // Seen live.
     MatchFrame frame;
     frame.origin = FrameOrigin::Live;
     frame.truthKnown = frame.ballKnown = false;
     frame.teams = {{}, {12, "RoboFEI", TeamColor::Blue, true}, {5, "", TeamColor::Red, false}};
-    frame.referee = viewOf(refereePacket(told.simulation().state(), 1, true));
-    for (const sim::RobotSnapshot& one : told.simulation().snapshot().robots) {
+    frame.referee = viewOf(refereePacket(reported.simulation().state(), 1, true));
+    for (const sim::RobotSnapshot& one : reported.simulation().snapshot().robots) {
       RobotFrame& robot = frame.robots.emplace_back();
       static_cast<sim::RobotSnapshot&>(robot) = one;
       robot.key = {one.identity.team == TeamColor::Blue ? 1 : 2, one.identity.number, 0};

@@ -302,9 +302,9 @@ class TestMonteCarloLocalization : public QObject {
     QVERIFY(std::abs(spread.farthest - farthest) < 1e-5 * farthest);
     // The yaw weighs each against the others; what the weights were worth before is told.
     const Crowd unweighed = crowd;
-    const double told = k.weighHeading(crowd.poses(), crowd.weight.data(), crowd.scratch.data(),
-                                       {{1.0F, 0.0F}, {0.0F, 0.0F}, 1, false}, {8.0F, 0.05F});
-    QVERIFY(std::abs(told - sum) < 1e-4 * sum);
+    const double reported = k.weighHeading(crowd.poses(), crowd.weight.data(), crowd.scratch.data(),
+                                           {{1.0F, 0.0F}, {0.0F, 0.0F}, 1, false}, {8.0F, 0.05F});
+    QVERIFY(std::abs(reported - sum) < 1e-4 * sum);
     QVERIFY(std::abs(k.sum(crowd.weight.data(), n) - 1.0) < 1e-5);
     double all = 0.0;
     const auto likely = [&unweighed](std::size_t i) {

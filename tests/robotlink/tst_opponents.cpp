@@ -159,7 +159,7 @@ class TestOpponents : public QObject {
     QVERIFY(standing == OpponentModel{});
   }
 
-  void wordsHoldItAll() {
+  void allOfItFitsTheVariables() {
     OpponentModel model;
     for (std::size_t i = 0; i < keeperModels; ++i) {
       model.keeper.behind[i] = static_cast<std::uint16_t>(1000 * i);
@@ -240,7 +240,7 @@ class TestOpponents : public QObject {
   }
 
   /// A share for each variant, and rollouts without shares as ever.
-  void everybodyPlaysWithTheRobotsNumbers() {
+  void everyRobotPlaysWithTheNumbersOfItsModel() {
     ProcessOptions options;
     options.behaviour = "striker";
     options.parameters.kickDistance = 0.031;
@@ -333,7 +333,7 @@ class TestOpponents : public QObject {
     QCOMPARE(learnedBy(match, striker).aim, before.aim);
   }
 
-  void learnsNothingIfToldSo() {
+  void learnsNothingIfTurnedOff() {
     SimulatedMatch match = SimulatedMatch::create(duel(false), {}).value();
     play(match, 90);
     QVERIFY(match.blackboard(RobotId{striker})->read(AdvisorVariables().stamp) > 0);

@@ -83,7 +83,7 @@ class TestPathPlanner : public QObject {
     }
   }
 
-  void noWayEndsNearest() {
+  void withoutAPathItEndsNearest() {
     link::PathPlanner planner(5.2, 3.7);
     std::vector<Obstacle> ring;
     for (int i = 0; i < 12; ++i) {

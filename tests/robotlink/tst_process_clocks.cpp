@@ -267,13 +267,13 @@ class TestProcessClocks : public QObject {
   }
 
   // Half a second without a sign of life is one of the match.
-  void silenceCountsMatchTime_data() {
+  void timeoutsCountMatchTime_data() {
     QTest::addColumn<double>("speed");
     QTest::addColumn<bool>("stops");
     QTest::newRow("slow motion") << 0.1 << false;
     QTest::newRow("fast, and it hangs") << 10.0 << true;
   }
-  void silenceCountsMatchTime() {
+  void timeoutsCountMatchTime() {
     QFETCH(double, speed);
     QFETCH(bool, stops);
     ManagedProcess process = python({"-c", "import time\ntime.sleep(1000)\n"});
@@ -281,7 +281,7 @@ class TestProcessClocks : public QObject {
     process.watch = ManagedProcess::Watch::Variable;
     process.heartbeat = IntVar{104};
     process.clears = true;
-    process.silentAfter = RestartRule::Seconds(stops ? 20.0 : 0.5);
+    process.responseTimeout = RestartRule::Seconds(stops ? 20.0 : 0.5);
     const auto begin = SteadyClock::now();
     const auto seconds = [begin] {
       return std::chrono::duration<double>(SteadyClock::now() - begin).count();

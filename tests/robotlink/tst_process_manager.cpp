@@ -87,7 +87,7 @@ class TestProcessManager : public QObject {
     removeSegment(m_key);
   }
 
-  void aCrashTellsItsSignalAndLastWordsAndStartsAgain() {
+  void aCrashReportsItsSignalAndLastOutputAndIsRestarted() {
     const int id = add(shell("echo ouch; kill -SEGV $$"));
     QTRY_VERIFY(count(Kind::Restarted) >= 1);
     const auto died = std::find_if(m_news.begin(), m_news.end(),
@@ -99,22 +99,22 @@ class TestProcessManager : public QObject {
   }
 
   // Who waits for it need not ask.
-  void itSaysWhenAProcessHasSomethingToTell() {
-    const auto tells = [this] {
+  void itSignalsWhenAProcessHasNews() {
+    const auto reports = [this] {
       pollfd waited{m_manager->descriptor(), POLLIN, 0};
       return ::poll(&waited, 1, 0) == 1;
     };
     const int id =
         add(shell("echo here; read nothing < /dev/null; exec sleep 1000", RestartPolicy::Never));
-    QTRY_VERIFY(tells());
+    QTRY_VERIFY(reports());
     QTRY_VERIFY(wrote("here"));
     look();
-    QVERIFY(!tells());
+    QVERIFY(!reports());
     m_manager->kill(id);
-    QTRY_VERIFY(tells());
+    QTRY_VERIFY(reports());
     QTRY_COMPARE(count(Kind::Died), 1);
     look();
-    QVERIFY(!tells());
+    QVERIFY(!reports());
   }
 
   void restartPolicies_data() {
@@ -181,7 +181,7 @@ class TestProcessManager : public QObject {
     process.watch = ManagedProcess::Watch::Variable;
     process.heartbeat = IntVar{104};
     process.clears = true;
-    process.silentAfter = RestartRule::Seconds(0.3);
+    process.responseTimeout = RestartRule::Seconds(0.3);
     const int id = add(process);
     const pid_t first = status(id).pid;
     // While somebody sets it, it lives.
@@ -210,7 +210,7 @@ class TestProcessManager : public QObject {
     ManagedProcess process = shell("exec sleep 600");
     process.watch = ManagedProcess::Watch::Variable;
     process.heartbeat = IntVar{104};
-    process.silentAfter = RestartRule::Seconds(0.05);
+    process.responseTimeout = RestartRule::Seconds(0.05);
     m_board.write(IntVar{104}, 1);  // left by an earlier one
     const int id = add(process);
     for (int i = 0; i < 30; ++i) {
@@ -226,7 +226,7 @@ class TestProcessManager : public QObject {
 
   void withoutAHeartbeatAProcessIsNotReported() {
     ManagedProcess process = shell("exec sleep 600");
-    process.silentAfter = RestartRule::Seconds(0.05);
+    process.responseTimeout = RestartRule::Seconds(0.05);
     const int id = add(process);
     for (int i = 0; i < 30; ++i) {
       QTest::qWait(10);
@@ -308,7 +308,7 @@ class TestProcessManager : public QObject {
     QCOMPARE(status(id).restarts, 1);
   }
 
-  void aFloodOfLinesIsBoundedAndHoldsNobodyUp() {
+  void aFloodOfLinesIsBoundedAndDelaysNoProcess() {
     ManagedProcess process = shell("exec yes");
     const int id = add(process);
     for (int i = 0; i < 30; ++i) look();

@@ -26,7 +26,7 @@ class TestRecordedLive : public QObject {
     auto recorder = LiveRecorder::create(path, live, zero).value();
     LivePipeline pipeline(live, zero);
     pipeline.observe(recorder, zero + std::chrono::milliseconds(500));
-    const auto hear = [&](double time, std::string text) {
+    const auto receive = [&](double time, std::string text) {
       telemetry::DatagramView datagram;
       datagram.time = zero + std::chrono::nanoseconds(static_cast<std::int64_t>(time * 1e9));
       datagram.sender = {{0x7f000001}, 5000};
@@ -34,9 +34,9 @@ class TestRecordedLive : public QObject {
       datagram.payload = text;
       pipeline.take(datagram);
     };
-    hear(1.0, "1 450 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT");
+    receive(1.0, "1 450 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT");
     (void)pipeline.frame(zero + std::chrono::milliseconds(1500));
-    hear(2.0, "1 460 300 90 12.5 80.0 10.0 1 1 1 1 1 8 0.5 189 OUT");
+    receive(2.0, "1 460 300 90 12.5 80.0 10.0 1 1 1 1 1 8 0.5 189 OUT");
     telemetry::DatagramView packet;
     packet.payload = std::string_view("RGme\0\xff", 6);
     const Result<telemetry::RefereePacket> state = telemetry::RefereeState{};

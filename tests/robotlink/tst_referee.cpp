@@ -92,7 +92,7 @@ class TestReferee : public QObject {
   static std::vector<sim::RefereeCall> allCalls() {
     std::vector<sim::RefereeCall> calls;
     for (int kind = 0; kind <= static_cast<int>(CallKind::Automatic); ++kind) {
-      for (int team = sim::GameState::nobody; team < 2; ++team) {
+      for (int team = sim::GameState::noTeam; team < 2; ++team) {
         for (const int value : {-1, 0, 1}) {
           for (int state = 0; state <= static_cast<int>(lastOf(PlayState{})); ++state) {
             calls.push_back({.kind = static_cast<CallKind>(kind),
@@ -112,7 +112,7 @@ class TestReferee : public QObject {
  private slots:
   // In every state that a match comes to: what checkCall() refuses changes nothing, and the match
   // says the same.
-  void checkSaysWhatTheCallWouldSay() {
+  void checkReturnsTheErrorOfTheCall() {
     const std::vector<std::function<bool(Game&)>> way{
         to(PlayState::Ready),
         to(PlayState::Set),
@@ -340,7 +340,7 @@ class TestReferee : public QObject {
          {std::pair("humanoid-2014", 120), std::pair("humanoid-2021", 600),
           std::pair("humanoid-soccer-2026", 600)}) {
       Game game(rules);
-      QVERIFY(game.call({.kind = CallKind::Timeout, .team = sim::GameState::nobody}));
+      QVERIFY(game.call({.kind = CallKind::Timeout, .team = sim::GameState::noTeam}));
       QCOMPARE(game.packet().secondaryTime, std::optional<int>(seconds));
     }
     Game game("humanoid-2021");

@@ -100,7 +100,7 @@ class TestRefereeJudge : public QObject {
     QCOMPARE(game.game().state, PlayState::Playing);
     game.runTo(60 + 32);
     QCOMPARE(game.game().state, PlayState::Ready);
-    QCOMPARE(game.game().kickOff, sim::GameState::nobody);
+    QCOMPARE(game.game().kickOff, sim::GameState::noTeam);
     QCOMPARE(game.packet().kickOffRaw, 128);
   }
 

@@ -71,8 +71,8 @@ class TestRefereeOrders : public QObject {
           QCOMPARE(stands.value_or(-1), link::refereeSet);
           continue;
         }
-        const auto said = wordOf(state, team.number, static_cast<int>(i) + 1);
-        QCOMPARE(said.value_or(-1), word);
+        const auto reported = wordOf(state, team.number, static_cast<int>(i) + 1);
+        QCOMPARE(reported.value_or(-1), word);
       }
     }
     // A shirt that has no slot is not penalised.
@@ -84,9 +84,9 @@ class TestRefereeOrders : public QObject {
     int penalised = 0;
     for (const telemetry::RefereeTeam& team : state.teams) {
       for (std::size_t i = 0; i < team.players().size(); ++i) {
-        const auto said = wordOf(state, team.number, static_cast<int>(i) + 1);
+        const auto reported = wordOf(state, team.number, static_cast<int>(i) + 1);
         if (team.players()[i].penalty != 0) {
-          QCOMPARE(said.value_or(-1), link::refereeStop);
+          QCOMPARE(reported.value_or(-1), link::refereeStop);
           ++penalised;
         }
       }
@@ -94,7 +94,7 @@ class TestRefereeOrders : public QObject {
     QVERIFY(penalised > 0);
   }
 
-  void anotherTeamsMatchSaysNothing() { QVERIFY(!wordOf(recorded("v11hl592_PLAYING"), 97, 1)); }
+  void aMatchOfOtherTeamsGivesNoOrder() { QVERIFY(!wordOf(recorded("v11hl592_PLAYING"), 97, 1)); }
 
   // Team 1 has had the kick-off, team 2 takes a throw-in.
   void aSetPlayIsItsTakersUntilTheBallIsFree() {

@@ -210,12 +210,13 @@ class TestReport : public QObject {
     add(MatchEventKind::ProcessGivenUp, 40.0, "");
     const QString html = QString::fromStdString(reportHtml(content));
     QString rest = html.section("<h2>Events</h2>", 1);
-    for (const char* told : {"0:05.0", "B1 localization died: signal 11 (Segmentation fault)",
-                             "last output: &lt;oh&gt;", "0:05.5", "B1 localization started again",
-                             "0:20.0", "B1 localization stopped responding: no cycle done for 5 s",
-                             "0:40.0", "B1 localization is no longer restarted"}) {
-      const auto at = rest.indexOf(told);
-      QVERIFY2(at >= 0, qPrintable(QString(told) + " not after the one before in " + rest));
+    for (const char* reported :
+         {"0:05.0", "B1 localization died: signal 11 (Segmentation fault)",
+          "last output: &lt;oh&gt;", "0:05.5", "B1 localization started again", "0:20.0",
+          "B1 localization stopped responding: no cycle done for 5 s", "0:40.0",
+          "B1 localization is no longer restarted"}) {
+      const auto at = rest.indexOf(reported);
+      QVERIFY2(at >= 0, qPrintable(QString(reported) + " not after the one before in " + rest));
       rest = rest.mid(at);
     }
   }

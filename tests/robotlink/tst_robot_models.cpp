@@ -116,7 +116,7 @@ class TestRobotModels : public QObject {
   Q_OBJECT
 
  private slots:
-  void theModelSaysWhenABatteryIsLow() {
+  void theModelDecidesWhenABatteryIsLow() {
     // The usual limits are those of the published robot.
     const auto usual = telemetry::usualBattery;
     const auto published = batteryLimitsOf(sim::RobotModel());
@@ -147,7 +147,7 @@ class TestRobotModels : public QObject {
              wrong.error().text().c_str());
   }
 
-  void builtInModelsAreGoodAndSayWhereTheirNumbersAreFrom() {
+  void builtInModelsAreValidAndNameTheirSources() {
     const auto names = robotModels();
     QCOMPARE(names.front(), std::string("published"));
     QVERIFY(*robotModelFromText("published", "") == sim::RobotModel{});
@@ -176,7 +176,7 @@ class TestRobotModels : public QObject {
     QVERIFY(played.way > 1.0);
   }
 
-  void aKickRollsAsFarAsItsSourceSays_data() {
+  void aKickRollsAsFarAsItsSourceStates_data() {
     QTest::addColumn<QJsonObject>("kick");
     QTest::addColumn<double>("tolerance");
     const QJsonObject file = kickRanges();
@@ -192,7 +192,7 @@ class TestRobotModels : public QObject {
       QVERIFY2(models.contains(QString::fromStdString(name)), name.c_str());
     }
   }
-  void aKickRollsAsFarAsItsSourceSays() {
+  void aKickRollsAsFarAsItsSourceStates() {
     QFETCH(QJsonObject, kick);
     QFETCH(double, tolerance);
     const double wanted = kick["metres"].toDouble();

@@ -136,7 +136,7 @@ class TestRollout : public QObject {
   }
 
   /// A point every half second, the same as those of a look; a rollout that has ended stays there.
-  void tracesShowTheBallOnItsWay() {
+  void tracesShowThePathOfTheBall() {
     const Setup setup = setupOf({player(Side::Left, "idle")});
     Belief belief;
     belief.robots = {at(-3, 2, 0)};

@@ -76,7 +76,7 @@ class TestRuntimeProfile : public QObject {
       "values": {"side": "left"}, "cycle": "MATCH_CYCLE",
       "processes": [{"name": "decide", "command": ["./decide", "--key", "${key}"],
         "directory": "/home/robot", "environment": {"SIDE": "${side}"}, "delay": 0.5,
-        "heartbeat": "DECISION_WORKING", "silent_after": 2, "restart": "on_failure",
+        "heartbeat": "DECISION_WORKING", "response_timeout": 2, "restart": "on_failure",
         "first_wait": 0.1, "longest_wait": 3, "steady_after": 20, "give_up_after": 5,
         "stop_signal": "INT", "watch_program": true, "only_for": "everyone",
         "clock": "real"}]})",
@@ -88,7 +88,7 @@ class TestRuntimeProfile : public QObject {
     QCOMPARE(process.directory, std::string("/home/robot"));
     QCOMPARE(process.environment.front().second, std::string("${side}"));
     QCOMPARE(process.delay, 0.5);
-    QCOMPARE(process.silentAfter, 2.0);
+    QCOMPARE(process.responseTimeout, 2.0);
     QVERIFY(process.restart.policy == RestartPolicy::OnFailure);
     QCOMPARE(process.restart.giveUpAfter, 5);
     QCOMPARE(process.restart.longestWait.count(), 3.0);
@@ -99,6 +99,15 @@ class TestRuntimeProfile : public QObject {
     QCOMPARE(expanded("a ${x}b${x}", {{"x", "1"}}).value(), std::string("a 1b1"));
     QVERIFY(!expanded("a ${y}", {{"x", "1"}}));
     QVERIFY(!expanded("a ${x", {{"x", "1"}}));
+  }
+
+  void readsTheKeyOfVersion08() {
+    const auto profile = runtimeProfileFromJson(
+        R"({"version": 1, "name": "team", "title": "Ours", "processes":
+        [{"name": "decide", "command": ["a"], "heartbeat": "DECISION_WORKING", "silent_after": 3}]})",
+        "team.json");
+    QVERIFY2(profile, profile ? "" : profile.error().text().c_str());
+    QCOMPARE(profile->processes.front().responseTimeout, 3.0);
   }
 
   void mistakesNameFileLineAndKey_data() {
@@ -123,8 +132,8 @@ class TestRuntimeProfile : public QObject {
         "processes[0].restart: there is no restart policy \"nver\"; did you mean \"never\"");
     row("signal", R"([{"name": "a", "command": ["b"], "stop_signal": "TREM"}])",
         "processes[0].stop_signal: there is no signal");
-    row("time", R"([{"name": "a", "command": ["b"], "silent_after": 0}])",
-        "processes[0].silent_after: must");
+    row("time", R"([{"name": "a", "command": ["b"], "response_timeout": 0}])",
+        "processes[0].response_timeout: must");
     row("clock", R"([{"name": "a", "command": ["b"], "clock": "rael"}])",
         "processes[0].clock: there is no clock \"rael\"; did you mean \"real\"");
     row("clock of ours", R"([{"name": "a", "reference": "decision", "clock": "real"}])",
@@ -139,11 +148,12 @@ class TestRuntimeProfile : public QObject {
         "{\"version\": 1,\n\"name\": \"team\",\n\"processes\": " + processes + "}";
     const auto profile = runtimeProfileFromJson(text.toStdString(), "team.json");
     QVERIFY(!profile);
-    const QByteArray said = QByteArray::fromStdString(profile.error().text());
-    QVERIFY2(said.contains(message) && said.startsWith("team.json:3: "), said.constData());
+    const QByteArray reported = QByteArray::fromStdString(profile.error().text());
+    QVERIFY2(reported.contains(message) && reported.startsWith("team.json:3: "),
+             reported.constData());
   }
 
-  void choicesInWords_data() {
+  void choicesAsText_data() {
     QTest::addColumn<QByteArray>("text");
     for (const char* text : {"own", "reference", "team.json", "program=/home/me/decide",
                              "published-tree:folder=/home/robot,python=python3",
@@ -151,7 +161,7 @@ class TestRuntimeProfile : public QObject {
       QTest::addRow("%s", text) << QByteArray(text);
     }
   }
-  void choicesInWords() {
+  void choicesAsText() {
     QFETCH(QByteArray, text);
     const auto read = runtimeChoiceFromText(text.toStdString());
     QVERIFY(read && read->isChosen());
@@ -179,7 +189,7 @@ class TestRuntimeProfile : public QObject {
     QVERIFY(!loadRuntime(choice("/no/such/file.json")));
   }
 
-  void scenariosSayWhoRuns() {
+  void scenariosChooseTheRuntime() {
     const auto scenario = scenarioFromJson(R"({"version": 1, "runtime": {"red": "own"}, "robots": [
       {"team": "blue", "number": 1, "x": -1, "y": 0, "runtime": "program=/home/me/decide"},
       {"team": "red", "number": 1, "x": 1, "y": 0},
@@ -292,7 +302,7 @@ class TestRuntimeProfile : public QObject {
   }
 
   // What the referee says reaches a robot of somebody else as it reaches one of ours.
-  void aRobotOfSomebodyElseReceivesTheReferee() {
+  void aRobotWithItsOwnProgramsReceivesTheReferee() {
     QTemporaryDir folder;
     QFile file(folder.filePath("hears.json"));
     QVERIFY(file.open(QIODevice::WriteOnly));
@@ -307,7 +317,7 @@ class TestRuntimeProfile : public QObject {
     scenario.robots[1].runtime.profile = file.fileName().toStdString();
     auto match = SimulatedMatch::create(scenario, separate()).value();
     const IntVar word = match.variables().comReferee;
-    std::set<int> told;
+    std::set<int> given;
     for (int i = 0; i < 60 * 15; ++i) {
       if (i == 60 * 9) {
         const sim::RefereeCall call{.kind = sim::CallKind::SetPlay,
@@ -320,9 +330,9 @@ class TestRuntimeProfile : public QObject {
       match.tick();
       const int one = match.blackboard(RobotId{1})->read(word);
       QCOMPARE(one, inside.blackboard(RobotId{1})->read(word));
-      told.insert(one);
+      given.insert(one);
     }
-    QCOMPARE(told, (std::set<int>{1, 2, 11, 12}));
+    QCOMPARE(given, (std::set<int>{1, 2, 11, 12}));
     QCOMPARE(match.blackboard(RobotId{2})->read(word), 0);  // its own program would write it
   }
 
@@ -438,14 +448,14 @@ class TestRuntimeProfile : public QObject {
     QCOMPARE(namesOf(match, 1),
              (std::vector<std::string>{"localization", "team", "decision", "communication"}));
     const std::string wanted = "key " + std::to_string(m_base + 100);
-    const auto said = [&] {
+    const auto reported = [&] {
       match.pace().lookAfterProcesses(std::chrono::steady_clock::now());
       for (const ProcessStatus& one : match.robots().processes().statuses()) {
         if (one.name == "decision" && !one.lastLines.empty()) return one.lastLines.back() == wanted;
       }
       return false;
     };
-    QTRY_VERIFY(said());
+    QTRY_VERIFY(reported());
     match.tick();
   }
 

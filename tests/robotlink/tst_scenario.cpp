@@ -71,8 +71,8 @@ class TestScenario : public QObject {
                                rules.toStdString() + "}}");
     QCOMPARE(scenario.has_value(), wrong.isEmpty());
     if (!scenario) {
-      const QString said = QString::fromStdString(scenario.error().text());
-      QVERIFY2(said.contains("referee." + wrong), qPrintable(said));
+      const QString reported = QString::fromStdString(scenario.error().text());
+      QVERIFY2(reported.contains("referee." + wrong), qPrintable(reported));
       return;
     }
     const sim::RefereeRules& read = *scenario->settings.referee;
@@ -106,9 +106,9 @@ class TestScenario : public QObject {
 
   void wrongGamesAreNamed_data() {
     QTest::addColumn<QString>("keys");
-    QTest::addColumn<QString>("said");
-    const auto row = [](const char* name, const char* keys, const char* said) {
-      QTest::newRow(name) << QString::fromUtf8(keys) << QString::fromUtf8(said);
+    QTest::addColumn<QString>("reported");
+    const auto row = [](const char* name, const char* keys, const char* reported) {
+      QTest::newRow(name) << QString::fromUtf8(keys) << QString::fromUtf8(reported);
     };
     row("no referee", R"("game": {"state": "set"})", "game: a game, penalties and cards need");
     row("state", R"("referee": "humanoid-2021", "game": {"state": "playin"})",
@@ -124,11 +124,11 @@ class TestScenario : public QObject {
   }
   void wrongGamesAreNamed() {
     QFETCH(QString, keys);
-    QFETCH(QString, said);
+    QFETCH(QString, reported);
     const auto scenario = read("{\"version\": 1, " + keys.toStdString() + "}");
     QVERIFY(!scenario);
     const QString text = QString::fromStdString(scenario.error().text());
-    QVERIFY2(text.contains(said), qPrintable(text));
+    QVERIFY2(text.contains(reported), qPrintable(text));
   }
 
   void noisePresetsAreValid() {
@@ -298,12 +298,12 @@ class TestScenario : public QObject {
 {"team": "red", "number": 1, "x": 0, "y": 0}],
 "writes": [{"variable": "NONSENSE", "value": 1}, {"variable": "COM_REFEREE", "value": 2}]})");
     QVERIFY(!scenario);
-    const QStringList said = QString::fromStdString(scenario.error().text()).split('\n');
-    QVERIFY2(said.size() == 4, scenario.error().text().c_str());
-    for (int i = 0; i < said.size(); ++i) {
+    const QStringList reported = QString::fromStdString(scenario.error().text()).split('\n');
+    QVERIFY2(reported.size() == 4, scenario.error().text().c_str());
+    for (int i = 0; i < reported.size(); ++i) {
       const QString place[] = {"my.json:1: tick_rate", "my.json:2: robots[0].team",
                                "my.json:3: robots[1].number", "my.json:5: writes[0].variable"};
-      QVERIFY2(said[i].startsWith(place[i]), qPrintable(said[i]));
+      QVERIFY2(reported[i].startsWith(place[i]), qPrintable(reported[i]));
     }
   }
 

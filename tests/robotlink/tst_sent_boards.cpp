@@ -58,7 +58,7 @@ class Rig {
     return m_rows->verdict.value_or(SentBoards::Verdict::TooManyRobots);
   }
   /// A message of the published telemetry.
-  void say(int robot, double time, int address = 0) {
+  void sendOne(int robot, double time, int address = 0) {
     const std::string text = std::to_string(robot) + message;
     pipeline.take({seconds(time), from(address > 0 ? address : robot, 50'000),
                    static_cast<std::uint16_t>(1240 + robot), false, text});
@@ -300,15 +300,15 @@ class TestSentBoards : public QObject {
   void moreRobotsThanAreKept() {
     SentBoards boards;
     std::uint32_t sequence = 0;
-    const auto say = [&](std::uint32_t address, double time) {
+    const auto sendOne = [&](std::uint32_t address, double time) {
       const std::string text = "PB2 3 " + std::to_string(sequence++) + " 1 OUT";
       const auto parsed = telemetry::parsePb2(text);
       return boards.take(*parsed, {Rig::seconds(time), {{address}, 1}, 1343, false, ""}, 0, time);
     };
     for (std::uint32_t i = 1; i <= SentBoards::maxRobots; ++i)
-      QVERIFY(say(i, 1.0) == Verdict::Used);
-    QVERIFY(say(1000, 2.0) == Verdict::TooManyRobots);
-    QVERIFY(say(1000, 30.0) == Verdict::Used);  // in place of one that is silent
+      QVERIFY(sendOne(i, 1.0) == Verdict::Used);
+    QVERIFY(sendOne(1000, 2.0) == Verdict::TooManyRobots);
+    QVERIFY(sendOne(1000, 30.0) == Verdict::Used);  // in place of one that is silent
     QCOMPARE(boards.status(Rig::seconds(30.0)).size(), SentBoards::maxRobots);
   }
 
@@ -346,14 +346,14 @@ class TestSentBoards : public QObject {
     QFETCH(bool, messagesFirst);
     Rig rig;
     if (messagesFirst) {
-      rig.say(3, 0.5);
+      rig.sendOne(3, 0.5);
       QCOMPARE(rig.frame(0.6).robots.size(), std::size_t(1));
       QVERIFY(rig.view("B3"));
     }
     rig.begin(3, "LOCALIZATION_X=600 LOCALIZATION_Y=350 VOLTAGE=150");
     if (!messagesFirst) {
       QCOMPARE(rig.frame(3.05).robots.size(), std::size_t(1));
-      rig.say(3, 3.06);
+      rig.sendOne(3, 3.06);
     }
     const MatchFrame frame = rig.frame(3.1);
     QCOMPARE(frame.robots.size(), std::size_t(1));
@@ -367,7 +367,7 @@ class TestSentBoards : public QObject {
     QCOMPARE(rig.value("B3", "LOCALIZATION_X"), 600.0);
     QCOMPARE(rig.value("B3 telemetry", "LOCALIZATION_X"), 450.0);
     // Variables end, messages go on.
-    rig.say(3, 15.0);
+    rig.sendOne(3, 15.0);
     const MatchFrame later = rig.frame(15.1);
     QCOMPARE(later.robots.size(), std::size_t(1));
     QVERIFY(!later.robots[0].timedOut());
@@ -379,7 +379,7 @@ class TestSentBoards : public QObject {
 
   void anotherAddressIsAnotherRobot() {
     Rig rig;
-    rig.say(3, 0.5, 77);
+    rig.sendOne(3, 0.5, 77);
     rig.begin(3, "LOCALIZATION_X=600 LOCALIZATION_Y=350");
     const MatchFrame frame = rig.frame(3.1);
     QCOMPARE(frame.robots.size(), std::size_t(2));
@@ -397,7 +397,7 @@ class TestSentBoards : public QObject {
     rig.frame(3.1);
     QCOMPARE(rig.value("B3", "VOLTAGE"), 1.0);
     QCOMPARE(rig.value("B3 (2)", "VOLTAGE"), 2.0);
-    rig.say(3, 3.2, 9);
+    rig.sendOne(3, 3.2, 9);
     for (std::uint32_t i = 21; i <= 23; ++i) {
       const double time = 1.2 + 0.1 * i;
       rig.sendAt(Rig::seconds(time), 3, i, 1000 + 100 * i, "VOLTAGE=1", 8);
@@ -434,12 +434,12 @@ class TestSentBoards : public QObject {
   void namesFollowTheColour() {
     Rig rig{LiveOptions()};
     rig.begin(3, "VOLTAGE=150");
-    rig.say(3, 3.05);
+    rig.sendOne(3, 3.05);
     QCOMPARE(rig.frame(3.1).robots.at(0).name, std::string("Robot 3"));
     QCOMPARE(rig.names(), QString("Robot 3, Robot 3 agent, Robot 3 telemetry"));
     const std::size_t rows = rig.view("Robot 3")->rows();
     rig.pipeline.setOptions(blueTeam(), Rig::seconds(3.2));
-    rig.say(3, 3.3);
+    rig.sendOne(3, 3.3);
     rig.send(3, 21, 3400, "VOLTAGE=151");
     QCOMPARE(rig.frame(3.5).robots.size(), std::size_t(1));
     rig.send(3, 22, 3600, "VOLTAGE=152");
@@ -481,7 +481,7 @@ class TestSentBoards : public QObject {
     QCOMPARE(details.team.datagrams, 0U);
   }
 
-  void strangersAreNotReceived() {
+  void refusedSendersAreNotReceived() {
     LiveOptions options = blueTeam();
     QVERIFY(options.team.senders.add("10.0.0.0/24"));
     Rig rig(options);
@@ -565,8 +565,8 @@ class TestSentBoards : public QObject {
       const double time = 1.0 + 0.1 * i;
       rig.send(3, i, 1000 + 100 * i, place);
       rig.send(5, i, 1000 + 100 * i, place);  // sends no messages
-      if (i % 5 == 0) rig.say(3, time);
-      if (i % 5 == 2) rig.say(4, time);
+      if (i % 5 == 0) rig.sendOne(3, time);
+      if (i % 5 == 2) rig.sendOne(4, time);
       MatchFrame frame = rig.frame(time + 0.01);
       if (i > 25) seen[time + 0.01] = std::move(frame);
     }

@@ -55,7 +55,7 @@ class TestTeamChannel : public QObject {
     QCOMPARE(kept.back(), std::string("999"));
   }
 
-  void elevenRobotsHearEachOther() {
+  void elevenRobotsReceiveEachOther() {
     const auto channel = std::make_shared<InProcessTeamChannel>();
     std::vector<Robot> robots;
     for (int id = 1; id <= 11; ++id) robots.emplace_back(id, channel);

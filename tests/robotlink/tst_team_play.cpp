@@ -100,9 +100,9 @@ struct Robot {
       now += 0.1;
       decision->step(board, {now});
     }
-    return told();
+    return reported();
   }
-  Intention told() const { return static_cast<Intention>(board.read(team.intention)); }
+  Intention reported() const { return static_cast<Intention>(board.read(team.intention)); }
 
   Blackboard board = Blackboard::onHeap();
   RobotVariables variables{VariableCatalog::extended()};
@@ -138,7 +138,7 @@ class TestTeamPlay : public QObject {
     }
   }
 
-  // Everybody works out the same: no place is taken twice.
+  // AllPrograms works out the same: no place is taken twice.
   void everyPlaceHasOneRobot() {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> along(-4.4, 4.4), across(-2.9, 2.9);
@@ -377,7 +377,7 @@ class TestTeamPlay : public QObject {
             decision->step(robot.board, {robot.now});
             planning->step(robot.board, {robot.now});
             QCOMPARE(decided.act.action, robot.board.read(robot.variables.decisionActionA));
-            QCOMPARE(decided.intention, robot.told());
+            QCOMPARE(decided.intention, robot.reported());
             QCOMPARE(decided.looksForOpponents,
                      robot.board.read(robot.variables.decisionActionVision) == 2);
             robot.board.write(robot.variables.controlAction, decided.act.action);

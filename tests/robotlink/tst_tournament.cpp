@@ -297,10 +297,10 @@ void TestTournament::teamsThinkAhead() {
   QVERIFY(advisedIn(usual, 0).empty() && advisedIn(usual, 1).empty());
   ExperimentChanges changes;
   changes.advised = {"stands"};
-  const auto told = experimentFromJson(shortTournament, "two", {}, changes).value();
-  QCOMPARE(advisedIn(told, 0), Colours{TeamColor::Red});
-  QCOMPARE(advisedIn(told, 1), Colours{TeamColor::Blue});
-  const auto kept = experimentFromJson(told.text, "kept").value();
+  const auto given = experimentFromJson(shortTournament, "two", {}, changes).value();
+  QCOMPARE(advisedIn(given, 0), Colours{TeamColor::Red});
+  QCOMPARE(advisedIn(given, 1), Colours{TeamColor::Blue});
+  const auto kept = experimentFromJson(given.text, "kept").value();
   QCOMPARE(advisedIn(kept, 0), Colours{TeamColor::Red});
   std::string file = shortTournament;
   file.insert(file.find("\"number\": 12"), "\"advisor\": {\"rollouts\": 30}, ");
@@ -341,8 +341,8 @@ void TestTournament::wrongFilesAreExplained() {
   const auto e = experimentFromJson(replaced(shortTournament, what.toStdString(), by.toStdString()),
                                     "test.json");
   QVERIFY(!e);
-  const QString said = QString::fromStdString(e.error().text());
-  QVERIFY2(said.contains(words) && said.contains("test.json"), qPrintable(said));
+  const QString reported = QString::fromStdString(e.error().text());
+  QVERIFY2(reported.contains(words) && reported.contains("test.json"), qPrintable(reported));
 }
 
 PITCHBOARD_TEST(TestTournament)

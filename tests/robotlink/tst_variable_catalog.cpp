@@ -68,8 +68,8 @@ QString variablesTable(const VariableCatalog& catalog) {
     column.name = v.name;
     meanings.describe(column);
     const QString name = QString::fromStdString(v.name), unit = unitOrCodes(column);
-    const std::string_view said = meanings.description(v.name);
-    const QString text = QString::fromUtf8(said.data(), qsizetype(said.size()));
+    const std::string_view reported = meanings.description(v.name);
+    const QString text = QString::fromUtf8(reported.data(), qsizetype(reported.size()));
     const QString type = v.type == VariableType::Int ? "int" : "float";
     const auto [skeleton, number] = numberedName(name);
     // Named once more for clang before version 16: it captures no names of a structured binding.

@@ -110,7 +110,7 @@ class TestWholeMatch : public QObject {
     QCOMPARE(match.robots().processes().status(id)->restarts, 0);
   }
 
-  void everybodyIsInItsPlaceAtKickOff() {
+  void everyRobotIsInItsPlaceAtKickOff() {
     auto match = make(shortMatch("humanoid-2021"));
     sim::Snapshot now;
     int touched = 0;
@@ -148,7 +148,7 @@ class TestWholeMatch : public QObject {
     }
   }
 
-  void robotsHearTheRefereeInItsRhythm() {
+  void robotsReceiveTheRefereeAtItsRate() {
     auto match = make(shortMatch("humanoid-2021"));
     const auto word = [&](int robot) {
       return match.blackboard(RobotId{robot})->read(match.variables().comReferee);
@@ -233,7 +233,7 @@ class TestWholeMatch : public QObject {
     QCOMPARE(last->teams[0].players()[4].penalty, 14);  // nobody wears this shirt
   }
 
-  void anExternalControllerIsObeyed() {
+  void anOutsideGameControllerIsObeyed() {
     const TestSocket place;  // a free port; given back before the match listens
     int port = 0;
     {

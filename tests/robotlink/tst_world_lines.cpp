@@ -98,9 +98,9 @@ class TestWorldLines : public QObject {
 
   void aBadLineGetsAnErrorAndTheNextOneIsServed_data() {
     QTest::addColumn<QByteArray>("line");
-    QTest::addColumn<QString>("says");
-    const auto row = [](const char* name, const char* line, const char* says) {
-      QTest::newRow(name) << QByteArray(line) << QString::fromUtf8(says);
+    QTest::addColumn<QString>("hasText");
+    const auto row = [](const char* name, const char* line, const char* hasText) {
+      QTest::newRow(name) << QByteArray(line) << QString::fromUtf8(hasText);
     };
     row("no JSON", "step", "JSON");
     row("no object", "[1, 2]", "must be an object");
@@ -138,13 +138,13 @@ class TestWorldLines : public QObject {
   }
   void aBadLineGetsAnErrorAndTheNextOneIsServed() {
     QFETCH(QByteArray, line);
-    QFETCH(QString, says);
+    QFETCH(QString, hasText);
     WorldLines lines(usual());
     QVERIFY(ask(lines, R"({"do":"create"})")["ok"].toBool());
     const QJsonObject answer = ask(lines, line.constData());
     QVERIFY(!answer["ok"].toBool());
     const QString error = answer["error"].toString();
-    QVERIFY2(error.size() > 8 && error.contains(says), qPrintable(error));
+    QVERIFY2(error.size() > 8 && error.contains(hasText), qPrintable(error));
     QVERIFY(ask(lines, R"({"do":"step"})")["ok"].toBool());
   }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "draw_loops.h"
+#include "random_loops.h"
 
 namespace tst_random {
 
@@ -16,7 +16,7 @@ class TestRandom : public QObject {
   Q_OBJECT
 
  private slots:
-  void sameKeySameDraws() {
+  void sameKeySameNumbers() {
     CounterRandom a(7, 3, NoiseStream::Motion, 99);
     CounterRandom b(7, 3, NoiseStream::Motion, 99);
     for (int i = 0; i < 100; ++i) QCOMPARE(a.uniform(), b.uniform());
@@ -81,7 +81,7 @@ class TestRandom : public QObject {
   }
 
   // Whatever is drawn in which order, and however many robots there are.
-  void aBatchIsTheDrawsOfEach() {
+  void aBatchHasTheNumbersOfEachRobot() {
     RandomBatch many;
     for (int robots = 1; robots <= 22; ++robots) {
       std::vector<int> numbers;
@@ -113,16 +113,16 @@ class TestRandom : public QObject {
   }
   void everySimdLevelGivesTheSameBits() {
     QFETCH(int, level);
-    const draws::Loops* wide = draws::loopsOf(static_cast<SimdLevel>(level));
+    const random_loops::Loops* wide = random_loops::loopsOf(static_cast<SimdLevel>(level));
     if (!wide) QSKIP("this processor or compiler lacks this SIMD level");
-    const draws::Loops& narrow = *draws::loopsOf(SimdLevel::Baseline);
+    const random_loops::Loops& narrow = *random_loops::loopsOf(SimdLevel::Baseline);
     constexpr std::size_t counters = 101;
     std::vector<std::uint32_t> high(counters), robot(counters);
     for (std::size_t i = 0; i < counters; ++i) {
       high[i] = static_cast<std::uint32_t>(i * i);
       robot[i] = static_cast<std::uint32_t>(i + 1);
     }
-    const auto all = [&](const draws::Loops& loops) {
+    const auto all = [&](const random_loops::Loops& loops) {
       std::vector<double> values(4 * counters);
       double* const normals = values.data() + 2 * counters;
       loops.fillWholes({77, 8, 2}, high.data(), robot.data(), values.data(), counters);
@@ -132,7 +132,7 @@ class TestRandom : public QObject {
     QCOMPARE(all(*wide), all(narrow));
   }
 
-  void noSigmaDrawsNothing() {
+  void withoutSigmaNoNumberIsUsed() {
     CounterRandom a(1, 1, NoiseStream::Motion, 1);
     CounterRandom b(1, 1, NoiseStream::Motion, 1);
     QCOMPARE(a.normal(4.0, 0.0), 4.0);

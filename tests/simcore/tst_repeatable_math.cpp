@@ -34,7 +34,7 @@ class TestRepeatableMath : public QObject {
 
  private slots:
   // The vectors of two that are used on x86-64 and the plain C that is used elsewhere.
-  void bothWaysAreTheSameBits() {
+  void bothVersionsGiveTheSameBits() {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> angle(-50.0, 50.0);
     constexpr double none = 0.0, least = std::numeric_limits<double>::denorm_min();
@@ -97,7 +97,7 @@ class TestRepeatableMath : public QObject {
   }
 
   // The quantile behind a normal draw is the inverse of the normal law, which the C library has.
-  void normalDrawsAreQuantiles() {
+  void normalNumbersAreQuantiles() {
     for (std::uint64_t tick = 0; tick < 50000; ++tick) {
       CounterRandom one(9, 1, NoiseStream::Motion, tick), other = one;
       const double normal = one.normal(0.0, 1.0);

@@ -229,7 +229,7 @@ class TestRigidBodyActions : public QObject {
     QVERIFY(std::abs(std::abs(r.robot().headYaw) - 135 * degree) < 1e-9);
   }
 
-  void actionsHaveWords() {
+  void actionsHaveLabels() {
     QCOMPARE(actionLabel(0), std::string("stop"));
     QCOMPARE(actionLabel(22), std::string("kick left, weak"));
     QCOMPARE(actionLabel(23), std::string("action 23"));

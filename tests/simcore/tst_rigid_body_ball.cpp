@@ -56,7 +56,7 @@ class TestRigidBodyBall : public QObject {
     }
   }
 
-  void rollsTheDistanceThatTheSurfaceTells_data() {
+  void rollsTheDistanceOfTheSurface_data() {
     QTest::addColumn<double>("deceleration");
     QTest::addColumn<double>("kept");
     QTest::newRow("published") << 0.0 << 0.95;
@@ -64,7 +64,7 @@ class TestRigidBodyBall : public QObject {
     QTest::newRow("both") << 0.3 << 0.98;
     QTest::newRow("sticks") << 0.0 << 0.0;
   }
-  void rollsTheDistanceThatTheSurfaceTells() {
+  void rollsTheDistanceOfTheSurface() {
     QFETCH(double, deceleration);
     QFETCH(double, kept);
     SimulationSettings settings = atRate(1000);
@@ -72,9 +72,9 @@ class TestRigidBodyBall : public QObject {
     Rig r(settings);
     r.placeBall(-4, 0, 1.8, 0);
     r.run(12.0);
-    const double told = rollingDistance(settings.field.surface, 1.8);
-    QVERIFY2(std::abs(r.ball().position.x + 4 - told) < 0.01,
-             qPrintable(QString("%1 for %2").arg(r.ball().position.x + 4).arg(told)));
+    const double reported = rollingDistance(settings.field.surface, 1.8);
+    QVERIFY2(std::abs(r.ball().position.x + 4 - reported) < 0.01,
+             qPrintable(QString("%1 for %2").arg(r.ball().position.x + 4).arg(reported)));
     QCOMPARE(rollingDistance(settings.field.surface, 0.0), 0.0);
   }
 

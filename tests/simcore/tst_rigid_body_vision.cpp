@@ -146,21 +146,21 @@ class TestRigidBodyVision : public QObject {
       now.step();
       then.step();
       seen.push_back(now.percepts[0]);
-      const Percepts& told = then.percepts[0];
+      const Percepts& reported = then.percepts[0];
       if (tick < delay) {
-        QVERIFY(!told.robots[1]);
-        QVERIFY(!told.landmarks.bearingsDeg || (*told.landmarks.bearingsDeg)[1] == -999.0);
+        QVERIFY(!reported.robots[1]);
+        QVERIFY(!reported.landmarks.bearingsDeg || (*reported.landmarks.bearingsDeg)[1] == -999.0);
         continue;
       }
       const Percepts& was = seen[static_cast<std::size_t>(tick - delay)];
-      QCOMPARE(told.robots[1].has_value(), was.robots[1].has_value());
+      QCOMPARE(reported.robots[1].has_value(), was.robots[1].has_value());
       if (was.robots[1]) {
-        QCOMPARE(told.robots[1]->distanceCm, was.robots[1]->distanceCm);
-        QCOMPARE(told.robots[1]->angleDeg, was.robots[1]->angleDeg);
+        QCOMPARE(reported.robots[1]->distanceCm, was.robots[1]->distanceCm);
+        QCOMPARE(reported.robots[1]->angleDeg, was.robots[1]->angleDeg);
       }
-      QCOMPARE(told.landmarks.bearingsDeg, was.landmarks.bearingsDeg);
-      QCOMPARE(told.landmarks.ballTiltDeg, was.landmarks.ballTiltDeg);
-      QCOMPARE(told.landmarks.ballPanDeg, was.landmarks.ballPanDeg);
+      QCOMPARE(reported.landmarks.bearingsDeg, was.landmarks.bearingsDeg);
+      QCOMPARE(reported.landmarks.ballTiltDeg, was.landmarks.ballTiltDeg);
+      QCOMPARE(reported.landmarks.ballPanDeg, was.landmarks.ballPanDeg);
     }
   }
 

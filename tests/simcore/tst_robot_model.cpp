@@ -185,7 +185,7 @@ class TestRobotModel : public QObject {
     QCOMPARE(r.percepts[1].ball.lost.value_or(-1), 0);
   }
 
-  void theNoiseOfTheModelCountsWhereTheMatchSaysSo() {
+  void theNoiseOfTheModelIsUsedIfTheMatchSelectsIt() {
     RobotModel model;
     model.noise.visionDistance = 0.2;
     Rig without = with(model);
@@ -219,7 +219,7 @@ class TestRobotModel : public QObject {
     QCOMPARE(r.ball().velocity.x, 0.0);
   }
 
-  void publishedSaysWhatItIgnores() {
+  void publishedListsIgnoredSettings() {
     SimulationSettings settings;
     settings.physics = "published";
     QVERIFY(ignoredSettings(settings, {}).empty());

@@ -28,7 +28,7 @@ using namespace pitchboard::link;
 
 namespace {
 
-int sayAndStay(bool good) {
+int printAndWait(bool good) {
   std::puts(good ? "y" : "n");
   std::fflush(stdout);
   for (;;) pause();
@@ -74,11 +74,11 @@ int main(int argc, char** argv) {
   const int key = std::atoi(argv[2]);
   if (action == "hold") {
     const auto board = SystemVSegments::open(key, AttachMode::AttachOrCreate);
-    return sayAndStay(board.has_value());
+    return printAndWait(board.has_value());
   }
   if (action == "claim") {
     const auto claim = BridgeClaim::take(key);
-    return sayAndStay(claim.has_value());
+    return printAndWait(claim.has_value());
   }
   if (action == "leave") return shmget(key, 2048, IPC_CREAT | IPC_EXCL | 0600) < 0 ? 1 : 0;
   if (action == "write") return writeReadOnly(key);

@@ -14,7 +14,7 @@ class TestDiskSync : public QObject {
   Q_OBJECT
 
  private slots:
-  void nobodyWaitsForAStalledDisk() {
+  void aStalledDiskBlocksNoThread() {
     std::counting_semaphore<> begun{0}, answer{0};
     std::atomic<int> calls = 0;
     DiskSync disk([&]() -> Result<void> {

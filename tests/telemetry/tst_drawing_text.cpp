@@ -30,7 +30,7 @@ class TestDrawingText : public QObject {
   Q_OBJECT
  private slots:
   // Every number worked out by hand from docs/drawings.md.
-  void readsWhatTheGuideSays() {
+  void readsTheExamplesOfTheGuide() {
     const auto drawing = parseDrawing(
         "PBD1 3 12\r\n"
         "\n"
@@ -81,9 +81,9 @@ class TestDrawingText : public QObject {
   void refuses_data() {
     QTest::addColumn<QString>("text");
     QTest::addColumn<int>("line");
-    QTest::addColumn<QString>("says");
-    const auto row = [](const char* name, const QString& text, int line, const char* says) {
-      QTest::newRow(name) << text << line << QString::fromUtf8(says);
+    QTest::addColumn<QString>("hasText");
+    const auto row = [](const char* name, const QString& text, int line, const char* hasText) {
+      QTest::newRow(name) << text << line << QString::fromUtf8(hasText);
     };
     row("nothing", {}, 0, "PBD1");
     row("another protocol", "RBT1 3", 1, "begins with PBD1");
@@ -129,11 +129,11 @@ class TestDrawingText : public QObject {
   void refuses() {
     QFETCH(QString, text);
     QFETCH(int, line);
-    QFETCH(QString, says);
+    QFETCH(QString, hasText);
     const auto drawing = parseDrawing(text.toStdString());
     QVERIFY(!drawing);
     QCOMPARE(drawing.error().context, "drawing, line " + std::to_string(line));
-    QVERIFY2(QString::fromStdString(drawing.error().message).contains(says),
+    QVERIFY2(QString::fromStdString(drawing.error().message).contains(hasText),
              drawing.error().message.c_str());
   }
 

@@ -131,7 +131,7 @@ class TestGameController : public QObject {
     }
   }
 
-  void unknownVersionsSaySo() {
+  void unknownVersionsAreReported() {
     const auto unknown = decode(packet(21, 200));
     QVERIFY(!unknown);
     QCOMPARE(unknown.error().code, pitchboard::ErrorCode::Unsupported);
@@ -189,7 +189,7 @@ class TestGameController : public QObject {
     QCOMPARE(state.team(99), nullptr);
   }
 
-  void codesAreWordsOfTheirVersion() {
+  void codesHaveLabelsOfTheirVersion() {
     RefereeState state;
     state.version = 12;
     state.size = 688;

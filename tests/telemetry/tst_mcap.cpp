@@ -132,7 +132,7 @@ class TestMcap : public QObject {
   }
 
   void everyByteFlipped() {
-    std::size_t told = 0;
+    std::size_t reported = 0;
     for (std::size_t at = 0; at < m_bytes.size(); ++at) {
       std::string bytes = m_bytes;
       bytes[at] = static_cast<char>(bytes[at] ^ (1 << (at % 8)));
@@ -150,9 +150,9 @@ class TestMcap : public QObject {
         const auto reader = SessionReader::openBytes(bytes);
         QVERIFY2(!reader, qPrintable(QStringLiteral("byte %1: silently lost rows").arg(at)));
       }
-      told += found.notes > 0;
+      reported += found.notes > 0;
     }
-    QVERIFY(told > m_bytes.size() / 2);
+    QVERIFY(reported > m_bytes.size() / 2);
   }
 
   void anyDamagedChunkCostsThatChunk_data() {

@@ -151,10 +151,10 @@ void TestMcapDamage::expectAtMostOnePartLost(const std::string& bytes, std::size
                rest.begin() + static_cast<std::ptrdiff_t>(hit->firstRow + hit->rows));
     QVERIFY2(found == rest, qPrintable(where("more is lost than the chunk, or there is more")));
     QVERIFY2(session->isDamaged() && !session->notes().empty(), qPrintable(where("not said")));
-    const bool told = std::ranges::any_of(session->notes(), [](const std::string& note) {
+    const bool reported = std::ranges::any_of(session->notes(), [](const std::string& note) {
       return note.find(" lost, ") != std::string::npos;
     });
-    QVERIFY2(told, qPrintable(where("no time is said")));
+    QVERIFY2(reported, qPrintable(where("no time is said")));
   }
   for (const McapLoss& loss : session->file().contents().losses) {
     QVERIFY2(loss.end == 0 || loss.start <= loss.end, qPrintable(where("backwards")));
@@ -319,10 +319,10 @@ void TestMcapDamage::whatIsLostIsNamedInOrder() {
   QCOMPARE(session->file().contents().losses.size(), 1U);
   QCOMPARE(session->file().contents().losses[0].start, 11'000'000'000U);
   QCOMPARE(session->file().contents().losses[0].end, 14'000'000'000U);
-  const bool told = std::ranges::any_of(session->notes(), [](const std::string& note) {
+  const bool reported = std::ranges::any_of(session->notes(), [](const std::string& note) {
     return note.find("lost, between 1.000 s and 4.000 s.") != std::string::npos;
   });
-  QVERIFY2(told, session->notes().front().c_str());
+  QVERIFY2(reported, session->notes().front().c_str());
 }
 
 void TestMcapDamage::looseMessages() {

@@ -54,9 +54,9 @@ class TestPb2 : public QObject {
 
   void hostileTextIsRefusedWithThePlace_data() {
     QTest::addColumn<QByteArray>("text");
-    QTest::addColumn<QString>("says");
-    const auto row = [](const char* name, const QByteArray& text, const char* says) {
-      QTest::newRow(name) << text << QString(says);
+    QTest::addColumn<QString>("hasText");
+    const auto row = [](const char* name, const QByteArray& text, const char* hasText) {
+      QTest::newRow(name) << text << QString(hasText);
     };
     row("nothing", "", "byte 0: the datagram must begin with PB2");
     row("other", "PB1 1 1 1 OUT", "byte 0");
@@ -90,11 +90,11 @@ class TestPb2 : public QObject {
   }
   void hostileTextIsRefusedWithThePlace() {
     QFETCH(QByteArray, text);
-    QFETCH(QString, says);
+    QFETCH(QString, hasText);
     const auto message = parsePb2({text.data(), static_cast<std::size_t>(text.size())});
     QVERIFY(!message);
     const QString error = QString::fromStdString(message.error().text());
-    QVERIFY2(error.contains(says), qPrintable(error));
+    QVERIFY2(error.contains(hasText), qPrintable(error));
     QVERIFY(error.size() < 200);
   }
 

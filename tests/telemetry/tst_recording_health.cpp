@@ -21,7 +21,7 @@ SessionStatus status(double gigabytesFree, double bytesPerSecond) {
   return made;
 }
 
-bool says(const SessionStatus& of, const char* words) {
+bool hasText(const SessionStatus& of, const char* words) {
   return troubleText(of).find(words) != std::string::npos;
 }
 
@@ -51,17 +51,17 @@ class TestRecordingHealth : public QObject {
     const SessionStatus soon = status(1.2, 1.2e9 / 600);
     QCOMPARE(secondsLeft(soon).value(), 600.0);
     QCOMPARE(troubleOf(soon), RecordingTrouble::LittleSpace);
-    QVERIFY(says(soon, "The disk will be full in 10 min (1.2 GB free): free some space"));
+    QVERIFY(hasText(soon, "The disk will be full in 10 min (1.2 GB free): free some space"));
     QCOMPARE(troubleOf(status(1.2, 1.2e9 / 3600)), RecordingTrouble::None);
     QCOMPARE(troubleText(status(1.2, 1.2e9 / 3600)), std::string());
     // Little room is enough for a recording that hardly grows, and alarming while that is not
     // known.
     QCOMPARE(troubleOf(status(0.01, 10.0)), RecordingTrouble::None);
-    QVERIFY(says(status(0.01, 0.0), "The disk is nearly full (10 MB free)"));
+    QVERIFY(hasText(status(0.01, 0.0), "The disk is nearly full (10 MB free)"));
     QCOMPARE(troubleOf(SessionStatus()), RecordingTrouble::None);  // the system does not say
   }
 
-  void roomIsReportedInPlainWords() {
+  void freeSpaceIsReportedInPlainWords() {
     QCOMPARE(freeSpaceText(SessionStatus()), std::string());
     QCOMPARE(freeSpaceText(status(52.34, 0.0)), std::string("52.3 GB free"));
     QCOMPARE(freeSpaceText(status(0.4, 0.0)), std::string("400 MB free"));
@@ -71,21 +71,21 @@ class TestRecordingHealth : public QObject {
     QCOMPARE(freeSpaceText(status(500.0, 1e6)), std::string("room for more than 2 days"));
   }
 
-  void whatTheDiskOwesAndWhatIsMissingIsReported() {
+  void unflushedAndMissingDataAreReported() {
     SessionStatus of = status(100.0, 1e3);
     of.syncLatency = 1.0;
     QCOMPARE(troubleOf(of), RecordingTrouble::None);
     of.syncLatency = 9.6;
     QCOMPARE(troubleOf(of), RecordingTrouble::DiskBehind);
-    QVERIFY(says(of, "cannot keep up: no write has finished for 10 s"));
+    QVERIFY(hasText(of, "cannot keep up: no write has finished for 10 s"));
     of.dropped = 7;
-    QVERIFY(says(of, "7 rows and messages are missing"));
+    QVERIFY(hasText(of, "7 rows and messages are missing"));
     of.syncLatency = 0.0;
     QCOMPARE(troubleOf(of), RecordingTrouble::Dropped);
-    QVERIFY(says(of, "The disk could not keep up: 7 rows"));
+    QVERIFY(hasText(of, "The disk could not keep up: 7 rows"));
   }
 
-  void aRecordingKnowsItsDisk() {
+  void aRecordingReportsFreeSpace() {
     const QTemporaryDir folder;
     std::atomic<std::uint64_t> free = 5'000'000'000;
     SessionWriterOptions options;

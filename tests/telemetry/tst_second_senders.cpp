@@ -33,7 +33,7 @@ class TestSecondSenders : public QObject {
   }
 
   /// Such as a robot with two network cards.
-  void whoSaysTheSameIsNoSecondRobot() {
+  void sendersOfEqualMessagesAreOneRobot() {
     TeamMonitor monitor;
     for (int i = 0; i < 5; ++i) {
       give(monitor, text(3, 1, 120 + i), start + i * 1s, from(1));
@@ -96,13 +96,13 @@ class TestSecondSenders : public QObject {
     QVERIFY(!team.robots[0].conflict);
   }
 
-  void whoSpeaksAgainIsAnotherProgram_data() {
+  void aReturningSenderIsAnotherProgram_data() {
     QTest::addColumn<int>("phase");
     QTest::newRow("soon after it") << 200;
     QTest::newRow("half way") << 500;
     QTest::newRow("nearly at its turn") << 900;
   }
-  void whoSpeaksAgainIsAnotherProgram() {
+  void aReturningSenderIsAnotherProgram() {
     QFETCH(int, phase);
     TeamMonitor monitor;
     for (int i = 0; i < 8; ++i) {
@@ -174,14 +174,14 @@ class TestSecondSenders : public QObject {
       team.firstPort = team.lastPort = port;
     }
     TeamMonitor monitor({}, options);
-    const auto say = [&](int port, int robot, WallTime time) {
+    const auto send = [&](int port, int robot, WallTime time) {
       const std::string message = text(robot);
       return monitor.take({time, from(1), static_cast<std::uint16_t>(port), false, message});
     };
     // Somebody makes up numbers in one team.
-    for (int i = 100; i < 300; ++i) say(12001, i, start);
+    for (int i = 100; i < 300; ++i) send(12001, i, start);
     for (const int port : {12001, 12002, 12003}) {
-      for (int i = 1; i <= 32; ++i) QCOMPARE(say(port, i, start), Verdict::Used);
+      for (int i = 1; i <= 32; ++i) QCOMPARE(send(port, i, start), Verdict::Used);
     }
     const TeamStatus team = monitor.status(start);
     QCOMPARE(team.robots.size(), std::size_t(3 * 32 + 32));

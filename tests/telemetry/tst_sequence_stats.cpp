@@ -16,23 +16,23 @@ class TestSequenceStats : public QObject {
  private slots:
   void everyFourthIsMissing_data() {
     QTest::addColumn<int>("bits");
-    QTest::addColumn<int>("said");
+    QTest::addColumn<int>("reported");
     QTest::addColumn<qint64>("first");
     for (const int bits : {8, 16, 32}) {
-      for (const int said : {0, bits}) {
+      for (const int reported : {0, bits}) {
         // So that the counter goes over its end in the middle.
         const qint64 end = qint64{1} << bits;
-        QTest::addRow("%d bits, %s", bits, said == 0 ? "inferred" : "said")
-            << bits << said << end - 600 % end;
+        QTest::addRow("%d bits, %s", bits, reported == 0 ? "inferred" : "said")
+            << bits << reported << end - 600 % end;
       }
     }
     QTest::newRow("0 to 255 again and again") << 8 << 0 << qint64{0};
   }
   void everyFourthIsMissing() {
     QFETCH(int, bits);
-    QFETCH(int, said);
+    QFETCH(int, reported);
     QFETCH(qint64, first);
-    SequenceStats stats(said);
+    SequenceStats stats(reported);
     std::uint64_t sent = 0;
     for (qint64 i = 0; i < 1200; ++i) {
       if (i % 4 == 2) continue;
@@ -114,7 +114,7 @@ class TestSequenceStats : public QObject {
     QCOMPARE(stats.lost(), std::uint64_t{1});
   }
 
-  void aGapThatIsWiderThanTheCounterThoughtSo() {
+  void aGapWiderThanTheAssumedCounter() {
     // 10 to 240 may be 230 more or, of 8 bits, 26 less: nothing came before 10, so it is more.
     SequenceStats stats;
     stats.add(10);

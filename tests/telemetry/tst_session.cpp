@@ -244,7 +244,7 @@ class TestSession : public QObject, private NewSessions {
     QVERIFY(!kernel);
   }
 
-  void newerVersionsAndStrangers() {
+  void newerVersionsAndOtherPrograms() {
     const std::string path = newPath();
     {
       auto file = McapWriter::create(path);
@@ -275,7 +275,7 @@ class TestSession : public QObject, private NewSessions {
     QCOMPARE(reader->range()->begin, 1.0);
   }
 
-  void messagesOfAChannelThatNobodyDeclared() {
+  void messagesOfAnUndeclaredChannel() {
     const std::string whole = newPath(), path = newPath();
     auto writer = SessionWriter::create(whole, sessionInfo(), smallChunks());
     (void)record(**writer, 20);

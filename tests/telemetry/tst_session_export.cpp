@@ -238,7 +238,7 @@ class TestSessionExport : public QObject {
     QVERIFY(!sink);
   }
 
-  void textsAreWords() {
+  void textsAreExportedAsText() {
     const std::string path = newPath();
     auto writer = SessionWriter::create(path, sessionInfo());
     QVERIFY(writer);

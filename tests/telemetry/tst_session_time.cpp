@@ -37,7 +37,7 @@ class TestSessionTime : public QObject {
   Q_OBJECT
 
  private slots:
-  void aMomentIsTypedAsPeopleSayIt_data() {
+  void momentsAreTypedInUsualForms_data() {
     QTest::addColumn<QString>("text");
     QTest::addColumn<bool>("clock");
     QTest::addColumn<double>("seconds");
@@ -67,7 +67,7 @@ class TestSessionTime : public QObject {
     row("5000.9", 5000.0);
     row("23:58:20", 0.0, true);
   }
-  void aMomentIsTypedAsPeopleSayIt() {
+  void momentsAreTypedInUsualForms() {
     const ZoneOfThisTest zone;
     QFETCH(QString, text);
     QFETCH(bool, clock);

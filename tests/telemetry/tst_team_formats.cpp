@@ -107,7 +107,7 @@ class TestTeamFormats : public QObject {
     }
   }
 
-  void anUnknownNameSaysWhichThereAre() {
+  void anUnknownNameListsTheKnownOnes() {
     const auto none = loadProfile("mitecon");
     QVERIFY(!none);
     QVERIFY2(none.error().text().find("did you mean \"mitecom\"") != std::string::npos,

@@ -57,11 +57,11 @@ class Robot {
   Robot(const pitchboard::link::LiveOptions& options, int number)
       : m_port(static_cast<std::uint16_t>(options.portBase + number)), m_number(number) {}
 
-  bool say(const pitchboard::telemetry::TextMessage& m) const {
+  bool sendMessage(const pitchboard::telemetry::TextMessage& m) const {
     return m_socket.send(m_port, pitchboard::telemetry::encode(m));
   }
-  bool say() const { return say(message(m_number)); }
-  bool say(std::string_view text) const { return m_socket.send(m_port, text); }
+  bool sendMessage() const { return sendMessage(message(m_number)); }
+  bool sendMessage(std::string_view text) const { return m_socket.send(m_port, text); }
   bool received() const { return m_socket.received(); }
   std::uint16_t port() const { return m_socket.port(); }
 

@@ -127,7 +127,7 @@ void addMotion(const MotionFit& fit, const Counts& counts, Calibration& out) {
 /// Seconds to reach and to leave a speed follow from two numbers of the gait: the logarithm of
 /// their quotient is normal.
 void reportTimes(const MotionFit& fit, Calibration& out) {
-  const auto tell = [&](const char* name, std::size_t speed, std::size_t acceleration) {
+  const auto add = [&](const char* name, std::size_t speed, std::size_t acceleration) {
     if (fit.information[speed] < learnedEnough || fit.information[acceleration] < learnedEnough) {
       return;
     }
@@ -140,12 +140,12 @@ void reportTimes(const MotionFit& fit, Calibration& out) {
     out.estimates.push_back({name, std::exp(middle), std::exp(middle - half),
                              std::exp(middle + half), of != nullptr ? of->samples : 0, "actions"});
   };
-  tell("forward, fast: time to start and stop", motionForwardFast, motionAcceleration);
-  tell("forward, slow: time to start and stop", motionForwardSlow, motionAcceleration);
-  tell("backward, fast: time to start and stop", motionBackwardFast, motionAcceleration);
-  tell("backward, slow: time to start and stop", motionBackwardSlow, motionAcceleration);
-  tell("sideways: time to start and stop", motionSideways, motionAcceleration);
-  tell("turning: time to start and stop", motionTurn, motionYawAcceleration);
+  add("forward, fast: time to start and stop", motionForwardFast, motionAcceleration);
+  add("forward, slow: time to start and stop", motionForwardSlow, motionAcceleration);
+  add("backward, fast: time to start and stop", motionBackwardFast, motionAcceleration);
+  add("backward, slow: time to start and stop", motionBackwardSlow, motionAcceleration);
+  add("sideways: time to start and stop", motionSideways, motionAcceleration);
+  add("turning: time to start and stop", motionTurn, motionYawAcceleration);
 }
 
 /// How far an uninterrupted action went, as the filter found it, as a share of what the gait of the

@@ -30,10 +30,10 @@ const sim::ParameterUnit* unitOf(const std::string& key) {
     }
     return nullptr;
   };
-  const auto named = [&key](const char* words) { return key.find(words) != std::string::npos; };
-  if (named(": time to")) return &sim::units::seconds;
-  if (named("turn: spread")) return &sim::units::degreesPerSecond;
-  if (named(": spread")) return &sim::units::metresPerSecond;
+  const auto contains = [&key](const char* part) { return key.find(part) != std::string::npos; };
+  if (contains(": time to")) return &sim::units::seconds;
+  if (contains("turn: spread")) return &sim::units::degreesPerSecond;
+  if (contains(": spread")) return &sim::units::metresPerSecond;
   if (key == "field.rolling_deceleration") return &sim::units::metresPerSecondSquared;
   if (key.starts_with("noise.")) return find(sim::noiseParameters, key.substr(6));
   return find(sim::robotModelParameters, key);
@@ -99,9 +99,9 @@ std::string calibrationToJson(const Calibration& calibration, std::string_view p
     }
   }
   record["kept"] = calibration.kept;
-  record["told"] = Json::object();
+  record["derived"] = Json::object();
   for (const CalibratedValue& value : calibration.estimates)
-    record["told"][value.key] = toJson(value);
+    record["derived"][value.key] = toJson(value);
   record["left_out_s"] = Json::object();
   for (const auto& [cause, seconds] : calibration.leftOut) {
     record["left_out_s"][cause] = rounded(seconds);

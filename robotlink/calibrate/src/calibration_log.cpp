@@ -15,7 +15,7 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double longestGap = 0.5;     // s; longer ones are told
+constexpr double longestGap = 0.5;     // s; longer gaps are reported
 constexpr double farthest = 100.0;     // m; a percept beyond it is no percept
 constexpr double largestBelief = 1e6;  // cm or degrees
 constexpr double lostSigma = 0.5;      // m; a team-mate that knows its place worse is no reference
@@ -241,7 +241,8 @@ Result<CalibrationLog> checkedLog(CalibrationLog log, const std::vector<std::str
                   log.session.c_str(), 1.0 / log.period);
     log.notes.emplace_back(text);
   } else if (gaps > 0) {
-    std::snprintf(text, sizeof text, "%s has %zu gaps of more than %.1f s; each one starts again.",
+    std::snprintf(text, sizeof text,
+                  "%s has %zu gaps of more than %.1f s; the fit starts anew after each.",
                   log.session.c_str(), gaps, longestGap);
     log.notes.emplace_back(text);
   }

@@ -63,9 +63,9 @@ std::string smallChart(const std::vector<double>& values, double most, double ma
         left + (width - left) * (static_cast<double>(i) + 0.5) / static_cast<double>(values.size());
     line += (line.empty() ? "M" : "L") + fixed(x, 1) + ' ' + fixed(y(values[i]), 1);
   }
-  const auto text = [](double x, double at, const char* anchor, const std::string& words) {
+  const auto text = [](double x, double at, const char* anchor, const std::string& label) {
     return "<text class=\"axis\" x=\"" + fixed(x, 1) + "\" y=\"" + fixed(at, 1) +
-           "\" text-anchor=\"" + anchor + "\">" + words + "</text>";
+           "\" text-anchor=\"" + anchor + "\">" + label + "</text>";
   };
   return "<svg class=\"chart\" viewBox=\"0 0 300 110\"><line class=\"grid\" x1=\"30\" x2=\"300\" "
          "y1=\"" +
@@ -180,8 +180,8 @@ std::string calibrationReport(const Calibration& c, const sim::FieldSpec& field)
   }
   out += valueTable(c) + trajectories(c, field) + residualCharts(c);
   return out +
-         "<footer>Intervals hold the number with 95 % if the model is right; see "
-         "docs/calibrate.md.</footer>\n</main></body></html>\n";
+         "<footer>If the model is right, an interval contains the true value in 95 of 100 "
+         "calibrations; see docs/calibrate.md.</footer>\n</main></body></html>\n";
 }
 
 }  // namespace pitchboard::link

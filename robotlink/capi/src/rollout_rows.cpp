@@ -44,15 +44,15 @@ void visitGame(Belief& belief, const Visit& visit) {
   visit("ball_velocity_sigma", "m/s", ball.velocitySigma);
   visit("goals_left", "goals so far of the team that attacks right", game.goalsLeft);
   visit("goals_right", "goals so far of the team that attacks left", game.goalsRight);
-  visit("seconds_left", "s of the half; a rollout ends with it", game.secondsLeft);
+  visit("seconds_left", "s left of the half; the rollout ends with the half", game.secondsLeft);
   visit("state", "0 initial, 1 ready, 2 set, 3 playing, 4 finished", game.state);
   visit("set_play",
         "0 none, 1 direct and 2 indirect free kick, 3 penalty kick, 4 throw-in, 5 goal kick, "
         "6 corner kick",
         game.setPlay);
-  visit("set_play_side", "whose it is: 0 of the team that attacks right, 1 of the other",
+  visit("set_play_side", "team that takes it: 0 the one that attacks right, 1 the other",
         game.setPlaySide);
-  visit("set_play_left", "s that the other team keeps away at most", game.setPlayLeft);
+  visit("set_play_left", "s that the other team must still keep away, at most", game.setPlayLeft);
 }
 
 template <class Of, class VisitAll>
@@ -70,7 +70,7 @@ class RowReader {
   explicit RowReader(const double* from) : m_from(from) {}
 
   template <class Value>
-  void operator()(const char* name, const char* /*words*/, Value& value) const {
+  void operator()(const char* name, const char* /*meaning*/, Value& value) const {
     const double number = *m_from++;
     if (std::isnan(number)) return;
     if constexpr (std::is_same_v<Value, double>) {

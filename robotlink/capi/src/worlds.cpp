@@ -59,7 +59,7 @@ bool fitsInt(double value) {
 struct Filling {
   double* out;
   template <class Value>
-  void operator()(std::string_view /*name*/, std::string_view /*words*/, const Value& value) {
+  void operator()(std::string_view /*name*/, std::string_view /*meaning*/, const Value& value) {
     *out++ = columns::number(value);
   }
 };

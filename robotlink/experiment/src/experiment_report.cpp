@@ -54,8 +54,8 @@ Table endsTable(const ExperimentSummary& s) {
   if (some) {
     table.head.emplace_back("Not repeatable");
     table.note =
-        "A run is not repeatable if a team's program played that the match does not wait for, or "
-        "that did not finish a cycle in time, or if it ended differently when it was played again.";
+        "A run is not repeatable if the match did not wait for a team's program, if a program did "
+        "not finish a cycle in time, or if the run ended differently when it was played again.";
   }
   for (const ConditionSummary& condition : s.conditions) {
     std::vector<std::string> row{condition.name, std::to_string(condition.runs)};
@@ -317,9 +317,9 @@ std::string distributionHtml(const ResultTable& table, const ExperimentSummary& 
             ',' + at(foot) + "\" fill=\"" + figureColours[c] +
             "\" fill-opacity=\"0.15\" stroke=\"" + figureColours[c] + "\" stroke-width=\"1.5\"/>";
   }
-  const auto text = [&](double x, const char* anchor, const std::string& words) {
+  const auto text = [&](double x, const char* anchor, const std::string& label) {
     return "<text class=\"axis\" x=\"" + at(x) + "\" y=\"" + at(height - 6) + "\" text-anchor=\"" +
-           anchor + "\">" + words + "</text>";
+           anchor + "\">" + label + "</text>";
   };
   return "<div><h3><span>" + escaped(titleOf(s.metrics[m])) +
          "</span></h3><svg class=\"chart\" viewBox=\"0 0 " + at(width) + ' ' + at(height) +

@@ -77,7 +77,7 @@ class StartMaker {
 
   Result<void> takeRobots() {
     note(m_truth ? "Robots and ball start at their true positions."
-                 : "Robots start where they believe to be, and the ball where they see it.");
+                 : "Robots start where they believe they are, and the ball where they see it.");
     std::vector<RobotFrame> kept;
     for (RobotFrame& robot : m_known.robots) {
       const char* why = nullptr;

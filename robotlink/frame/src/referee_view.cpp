@@ -12,8 +12,8 @@ using telemetry::RefereeTeam;
 void describeSetPlay(const RefereeState& state, std::string& setPlay, std::string& phase) {
   constexpr int normal = 0, shootout = 1, overtime = 2;
   if (state.secState && *state.secState != normal) {
-    const std::string words(telemetry::setPlayLabel(telemetry::League::Humanoid, *state.secState));
-    (*state.secState == overtime || *state.secState == shootout ? phase : setPlay) = words;
+    const std::string label(telemetry::setPlayLabel(telemetry::League::Humanoid, *state.secState));
+    (*state.secState == overtime || *state.secState == shootout ? phase : setPlay) = label;
   }
   if (state.gamePhase && *state.gamePhase != 0) {
     phase = telemetry::gamePhaseLabel(*state.gamePhase);

@@ -183,8 +183,8 @@ class Learner {
     return out;
   }
 
-  void say(const std::string& words) const {
-    if (m_settings.progress) m_settings.progress(words);
+  void showProgress(const std::string& text) const {
+    if (m_settings.progress) m_settings.progress(text);
   }
   bool isCancelled() const { return m_settings.play.cancelled && *m_settings.play.cancelled; }
 
@@ -225,7 +225,7 @@ class Learner {
       std::size_t done = 0;
       TRY(playRuns(e, mine, m_settings.jobs, m_settings.play, [&](PlayedRun one) -> Result<void> {
         ++done;
-        say(what + ": " + std::to_string(done + e.allRuns() - missing.size()) + all);
+        showProgress(what + ": " + std::to_string(done + e.allRuns() - missing.size()) + all);
         return into.add(one.result, one.timesRealTime);
       }));
     }
@@ -237,7 +237,8 @@ class Learner {
         return failure(ErrorCode::Conflict, "interrupted in " + what + "; add --resume to continue",
                        m_settings.folder);
       }
-      say(what + ": waiting for " + std::to_string(missing.size()) + all + " of other shards");
+      showProgress(what + ": waiting for " + std::to_string(missing.size()) + all +
+                   " of other shards");
       std::this_thread::sleep_for(lookAtOtherShards);
     }
   }

@@ -215,8 +215,8 @@ std::string learnReportHtml(const Learning& learning, const LearnedTeam& team,
   }
   out += "<h2>Choice</h2>\n<p>Chosen: " + escaped(team.from) + ", with " +
          fixed(team.objective, 3) + " on average in up to " + std::to_string(team.choosingMatches) +
-         " matches against each opponent. The start had " + fixed(team.objectiveOfStart, 3) +
-         " in those that it played.</p>\n";
+         " matches against each opponent. The values of the start reached " +
+         fixed(team.objectiveOfStart, 3) + " in their matches.</p>\n";
   const ObjectiveCurves curves = curvesOf(team);
   out += "<h2>Learning curve</h2>\n<div class=\"charts\"><figure>" +
          CurveChart({{"blue", curves.mean}, {"orange", curves.best}}).svg() +

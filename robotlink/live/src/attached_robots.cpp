@@ -76,10 +76,10 @@ class AttachedRobots::Reader {
     robot.identity.number = m_board.number();
     robot.identity.team = m_board.team;
     robot.boardKey = m_board.key;
-    const bool gone = !m_status.attached;
-    robot.link = boardLink(std::max(0.0, m_seconds() - m_newest.time), m_board.rate, gone);
+    const bool detached = !m_status.attached;
+    robot.link = boardLink(std::max(0.0, m_seconds() - m_newest.time), m_board.rate, detached);
     robot.link->messages = m_status.samples;
-    if (!gone) robot.lamps = m_lamps;
+    if (!detached) robot.lamps = m_lamps;
     buildRobot(m_meanings.reader(m_newest), m_meanings.adviceReader(m_newest), field, battery,
                false, robot);
     robot.action = robot.decided.value_or(0);
@@ -185,11 +185,11 @@ class AttachedRobots::Reader {
   std::jthread m_thread;  // last: it uses all of the above
 };
 
-telemetry::LinkHealth boardLink(double age, double rate, bool gone) {
+telemetry::LinkHealth boardLink(double age, double rate, bool detached) {
   telemetry::LinkHealth link;
   link.age = std::chrono::duration_cast<telemetry::Duration>(std::chrono::duration<double>(age));
-  link.rate = gone ? 0.0 : rate;
-  link.timedOut = gone;
+  link.rate = detached ? 0.0 : rate;
+  link.timedOut = detached;
   return link;
 }
 

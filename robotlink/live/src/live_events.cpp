@@ -82,7 +82,7 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, std::vector
 void LiveEvents::compareRobot(const RobotFrame& received, double time,
                               std::vector<MatchEvent>& out) {
   const telemetry::LinkHealth& link = *received.link;
-  const auto say = [&](Kind kind, std::string detail = {}, std::optional<int> value = {}) {
+  const auto add = [&](Kind kind, std::string detail = {}, std::optional<int> value = {}) {
     MatchEvent event = eventOf(kind, time, received.key, received.name);
     event.detail = std::move(detail);
     event.value = value;
@@ -91,19 +91,19 @@ void LiveEvents::compareRobot(const RobotFrame& received, double time,
   const auto [entry, isNew] = m_robots.try_emplace(received.key);
   Known& known = entry->second;
   if (isNew) {
-    say(Kind::RobotReceived, link.sender.text());
+    add(Kind::RobotReceived, link.sender.text());
   } else if (link.sender.address != known.address) {
-    say(Kind::AddressChanged, known.address.text() + " to " + link.sender.address.text());
+    add(Kind::AddressChanged, known.address.text() + " to " + link.sender.address.text());
   }
   if (link.timedOut != known.timedOut) {
-    say(link.timedOut ? Kind::RobotOffline : Kind::RobotBack);
+    add(link.timedOut ? Kind::RobotOffline : Kind::RobotBack);
   }
-  if (link.conflict && !known.conflict) say(Kind::SecondSender, link.sender.text());
+  if (link.conflict && !known.conflict) add(Kind::SecondSender, link.sender.text());
   const auto& penalty = received.penalty;
   if (penalty && (!known.penalty || known.penalty->text != penalty->text)) {
-    say(Kind::Penalised, penalty->text, penalty->secondsLeft);
+    add(Kind::Penalised, penalty->text, penalty->secondsLeft);
   } else if (!penalty && known.penalty) {
-    say(Kind::PenaltyOver);
+    add(Kind::PenaltyOver);
   }
   // A voltage trembles: it is low until it is well above.
   constexpr double well = 0.1;
@@ -112,16 +112,16 @@ void LiveEvents::compareRobot(const RobotFrame& received, double time,
     low = received.battery->low || (low && received.battery->fraction < known.lowFraction + well);
     if (low && !known.batteryLow) {
       if (received.battery->volts > 0.0) {
-        say(Kind::BatteryLow, {}, static_cast<int>(std::lround(received.battery->volts * 10.0)));
+        add(Kind::BatteryLow, {}, static_cast<int>(std::lround(received.battery->volts * 10.0)));
       } else {
-        say(Kind::BatteryLow,
+        add(Kind::BatteryLow,
             std::to_string(std::lround(received.battery->fraction * 100.0)) + " %");
       }
       known.lowFraction = received.battery->fraction;
     }
   }
   if (!link.timedOut) {
-    if (const auto kind = known.ball.look(received.ball.has_value(), time)) say(*kind);
+    if (const auto kind = known.ball.look(received.ball.has_value(), time)) add(*kind);
   }
   known.address = link.sender.address;
   known.timedOut = link.timedOut;

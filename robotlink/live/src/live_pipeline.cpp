@@ -170,10 +170,10 @@ void LivePipeline::takeReferee(const DatagramView& datagram) {
     m_unknownReason = packet.error().message;
     m_unknownSample = telemetry::printable(datagram.payload);
   }
-  tell({.time = std::max(0.0, seconds(datagram.time)),
-        .view = datagram,
-        .teams = m_teams,
-        .referee = &packet});
+  notify({.time = std::max(0.0, seconds(datagram.time)),
+          .view = datagram,
+          .teams = m_teams,
+          .referee = &packet});
 }
 
 void LivePipeline::takeVariables(const DatagramView& datagram) {
@@ -194,7 +194,7 @@ void LivePipeline::takeVariables(const DatagramView& datagram) {
     ++m_badVariables;
     m_badReason = message.error().text();
   }
-  tell(taken);
+  notify(taken);
 }
 
 void LivePipeline::take(const DatagramView& datagram) {
@@ -230,7 +230,7 @@ void LivePipeline::take(const DatagramView& datagram) {
   } else {
     taken.drawingProblem = m_state.drawings.lastProblem();
   }
-  tell(taken);
+  notify(taken);
 }
 
 MatchFrame LivePipeline::frame(WallTime now, AttachedRobots* boards) {
@@ -240,7 +240,7 @@ MatchFrame LivePipeline::frame(WallTime now, AttachedRobots* boards) {
   frame.serial = ++m_serial;
   std::ranges::move(std::exchange(m_renamings, {}), std::back_inserter(m_news.renamings));
   addBoards(frame, boards, now);
-  tell(m_events.compare(frame));
+  notify(m_events.compare(frame));
   for (const auto& observer : m_observers) observer->frameMade(frame);
   if (time >= m_nextReport) {
     m_nextReport = time + reportPeriod;
@@ -354,11 +354,11 @@ void LivePipeline::reportSent(WallTime now) {
 }
 
 void LivePipeline::noticeClock(telemetry::Duration setBy, double time) {
-  tell(m_events.compareClock(setBy, time));
+  notify(m_events.compareClock(setBy, time));
 }
 
 void LivePipeline::noticePorts(const telemetry::ReceiverStatus& network, double time) {
-  tell(m_events.comparePorts(network, time));
+  notify(m_events.comparePorts(network, time));
 }
 
 LiveDetails LivePipeline::details(WallTime now) const {
@@ -407,11 +407,11 @@ void LivePipeline::noteTeams(const std::vector<Renaming>& renamings) {
   m_renamings.push_back(renamings);
 }
 
-void LivePipeline::tell(const LiveDatagram& datagram) {
+void LivePipeline::notify(const LiveDatagram& datagram) {
   for (const auto& observer : m_observers) observer->received(datagram);
 }
 
-void LivePipeline::tell(const std::vector<MatchEvent>& events) {
+void LivePipeline::notify(const std::vector<MatchEvent>& events) {
   std::vector<MatchEvent>& queue = m_news.events;
   queue.insert(queue.end(), events.begin(), events.end());
   if (queue.size() > maxQueued) {

@@ -78,7 +78,7 @@ void CycleWait::await() {
     // Also reads what they write: a full pipe would hold them up.
     m_pace.lookAfterProcesses(now);
     std::erase_if(m_asked, [&](RobotSlot* slot) {
-      const RestartRule::Seconds patience(RobotSlots::silentAfter(*slot));
+      const RestartRule::Seconds patience(RobotSlots::responseTimeout(*slot));
       if (mayAnswer(*slot) && now - begin < patience) return false;
       slot->hasMissedCycle = true;
       m_pace.reportLateCycle(*slot);

@@ -98,7 +98,7 @@ void LockStep::runFreely(RobotSlot& slot, SlotProcess& process) {
   const auto now = SteadyClock::now();
   if (!m_slots.lockStepSlots()->isDone(process.lockStepSlot)) {
     // The last cycle is still running, so this one is skipped, as on a robot.
-    if (now - process.givenAt > Seconds(process.profile.silentAfter)) {
+    if (now - process.givenAt > Seconds(process.profile.responseTimeout)) {
       m_slots.processes().setResponding(process.id, false, now);
     }
     return;
@@ -157,7 +157,7 @@ void LockStep::runSeparate(RobotSlot& slot, SlotProcess& process) {
   LockStepSlots& shared = *m_slots.lockStepSlots();
   ProcessManager& processes = m_slots.processes();
   const auto begin = SteadyClock::now();
-  const Seconds patience = std::max(Seconds(process.profile.silentAfter), leastTimeToStart);
+  const Seconds patience = std::max(Seconds(process.profile.responseTimeout), leastTimeToStart);
   while (true) {
     const ProcessStatus* status = processes.status(process.id);
     const auto now = SteadyClock::now();
@@ -181,7 +181,7 @@ void LockStep::runSeparate(RobotSlot& slot, SlotProcess& process) {
       if (shared.waitUntilDone(process.lockStepSlot, glance)) break;
     }
     const auto waited = SteadyClock::now() - begin;
-    const bool overdue = process.given && waited > Seconds(process.profile.silentAfter);
+    const bool overdue = process.given && waited > Seconds(process.profile.responseTimeout);
     if (overdue || waited > patience) {
       processes.setResponding(process.id, false, SteadyClock::now());
       process.given = false;

@@ -51,7 +51,7 @@ MatchPlayer::Played MatchPlayer::play(Clock::time_point now, std::uint64_t lastT
   auto reached = begin;
   Played played;
   if (currentTick() < lastTick && !m_match.finished() &&
-      await(m_wanted == unlimitedSpeed ? ProcessPace::Await::Everybody
+      await(m_wanted == unlimitedSpeed ? ProcessPace::Await::AllPrograms
                                        : ProcessPace::Await::Cooperating,
             now)) {
     setSpeed(m_wanted, now);  // counts from when they are ready
@@ -80,7 +80,7 @@ MatchPlayer::Played MatchPlayer::play(Clock::time_point now, std::uint64_t lastT
 }
 
 bool MatchPlayer::awaitPrograms(Clock::time_point now) {
-  return await(ProcessPace::Await::Everybody, now);
+  return await(ProcessPace::Await::AllPrograms, now);
 }
 
 bool MatchPlayer::await(ProcessPace::Await whom, Clock::time_point now) {

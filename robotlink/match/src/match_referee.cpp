@@ -18,8 +18,8 @@ constexpr double period = 0.5;                               // s, as all contro
 constexpr double quickPeriod = 0.2;                          // s, after play was stopped (2026)
 constexpr int quickPackets = 5;
 
-/// Teams change sides: everybody is carried over.
-void turnEverybody(sim::Simulation& simulation) {
+/// Moves the robots of both teams to the other half, because the teams have changed sides.
+void turnAllRobots(sim::Simulation& simulation) {
   const sim::Snapshot now = simulation.snapshot();
   for (const sim::RobotSnapshot& robot : now.robots) {
     if (simulation.state().game->teamOf(robot.identity.team) < 0) continue;
@@ -115,7 +115,7 @@ bool MatchReferee::listen(sim::Simulation& simulation) {
     const sim::PlayState before = simulation.state().game->state;
     const bool swapped = simulation.state().game->swapped;
     adoptPacket(*state, simulation.editState());
-    if (simulation.state().game->swapped != swapped) turnEverybody(simulation);
+    if (simulation.state().game->swapped != swapped) turnAllRobots(simulation);
     const sim::PlayState now = simulation.state().game->state;
     if (now != before && (now == sim::PlayState::Ready || now == sim::PlayState::Initial)) {
       (void)simulation.placeBall({});

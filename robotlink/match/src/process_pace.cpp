@@ -148,7 +148,7 @@ bool ProcessPace::awaitsFirstCycle(RobotSlot& slot, Time now) {
   }
   if (!slot.awaitedSince) slot.awaitedSince = now;
   const Seconds waited = now - *slot.awaitedSince;
-  if (waited < std::max(leastPatience, Seconds(RobotSlots::silentAfter(slot)))) return true;
+  if (waited < std::max(leastPatience, Seconds(RobotSlots::responseTimeout(slot)))) return true;
   slot.hasMissedCycle = true;
   m_events.lateCycle(m_base.simulation.state(), slot.id,
                      "it has not finished its first cycle after " + inSeconds(waited));
@@ -163,7 +163,7 @@ bool ProcessPace::cooperates(const ProcessStatus& program) const {
 
 void ProcessPace::reportLateCycle(const RobotSlot& slot) {
   m_events.lateCycle(m_base.simulation.state(), slot.id,
-                     "no cycle finished for " + inSeconds(Seconds(RobotSlots::silentAfter(slot))));
+                     "no cycle finished for " + inSeconds(Seconds(RobotSlots::responseTimeout(slot))));
 }
 
 bool ProcessPace::isAwaited(const RobotSlot& slot, SlotProcess& process, Time now) {
@@ -176,7 +176,7 @@ bool ProcessPace::isAwaited(const RobotSlot& slot, SlotProcess& process, Time no
   const Seconds waited = now - *process.awaitedSince;
   const bool isLost = status->restarts >= mostRestarts || status->state == ProcessState::Ended ||
                       status->state == ProcessState::GivenUp;
-  if (!isLost && waited < std::max(leastPatience, Seconds(process.profile.silentAfter))) {
+  if (!isLost && waited < std::max(leastPatience, Seconds(process.profile.responseTimeout))) {
     return true;
   }
   process.settled = true;

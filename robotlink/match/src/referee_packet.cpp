@@ -23,7 +23,7 @@ using sim::SetPlay;
 using Step = sim::Restart::Step;
 using telemetry::League;
 
-constexpr int dropBallJava = 128, dropBallColour = 2, nobodySoccer = 255;
+constexpr int dropBallJava = 128, dropBallColour = 2, noTeamSoccer = 255;
 constexpr int longestByte = 255;
 constexpr int soccerBudget = 12000, standardBudget = 1200;
 
@@ -45,9 +45,9 @@ Dialect dialectOf(const sim::RefereeRules& rules) {
 int kickOffRaw(const GameState& game, const Dialect& dialect) {
   const bool stands = game.state != PlayState::Finished &&
                       !(game.state == PlayState::Playing && game.hidden == 0 && game.ballFree());
-  if (dialect.soccer() && !stands) return nobodySoccer;
+  if (dialect.soccer() && !stands) return noTeamSoccer;
   if (game.kickOff < 0) {
-    return dialect.soccer() ? nobodySoccer : dialect.byColour() ? dropBallColour : dropBallJava;
+    return dialect.soccer() ? noTeamSoccer : dialect.byColour() ? dropBallColour : dropBallJava;
   }
   const sim::GameTeam& team = game.teams[static_cast<std::size_t>(game.kickOff)];
   return dialect.byColour() ? colourCode(team.colour) : team.number;
@@ -286,7 +286,7 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
     for (std::size_t i = 0; number && i < game.teams.size(); ++i) {
       if (game.teams[i].number == *number) return static_cast<int>(i);
     }
-    return GameState::nobody;
+    return GameState::noTeam;
   };
   game.restart = {};
   const AnnouncedSetPlay announced = setPlayIn(packet);

@@ -109,9 +109,9 @@ const sim::RobotModel* RobotSlots::model(RobotId id) const {
   return index ? &m_base.simulation.state().models[*index] : nullptr;
 }
 
-double RobotSlots::silentAfter(const RobotSlot& slot) {
-  double most = slot.processes.empty() ? ProfileProcess().silentAfter : 0.0;
-  for (const auto& process : slot.processes) most = std::max(most, process->profile.silentAfter);
+double RobotSlots::responseTimeout(const RobotSlot& slot) {
+  double most = slot.processes.empty() ? ProfileProcess().responseTimeout : 0.0;
+  for (const auto& process : slot.processes) most = std::max(most, process->profile.responseTimeout);
   return most;
 }
 
@@ -126,7 +126,7 @@ std::vector<sim::RobotIdentity> RobotSlots::ofOthers() const {
   std::vector<sim::RobotIdentity> others;
   for (const auto& slot : m_slots) {
     if (slot->board.key() == 0 || !slot->runtime.processes.empty()) continue;
-    // Nobody else at its blackboard: an obstacle, or one that is steered by hand.
+    // None else at its blackboard: an obstacle, or one that is steered by hand.
     const auto segment = SystemVSegments::info(slot->board.key());
     if (segment && segment->attached > 1) others.push_back(identityOf(slot->id));
   }
@@ -403,7 +403,7 @@ Result<void> RobotSlots::identify() {
   return {};
 }
 
-bool RobotSlots::wants(const RobotSlot& slot, const ProfileProcess& process) const {
+bool RobotSlots::shouldRun(const RobotSlot& slot, const ProfileProcess& process) const {
   const BehaviourInfo* behaviour = findBehaviour(slot.behaviour);
   const bool decides = !slot.choice.decision.empty();
   switch (process.onlyFor) {
@@ -451,7 +451,7 @@ Result<void> RobotSlots::startMissing(RobotSlot& slot, std::vector<SlotProcess*>
   slot.cycle = TRY(cycleOf(slot));
   auto running = std::exchange(slot.processes, {});
   for (const ProfileProcess& profile : slot.runtime.processes) {
-    if (!wants(slot, profile)) continue;
+    if (!shouldRun(slot, profile)) continue;
     const auto found = std::ranges::find_if(
         running, [&profile](const auto& one) { return one && one->profile == profile; });
     if (found != running.end()) {
@@ -492,7 +492,7 @@ Result<void> RobotSlots::start(RobotSlot& slot, SlotProcess& process) {
   managed.spec.stopSignal = profile.stopSignal;
   managed.restart = profile.restart;
   managed.delay = profile.delay;
-  managed.silentAfter = RestartRule::Seconds(profile.silentAfter);
+  managed.responseTimeout = RestartRule::Seconds(profile.responseTimeout);
   TRY(profile.isReference() ? describeReference(slot, process, managed)
                             : describeTeamProgram(slot, profile, managed));
   if (!profile.isReference() && slot.cycle.index >= 0) {

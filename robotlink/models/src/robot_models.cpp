@@ -48,13 +48,14 @@ void checkSources(JsonReport& report, const JsonObject& model) {
   for (const std::string_view key : keys) (void)sources.text(key, "", longestText);
 }
 
-/// How `pitchboard-cli calibrate` found the numbers (docs/calibrate.md): kept out of the model.
+/// Checks how `pitchboard-cli calibrate` found the numbers (docs/calibrate.md); the model does not
+/// contain it. Versions before 0.17 wrote "told" instead of "derived".
 void checkCalibration(JsonReport& report, const JsonObject& model) {
   const JsonNode* node = model.find("calibration");
   if (!node) return;
   const JsonObject record(report, *node, model.pathOf("calibration"),
                           {"version", "program", "sessions", "seconds", "robot", "prior", "values",
-                           "kept", "told", "left_out_s", "notes", "check"});
+                           "kept", "derived", "told", "left_out_s", "notes", "check"});
   (void)record.integer("version", 1, 1, 1);
   const JsonNode* values = record.find("values");
   if (!values) return;
@@ -84,8 +85,8 @@ sim::RobotModel readRobotModelObject(JsonReport& report, const JsonNode& node,
   sim::readNumbers(object, sim::robotModelParameters, model);
   const auto choose = [&](std::string_view key, const auto& known, std::string_view what,
                           std::size_t now) {
-    const std::vector<std::string_view> words(known.begin(), known.end());
-    return object.choice(key, words, what).value_or(now);
+    const std::vector<std::string_view> names(known.begin(), known.end());
+    return object.choice(key, names, what).value_or(now);
   };
   model.kickLaw = static_cast<sim::KickLaw>(
       choose("kick_law", sim::kickLawNames, "kick law", static_cast<std::size_t>(model.kickLaw)));

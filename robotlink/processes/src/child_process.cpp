@@ -34,7 +34,7 @@ std::string_view cut(std::string_view text, std::size_t limit) {
 std::string describe(const siginfo_t& end) {
   if (end.si_code == CLD_EXITED) return "exit code " + std::to_string(end.si_status);
   std::string text = "killed by signal " + std::to_string(end.si_status);
-  if (const char* words = ::sigdescr_np(end.si_status)) text += std::string(" (") + words + ")";
+  if (const char* name = ::sigdescr_np(end.si_status)) text += std::string(" (") + name + ")";
   return text;
 }
 
@@ -94,7 +94,7 @@ std::optional<ChildProcess::End> ChildProcess::poll(std::vector<std::string>& li
   return End{describe(end), end.si_code != CLD_EXITED || end.si_status != 0};
 }
 
-bool ChildProcess::tell(int epoll, std::uint64_t id) const {
+bool ChildProcess::addTo(int epoll, std::uint64_t id) const {
   // Edge-triggered, because the end of a pipe that stays open need not be read.
   epoll_event news{};
   news.events = EPOLLIN | EPOLLET;

@@ -20,9 +20,11 @@ struct TimeKey {
   std::string_view name;
   Seconds& (*of)(ManagementTiming& timing);
 };
-constexpr std::array<TimeKey, 5> timeKeys{
+constexpr std::array<TimeKey, 6> timeKeys{
     {{"start_interval", [](ManagementTiming& t) -> Seconds& { return t.startInterval; }},
-     {"silent_after", [](ManagementTiming& t) -> Seconds& { return t.silentAfter; }},
+     {"response_timeout", [](ManagementTiming& t) -> Seconds& { return t.responseTimeout; }},
+     // The same in version 0.8.
+     {"silent_after", [](ManagementTiming& t) -> Seconds& { return t.responseTimeout; }},
      {"restart_wait", [](ManagementTiming& t) -> Seconds& { return t.restart.firstWait; }},
      {"longest_wait", [](ManagementTiming& t) -> Seconds& { return t.restart.longestWait; }},
      {"steady_after", [](ManagementTiming& t) -> Seconds& { return t.restart.steadyAfter; }}}};

@@ -178,7 +178,7 @@ Result<void> ProcessManager::step(Time now) {
   m_last = now;
   takeEpollEvents();
   for (Entry& entry : m_entries) {
-    if (entry.tells && !entry.hasNews && now - entry.sampled < sampleInterval) continue;
+    if (entry.isWatched && !entry.hasNews && now - entry.sampled < sampleInterval) continue;
     if (const auto end = poll(entry)) ended(entry, now, end->failed, end->detail, false);
   }
   const Result<void> started = startDue(now);
@@ -276,7 +276,8 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
     auto child = ChildProcess::start(spec, m_program);
     if (child) {
       entry.child = std::move(*child);
-      entry.tells = entry.child->tell(m_epoll.get(), static_cast<std::uint64_t>(entry.status.id));
+      entry.isWatched =
+          entry.child->addTo(m_epoll.get(), static_cast<std::uint64_t>(entry.status.id));
     } else {
       outcome = tl::unexpected(child.error());
     }

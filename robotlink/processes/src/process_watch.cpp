@@ -39,8 +39,8 @@ void ProcessManager::watch(Entry& entry, Time now) {
                        (entry.everSigned || !process.spec.isTeamProgram);
   ProcessStatus& status = entry.status;
   if (listens && isOverdue(entry, now)) {
-    if (status.state == ProcessState::NotResponding) return;  // it has been told
-    reportOverdue(entry, now, "no sign of life for " + inSeconds(process.silentAfter));
+    if (status.state == ProcessState::NotResponding) return;  // it has been reported
+    reportOverdue(entry, now, "no sign of life for " + inSeconds(process.responseTimeout));
   } else if (listens && status.state == ProcessState::NotResponding) {
     status.state = ProcessState::Running;
     changed();
@@ -57,16 +57,16 @@ void ProcessManager::showSign(Entry& entry, Time now) const {
 /// speed not less of the computer's than it takes to notice it.
 bool ProcessManager::isOverdue(const Entry& entry, Time now) const {
   constexpr Seconds least{1.0};
-  const Seconds silentAfter = entry.process.silentAfter;
-  if (!entry.clock) return now - entry.lastSign >= silentAfter;
-  return Seconds(m_matchSeconds - entry.lastSignMatch) >= silentAfter &&
+  const Seconds responseTimeout = entry.process.responseTimeout;
+  if (!entry.clock) return now - entry.lastSign >= responseTimeout;
+  return Seconds(m_matchSeconds - entry.lastSignMatch) >= responseTimeout &&
          now - entry.lastSign >= least;
 }
 
 void ProcessManager::reportOverdue(Entry& entry, Time now, const std::string& detail) {
   ProcessStatus& status = entry.status;
   const bool again =
-      entry.process.watch != Watch::Nobody && entry.process.restart.policy != RestartPolicy::Never;
+      entry.process.watch != Watch::None && entry.process.restart.policy != RestartPolicy::Never;
   if (!again && status.state == ProcessState::NotResponding) return;
   ProcessNews news{ProcessNewsKind::NotResponding, status.robot, status.name, status.pid, detail};
   status.detail = detail;
@@ -86,7 +86,7 @@ void ProcessManager::setResponding(int id, bool responding, Time now) {
   if (!entry || !entry->child) return;
   ProcessStatus& status = entry->status;
   if (!responding) {
-    reportOverdue(*entry, now, "no cycle done for " + inSeconds(entry->process.silentAfter));
+    reportOverdue(*entry, now, "no cycle done for " + inSeconds(entry->process.responseTimeout));
   } else if (status.state == ProcessState::NotResponding) {
     status.state = ProcessState::Running;
     changed();
@@ -117,7 +117,7 @@ void ProcessManager::sample(Entry& entry, Time now) {
   entry.sampled = now;
   status.memoryBytes = use->memoryBytes;
   // No sign of life is expected while the match is paused.
-  if (entry.process.watch != Watch::Nobody && !m_paused) {
+  if (entry.process.watch != Watch::None && !m_paused) {
     status.heartbeatAge = Seconds(now - entry.lastSign).count();
   }
   if (status != before) changed();
@@ -127,12 +127,13 @@ void ProcessManager::sample(Entry& entry, Time now) {
       entry.process.watch == Watch::Variable || entry.process.watch == Watch::Sleeps;
   if (use->state != 'T' || listens) {
     entry.stoppedSince = now;
-    if (entry.process.watch == Watch::Nobody && status.state == ProcessState::NotResponding) {
+    if (entry.process.watch == Watch::None && status.state == ProcessState::NotResponding) {
       status.state = ProcessState::Running;
       changed();
     }
-  } else if (now - entry.stoppedSince >= entry.process.silentAfter) {
-    reportOverdue(entry, now, "stopped by a signal for " + inSeconds(entry.process.silentAfter));
+  } else if (now - entry.stoppedSince >= entry.process.responseTimeout) {
+    reportOverdue(entry, now,
+                  "stopped by a signal for " + inSeconds(entry.process.responseTimeout));
   }
 }
 

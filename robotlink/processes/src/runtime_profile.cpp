@@ -89,8 +89,8 @@ class Reader {
     const JsonObject object(
         m_report, node, path,
         {"name", "reference", "command", "directory", "environment", "delay", "heartbeat",
-         "silent_after", "restart", "first_wait", "longest_wait", "steady_after", "give_up_after",
-         "stop_signal", "watch_program", "only_for", "clock"});
+         "response_timeout", "silent_after", "restart", "first_wait", "longest_wait",
+         "steady_after", "give_up_after", "stop_signal", "watch_program", "only_for", "clock"});
     if (m_report.failed()) return;
     ProfileProcess process;
     object.require("name");
@@ -104,8 +104,11 @@ class Reader {
     process.environment = texts(object, "environment");
     process.delay = object.number("delay", process.delay, {0, longestTime, "seconds"});
     process.heartbeat = object.text("heartbeat", "", 200);
-    process.silentAfter =
-        object.number("silent_after", process.silentAfter, {0.1, longestTime, "seconds"});
+    // Version 0.8 wrote "silent_after".
+    for (const char* key : {"silent_after", "response_timeout"}) {
+      process.responseTimeout =
+          object.number(key, process.responseTimeout, {0.1, longestTime, "seconds"});
+    }
     readRestart(object, process.restart);
     std::vector<std::string_view> names;
     for (const SignalName& signal : stopSignals) names.push_back(signal.name);

@@ -21,9 +21,9 @@ std::string frame(const std::string& highest, telemetry::TimeRange range,
            at(width - right) + "\" y2=\"" + at(y) + "\"/>";
   }
   out += inside;
-  const auto text = [&](double x, double y, const char* anchor, const std::string& words) {
+  const auto text = [&](double x, double y, const char* anchor, const std::string& label) {
     out += "<text class=\"axis\" x=\"" + at(x) + "\" y=\"" + at(y) + "\" text-anchor=\"" + anchor +
-           "\">" + words + "</text>";
+           "\">" + label + "</text>";
   };
   text(left - 5, top + 4, "end", highest);
   text(left - 5, foot + 4, "end", "0");

@@ -18,12 +18,12 @@ constexpr double pointingTolerance = std::numbers::pi / 180.0;
 
 }  // namespace
 
-void RolloutWorld::drift(std::size_t i, RandomBatch::Sequence& draws) {
+void RolloutWorld::drift(std::size_t i, RandomBatch::Sequence& random) {
   Body& body = m_bodies[i];
   const BeliefNoise& noise = of(i).belief;
-  body.error.x = noise.place.step(body.error.x, cycleTime, body.inMotion, draws.normal(0.0, 1.0));
-  body.error.y = noise.place.step(body.error.y, cycleTime, body.inMotion, draws.normal(0.0, 1.0));
-  body.yawError = noise.yaw.step(body.yawError, cycleTime, body.inMotion, draws.normal(0.0, 1.0));
+  body.error.x = noise.place.step(body.error.x, cycleTime, body.inMotion, random.normal(0.0, 1.0));
+  body.error.y = noise.place.step(body.error.y, cycleTime, body.inMotion, random.normal(0.0, 1.0));
+  body.yawError = noise.yaw.step(body.yawError, cycleTime, body.inMotion, random.normal(0.0, 1.0));
   body.sigma += noise.place.gain * cycleTime * (noise.place.filterSigma - body.sigma);
 }
 
@@ -43,7 +43,7 @@ void RolloutWorld::searchWithHead(std::size_t i) {
   body.panRight = body.head > 0.0;
 }
 
-void RolloutWorld::look(std::size_t i, RandomBatch::Sequence& draws) {
+void RolloutWorld::look(std::size_t i, RandomBatch::Sequence& random) {
   Body& body = m_bodies[i];
   m_input.ball.reset();
   if (body.looksForOpponents) m_input.robots = {};
@@ -56,12 +56,12 @@ void RolloutWorld::look(std::size_t i, RandomBatch::Sequence& draws) {
   if (body.looksForOpponents) {
     lookAtOpponents(i, image, lens);
   } else {
-    lookAtBall(i, image, lens, draws);
+    lookAtBall(i, image, lens, random);
   }
 }
 
 void RolloutWorld::lookAtBall(std::size_t i, const Seen& image, const Point& lens,
-                              RandomBatch::Sequence& draws) {
+                              RandomBatch::Sequence& random) {
   Body& body = m_bodies[i];
   const sim::RobotModel& model = *of(i).model;
   const sim::NoiseParameters& noise = of(i).noise;
@@ -70,7 +70,7 @@ void RolloutWorld::lookAtBall(std::size_t i, const Seen& image, const Point& len
   if (dx * dx + dy * dy >= model.visionRange * model.visionRange) return;
   double bearing = wrapToPi(repeatable::atan2(dy, dx) - image.pose.yaw);
   if (std::abs(wrapToPi(bearing - image.head)) >= model.fieldOfView / 2.0) return;
-  if (draws.uniform() < noise.missedDetection) return;
+  if (random.uniform() < noise.missedDetection) return;
   double away = approached(dx, dy);
   if (model.fromCamera) {
     away = approached(away, model.cameraHeight - field().ballRadius);
@@ -80,8 +80,8 @@ void RolloutWorld::lookAtBall(std::size_t i, const Seen& image, const Point& len
     away = approached(dx, dy);
     bearing = wrapToPi(repeatable::atan2(dy, dx) - image.pose.yaw);
   }
-  away = std::max(0.0, draws.normal(away, noise.visionDistance * away));
-  bearing = wrapToPi(draws.normal(bearing, noise.visionBearing));
+  away = std::max(0.0, random.normal(away, noise.visionDistance * away));
+  bearing = wrapToPi(random.normal(bearing, noise.visionBearing));
   const double goal = std::clamp(bearing, -model.panLimit, model.panLimit);
   const double step = model.headSpeed * cycleTime;
   body.panRight = goal < body.head;

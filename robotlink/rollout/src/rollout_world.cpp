@@ -61,7 +61,7 @@ Result<std::shared_ptr<const RolloutConstants>> RolloutConstants::create(const S
   made->dt = cycleTime / perCycle;
   made->sqrtFrames = std::sqrt(sim::published_frame::framesPerSecond * made->dt);
   made->rolling = sim::rollingShare(setup.field.surface.keptPerFrame, made->dt);
-  made->drawsPerCycle = std::max(6, 3 * made->ticksPerCycle);
+  made->randomsPerCycle = std::max(6, 3 * made->ticksPerCycle);
   const int players = static_cast<int>(setup.players.size());
   double longestDelay = 0.0;
   for (const Player& player : made->setup.players) {
@@ -252,7 +252,7 @@ bool RolloutWorld::cycle() {
 void RolloutWorld::decide() {
   const RolloutConstants& constants = *m_constants;
   m_noise.make(m_seed, NoiseStream::Motion, m_cycle + 1, constants.drawers,
-               constants.drawsPerCycle);
+               constants.randomsPerCycle);
   m_motionNoise.clear();
   const std::size_t players = constants.players.size();
   for (std::size_t i = 0; i < players; ++i) m_motionNoise.push_back(m_noise.of(i));
@@ -266,8 +266,8 @@ void RolloutWorld::decide() {
   }
   for (const std::size_t i : m_here) {
     Body& body = m_bodies[i];
-    RandomBatch::Sequence draws = m_noise.of(players + i);
-    drift(i, draws);
+    RandomBatch::Sequence random = m_noise.of(players + i);
+    drift(i, random);
     m_input.referee = refereeFor(i);
     m_input.fallen = body.isDown();
     m_input.setPlay = m_game.setPlay;
@@ -279,7 +279,7 @@ void RolloutWorld::decide() {
     const bool isAdvised = i == m_advised && m_advice.kind != link::AdviceKind::None;
     m_input.advice = isAdvised ? m_advice : link::Advice{};
     m_input.adviceStamp = isAdvised ? static_cast<int>(m_cycle) + 1 : 0;
-    look(i, draws);
+    look(i, random);
     listen(i);
     const link::PlayerDecision decision = m_soccerPlayers[i].step(m_input, now());
     body.command = decision.act;

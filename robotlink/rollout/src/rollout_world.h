@@ -46,7 +46,7 @@ struct RolloutConstants {
   /// Minds that know nothing yet: of each player, that of its behaviour and then its variants.
   std::vector<std::vector<link::SoccerPlayer>> fresh;
   std::vector<int> drawers;  ///< whose noise is drawn: bodies, then senses
-  int drawsPerCycle = 0;
+  int randomsPerCycle = 0;
   int ticksPerCycle = 2;
   double dt = 0.05;
   double sqrtFrames = 1.0;  ///< root of the tick in 1/60 s
@@ -108,10 +108,10 @@ class RolloutWorld {
   void sample(const Belief& belief);
   void replayPast(const Belief& belief);
   void decide();
-  void drift(std::size_t i, RandomBatch::Sequence& draws);
-  void look(std::size_t i, RandomBatch::Sequence& draws);
+  void drift(std::size_t i, RandomBatch::Sequence& random);
+  void look(std::size_t i, RandomBatch::Sequence& random);
   void lookAtBall(std::size_t i, const Seen& image, const Point& lens,
-                  RandomBatch::Sequence& draws);
+                  RandomBatch::Sequence& random);
   void lookAtOpponents(std::size_t i, const Seen& image, const Point& lens);
   void searchWithHead(std::size_t i);
   void talk();

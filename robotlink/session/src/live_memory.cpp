@@ -21,7 +21,8 @@ std::size_t bytesOf(const LiveRecord& record) {
 }  // namespace
 
 void LiveRecords::received(const LiveDatagram& datagram) {
-  if (datagram.isStranger() || datagram.variables != nullptr) return;  // variables are rows
+  if (datagram.isFromRefusedSender() || datagram.variables != nullptr)
+    return;  // variables are rows
   LiveRecord record;
   record.stream = datagram.referee ? SessionStream::RefereeRaw : SessionStream::Telemetry;
   record.time = datagram.time;

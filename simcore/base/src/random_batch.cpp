@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <base/random_batch.h>
 
-#include "draw_loops.h"
 #include "normal_quantile.h"
+#include "random_loops.h"
 
 namespace pitchboard {
 
@@ -13,7 +13,7 @@ double RandomBatch::Sequence::uniform() {
 
 double RandomBatch::Sequence::normal(double mean, double sigma) {
   if (sigma == 0.0) return mean;
-  const double p = draws::inside(*m_wholes++), q = p - 0.5;
+  const double p = random_loops::inside(*m_wholes++), q = p - 0.5;
   const double middle = *m_normals++;
   return mean + sigma * (quantile::isMiddle(q) ? middle : quantile::away(p, q));
 }
@@ -37,10 +37,10 @@ void RandomBatch::make(std::uint64_t seed, NoiseStream stream, std::uint64_t tic
       m_robot[k] = static_cast<std::uint32_t>(robots[i]);
     }
   }
-  draws::loops().fillWholes(
+  random_loops::loops().fillWholes(
       {seed, static_cast<std::uint32_t>(tick), static_cast<std::uint32_t>(stream)}, m_high.data(),
       m_robot.data(), m_wholes.data(), counters);
-  draws::loops().fillNormals(m_wholes.data(), m_normals.data(), 2 * counters);
+  random_loops::loops().fillNormals(m_wholes.data(), m_normals.data(), 2 * counters);
 }
 
 }  // namespace pitchboard

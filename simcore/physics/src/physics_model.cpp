@@ -12,8 +12,8 @@ struct Registration {
 };
 
 constexpr std::array<Registration, 2> registrations{{
-    {{"rigid-body", "Circles in metres and seconds that collide physically."}, &makeRigidBodyModel},
-    {{"published", "The published simulator's frame, to the last bit."}, &makePublishedModel},
+    {{"rigid-body", "Rigid circles that collide, in metres and seconds."}, &makeRigidBodyModel},
+    {{"published", "The published simulator, bit for bit."}, &makePublishedModel},
 }};
 
 constexpr auto infos = [] {

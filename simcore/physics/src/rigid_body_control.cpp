@@ -132,7 +132,7 @@ bool motionIsNoisy(const NoiseParameters& noise) {
 MotionNoise drawNoise(const Tick& tick, std::size_t index) {
   const NoiseParameters& noise = tick.noise(index);
   if (!tick.state.robots[index].inMotion || !motionIsNoisy(noise)) return {};
-  RandomBatch::Sequence random = tick.draws.motion.of(index);
+  RandomBatch::Sequence random = tick.batches.motion.of(index);
   // One statement each: the published order is rotation, forward, sideways.
   MotionNoise drawn;
   drawn.turn = random.normal(0.0, noise.rotation * tick.sqrtFrames);
@@ -174,7 +174,7 @@ bool liesOnFront(const RigidRobot& robot) {
 }
 
 void drawMotion(Tick& tick) {
-  tick.draw(tick.draws.motion, NoiseStream::Motion, 3, motionIsNoisy);
+  tick.draw(tick.batches.motion, NoiseStream::Motion, 3, motionIsNoisy);
 }
 
 void stepControl(Tick& tick, std::size_t index, const RobotCommand& command, Percepts& percept) {

@@ -20,7 +20,7 @@ bool imuIsNoisy(const NoiseParameters& noise) {
 YawErrors drawErrors(const Tick& tick, std::size_t index) {
   const NoiseParameters& noise = tick.noise(index);
   if (!imuIsNoisy(noise)) return {};
-  RandomBatch::Sequence random = tick.draws.imu.of(index);
+  RandomBatch::Sequence random = tick.batches.imu.of(index);
   YawErrors errors;
   errors.drift = random.normal(0.0, noise.imuDrift * tick.sqrtFrames);
   errors.white = random.normal(0.0, noise.imuWhite);
@@ -30,7 +30,7 @@ YawErrors drawErrors(const Tick& tick, std::size_t index) {
 }  // namespace
 
 void drawImu(Tick& tick) {
-  tick.draw(tick.draws.imu, NoiseStream::Imu, 2, imuIsNoisy);
+  tick.draw(tick.batches.imu, NoiseStream::Imu, 2, imuIsNoisy);
 }
 
 void stepImu(Tick& tick, std::size_t index, const RobotCommand& command, ImuPercept& percept) {

@@ -27,7 +27,7 @@ const RigidBodyState& bodiesOf(const WorldState& world) {
 /// common, so that many of them do not push each other out of the processor's caches.
 struct Scratch {
   std::vector<rigid::Motion> motions;
-  rigid::Noise draws;
+  rigid::Noise batches;
   rigid::Collisions collisions;
 };
 
@@ -84,7 +84,7 @@ class RigidBodyModel final : public PhysicsModel {
     std::vector<Event> none;  // senses report nothing
     rigid::Tick tick = tickOf(world, none, scratch());
     rigid::drawImu(tick);
-    tick.draws.ballDrawn = false;
+    tick.batches.ballDrawn = false;
     for (std::size_t i = 0; i < tick.state.robots.size(); ++i) {
       rigid::stepImu(tick, i, commands[i], percepts[i].imu);
       rigid::stepVision(tick, i, commands[i], percepts[i]);
@@ -166,7 +166,7 @@ class RigidBodyModel final : public PhysicsModel {
             bodiesOf(world),
             used.motions,
             events,
-            used.draws,
+            used.batches,
             1.0 / world.settings.tickRate,
             std::sqrt(frames)};
   }

@@ -67,7 +67,7 @@ struct Tick {
   RigidBodyState& state;
   std::vector<Motion>& motions;
   std::vector<Event>& events;
-  Noise& draws;
+  Noise& batches;
   double dt = 0.0;          ///< s
   double sqrtFrames = 0.0;  ///< root of the tick in 1/60 s: scales noise given per 1/60 s
   BallSweep ball = {};      ///< set by the collisions
@@ -77,16 +77,16 @@ struct Tick {
   const NoiseParameters& noise(std::size_t robot) const {
     return settings().noise.ofModel ? model(robot).noise : settings().noise;
   }
-  /// Fills `stream` when the noise of some robot wants it.
-  template <class Wants>
-  void draw(RandomBatch& stream, NoiseStream name, int count, const Wants& wants) const {
+  /// Makes `count` random numbers per robot if the noise of at least one robot needs them.
+  template <class IsNoisy>
+  void draw(RandomBatch& stream, NoiseStream name, int count, const IsNoisy& isNoisy) const {
     const std::size_t robots = world.robots.size();
     bool any = false;
-    for (std::size_t i = 0; i < robots && !any; ++i) any = wants(noise(i));
+    for (std::size_t i = 0; i < robots && !any; ++i) any = isNoisy(noise(i));
     if (!any) return;
-    draws.robots.resize(robots);
-    for (std::size_t i = 0; i < robots; ++i) draws.robots[i] = world.robots[i].id.value;
-    stream.make(settings().seed, name, world.tick, draws.robots, count);
+    batches.robots.resize(robots);
+    for (std::size_t i = 0; i < robots; ++i) batches.robots[i] = world.robots[i].id.value;
+    stream.make(settings().seed, name, world.tick, batches.robots, count);
   }
   void report(EventKind kind, std::size_t robot, int value = 0) {
     events.push_back({kind, world.tick, world.robots[robot].id, value});

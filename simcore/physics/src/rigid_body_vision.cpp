@@ -133,11 +133,11 @@ std::optional<Polar> lookAtBall(const Tick& tick, std::size_t index, Image& imag
   if (!seen) return {};
   const NoiseParameters& noise = tick.noise(index);
   if (!ballVisionIsNoisy(noise)) return seen;
-  if (!tick.draws.ballDrawn) {
-    tick.draw(tick.draws.ball, NoiseStream::BallVision, 3, ballVisionIsNoisy);
-    tick.draws.ballDrawn = true;
+  if (!tick.batches.ballDrawn) {
+    tick.draw(tick.batches.ball, NoiseStream::BallVision, 3, ballVisionIsNoisy);
+    tick.batches.ballDrawn = true;
   }
-  RandomBatch::Sequence random = tick.draws.ball.of(index);
+  RandomBatch::Sequence random = tick.batches.ball.of(index);
   if (random.uniform() < noise.missedDetection) return {};
   const double distance =
       std::max(0.0, random.normal(seen->distance, noise.visionDistance * seen->distance));

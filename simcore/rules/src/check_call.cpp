@@ -60,7 +60,7 @@ Allowed checkTimeout(const GameState& game, int team) {
 Result<void> checkCall(const GameState& game, const RefereeRules& rules,
                        std::span<const RobotIdentity> robots, const RefereeCall& call) {
   const bool needsTeam = call.kind == CallKind::Goal || call.kind == CallKind::SetPlay;
-  if (call.team < GameState::nobody || call.team > 1 || (needsTeam && call.team < 0)) {
+  if (call.team < GameState::noTeam || call.team > 1 || (needsTeam && call.team < 0)) {
     return failure(ErrorCode::InvalidArgument, "This call needs one of the two teams.");
   }
   const auto robot = std::ranges::find(robots, call.robot, &RobotIdentity::id);

@@ -27,7 +27,7 @@ double secondsIn(int ticks, double tickRate) {
 Result<void> RefereeTable::start(const GameStart& start) {
   GameState& g = m_game;
   const auto indexOf = [&](const std::optional<TeamColor>& colour) -> Result<int> {
-    if (!colour) return GameState::nobody;
+    if (!colour) return GameState::noTeam;
     const int team = g.teamOf(*colour);
     if (team >= 0) return team;
     return wrong("The " + std::string(info(*colour).name) + " team does not play in this match.");

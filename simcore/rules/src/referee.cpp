@@ -140,7 +140,7 @@ void swapSides(WorldState& world) {
 }
 
 bool isPlausible(const GameState& game, std::size_t robots) {
-  const auto isTeam = [](int team) { return team >= GameState::nobody && team <= 1; };
+  const auto isTeam = [](int team) { return team >= GameState::noTeam && team <= 1; };
   const auto isTime = [](int ticks) { return ticks > -100'000'000 && ticks < 100'000'000; };
   const bool teams = isTeam(game.kickOff) && isTeam(game.restart.team) && isTeam(game.touch.team) &&
                      isTeam(game.dropIn.team) && isTeam(game.shooter) &&

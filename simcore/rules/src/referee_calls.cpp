@@ -94,7 +94,7 @@ void RefereeTable::carryOut(PlayState state) {
       nextHalf();
       break;
     case PlayState::Ready: {
-      const int kickOff = m_game.state == PlayState::Playing ? GameState::nobody : m_game.kickOff;
+      const int kickOff = m_game.state == PlayState::Playing ? GameState::noTeam : m_game.kickOff;
       if (m_game.phase == GamePhase::Timeout) {
         m_game.phase = m_game.phaseBefore;
         report(EventKind::PhaseChanged, static_cast<int>(m_game.phase));

@@ -177,12 +177,12 @@ void RefereeTable::inPlay() {
 
 void RefereeTable::dropBall() {
   report(EventKind::DropBall);
-  beginReady(GameState::nobody);
+  beginReady(GameState::noTeam);
 }
 
 /// The next shot of a shoot-out: kicker and keeper stand ready, everybody else is out.
 void RefereeTable::beginShot() {
-  if (m_game.shooter != GameState::nobody) {
+  if (m_game.shooter != GameState::noTeam) {
     m_game.shooter = 1 - m_game.shooter;
     // Both teams shoot at the same goal. Nobody is carried over: who plays is placed, the others
     // wait outside.

@@ -152,7 +152,7 @@ void RefereeTable::beginPhase(GamePhase phase) {
   m_game.half = 2;
   m_game.clock = ticks(m_rules.shotTime);
   m_game.clockUse = ClockUse::Full;
-  m_game.shooter = GameState::nobody;
+  m_game.shooter = GameState::noTeam;
   m_game.breakLeft = ticks(m_rules.beforeHalf);
   pardonAll();
   freeBall({});

@@ -309,7 +309,7 @@ Result<McapMap> McapReader::readMetadata(const McapMetadataInfo& metadata) const
     if (op == static_cast<std::uint8_t>(McapOp::Metadata) && in.ok() && content.ok()) return values;
   }
   return tl::unexpected(
-      damaged(source, metadata.offset, "The metadata \"" + metadata.name + "\" are damaged."));
+      damaged(source, metadata.offset, "The metadata \"" + metadata.name + "\" is damaged."));
 }
 
 }  // namespace pitchboard::telemetry

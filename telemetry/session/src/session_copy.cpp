@@ -168,7 +168,7 @@ class Copy {
 
   void add(const McapMessage& message) {
     const bool isKnown = message.channel < m_channels.size() && m_channels[message.channel].isKnown;
-    if (!isKnown) ++m_report.strangers;
+    if (!isKnown) ++m_report.messagesWithoutChannel;
     if (!isKnown || m_channels[message.channel].id == 0) return;
     const Channel& channel = m_channels[message.channel];
     McapMessage out = message;

@@ -23,7 +23,7 @@ struct ChannelDigest {
 struct CopyReport {
   std::map<std::uint16_t, ChannelDigest> channels;  ///< of the new file, without summaries
   std::uint64_t bytes = 0;
-  std::uint64_t strangers = 0;       ///< messages of channels whose description is lost
+  std::uint64_t messagesWithoutChannel = 0;  ///< messages of channels whose description is lost
   std::vector<std::string> missing;  ///< what is no message and cannot be read, in sentences
 };
 

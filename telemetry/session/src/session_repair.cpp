@@ -47,7 +47,7 @@ class Repair {
     if (!copied) return m_stopped ? stopped(m_from) : tl::unexpected(copied.error());
     for (const McapLoss& loss : session->losses()) note(loss, *session);
     for (std::string& sentence : copied->missing) missing(std::move(sentence));
-    if (const std::uint64_t lost = copied->strangers; lost > 0) {
+    if (const std::uint64_t lost = copied->messagesWithoutChannel; lost > 0) {
       missing(std::to_string(lost) +
               (lost == 1 ? " message belongs to a channel" : " messages belong to channels") +
               " whose description is lost.");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The only file of this library that may use the sender; tst_udp_receiver and tst_live_is_silent
-// check that.
+// The only file of this library that may use the sender; tst_udp_receiver and
+// tst_live_sends_nothing check that.
 #include <telemetry/wire/monitor_request.h>
 
 #include <cerrno>

@@ -32,7 +32,7 @@ class TestBeat : public QObject {
   Q_OBJECT
 
  private slots:
-  void allThatIsWantedIsOneBeatAndOneRepaint() {
+  void allRequestsShareOneBeatAndOneRepaint() {
     Beat beat;
     QWidget window;
     auto* row = new QHBoxLayout(&window);
@@ -58,7 +58,7 @@ class TestBeat : public QObject {
     QCOMPARE(repaints.count, 1);
   }
 
-  void nobodyWantsNothingRuns() {
+  void noTimerRunsWithoutRequests() {
     Beat beat;
     int calls = 0;
     const auto part = beat.addSource([&calls] { ++calls; });
@@ -118,7 +118,7 @@ class TestBeat : public QObject {
     QVERIFY(beat.isIdle());
   }
 
-  void withoutBeingWantedItComesNowAndThen() {
+  void withoutRequestsItIsCalledSlowly() {
     Beat beat;
     int calls = 0;
     const auto part = beat.add(

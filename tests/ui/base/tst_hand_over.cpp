@@ -80,7 +80,7 @@ class TestHandOver : public QObject {
     QCOMPARE(calls, 1);
   }
 
-  void aCallThatWaitsInALoopOfItsOwnHoldsUpNobody() {
+  void aCallWithItsOwnEventLoopDelaysNoOtherCall() {
     UiQueue queue;
     std::vector<int> seen;
     queue.post([&] {
@@ -152,7 +152,7 @@ class TestHandOver : public QObject {
     QCOMPARE(done, 50);
   }
 
-  void whatWorkHoldsIsGoneWhenItIsDone() {
+  void finishedWorkReleasesItsObjects() {
     const auto held = std::make_shared<int>(0);
     Workers worker;
     worker.start([held] { ++*held; });

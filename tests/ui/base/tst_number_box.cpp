@@ -75,7 +75,7 @@ class TestNumberBox : public QObject {
   void tooMuchIsReported_data() {
     QTest::addColumn<QString>("typed");
     QTest::addColumn<double>("value");
-    QTest::addColumn<QString>("said");
+    QTest::addColumn<QString>("reported");
     QTest::newRow("too large") << "5000" << 50.0 << "50.0 cm is the largest value.";
     QTest::newRow("too small") << "1" << 2.0 << "2.0 cm is the smallest value.";
     QTest::newRow("within") << "7,5" << 7.5 << QString();
@@ -83,7 +83,7 @@ class TestNumberBox : public QObject {
   void tooMuchIsReported() {
     QFETCH(QString, typed);
     QFETCH(double, value);
-    QFETCH(QString, said);
+    QFETCH(QString, reported);
     QToolTip::hideText();
     QTRY_VERIFY(!QToolTip::isVisible());
     NumberBox box;
@@ -96,8 +96,8 @@ class TestNumberBox : public QObject {
     QTest::keyClicks(&box, typed);
     QTest::keyClick(&box, Qt::Key_Return);
     QCOMPARE(box.value(), value);
-    QCOMPARE(QToolTip::isVisible(), !said.isEmpty());
-    if (!said.isEmpty()) QCOMPARE(QToolTip::text(), said);
+    QCOMPARE(QToolTip::isVisible(), !reported.isEmpty());
+    if (!reported.isEmpty()) QCOMPARE(QToolTip::text(), reported);
   }
 
   void textIsANumberOrNot() {

@@ -74,19 +74,19 @@ class TestTheme : public QObject {
     const QStringList words = text.split(QLatin1Char(' '));
     for (double width = 0.0; width <= metrics.horizontalAdvance(text) + 1; width += 1.0) {
       const QString shown = elideText(metrics, text, width);
-      const QByteArray told = (QString::number(width) + QLatin1Char(' ') + shown).toUtf8();
+      const QByteArray reported = (QString::number(width) + QLatin1Char(' ') + shown).toUtf8();
       QVERIFY2(shown == dots || metrics.horizontalAdvance(shown) <= width || shown.isEmpty(),
-               told.constData());
+               reported.constData());
       for (const QString& word : shown.split(QLatin1Char(' '))) {
         const bool digits =
             std::any_of(word.begin(), word.end(), [](QChar c) { return c.isDigit(); });
-        QVERIFY2(!digits || words.contains(word), told.constData());
+        QVERIFY2(!digits || words.contains(word), reported.constData());
       }
     }
     QCOMPARE(elideText(metrics, text, metrics.horizontalAdvance(text) + 1), text);
   }
 
-  void wordsMakeRoomForNumbers() {
+  void textIsShortenedBeforeNumbers() {
     const QFontMetricsF metrics(themeFont(TypeRole::Body));
     const double room = metrics.horizontalAdvance(QStringLiteral("TIM… 4 min 20 s"));
     const QString shown = elideText(metrics, QStringLiteral("TIMEOUT 4 min 20 s"), room);
@@ -104,7 +104,7 @@ class TestTheme : public QObject {
             painted(QStringLiteral("TIMEOUT 4 min 50 s")));
   }
 
-  void wordsEndWhole() {
+  void wordsAreNotCut() {
     const QFontMetricsF metrics(themeFont(TypeRole::Body));
     const auto shown = [&metrics](const char* room) {
       return elideText(metrics, QStringLiteral("walk forward, fast"),
@@ -185,14 +185,14 @@ class TestTheme : public QObject {
     QCOMPARE(between, QRect(12, 9, 50, 30));
   }
 
-  void wordsStandWhereQtPutsThem_data() {
+  void textIsWhereQtPutsIt_data() {
     QTest::addColumn<int>("alignment");
     QTest::newRow("left") << int(Qt::AlignLeft | Qt::AlignVCenter);
     QTest::newRow("right") << int(Qt::AlignRight | Qt::AlignVCenter);
     QTest::newRow("middle") << int(Qt::AlignCenter);
     QTest::newRow("top") << int(Qt::AlignHCenter | Qt::AlignTop);
   }
-  void wordsStandWhereQtPutsThem() {
+  void textIsWhereQtPutsIt() {
     QFETCH(int, alignment);
     const QRectF box(20, 10, 120, 40);
     const QString words = QStringLiteral("12.4 V");
@@ -208,7 +208,7 @@ class TestTheme : public QObject {
     }
   }
 
-  void wordsThatDoNotFitAreCut() {
+  void textThatDoesNotFitIsCut() {
     const QRectF narrow(20, 10, 50, 40);
     const QString words = QStringLiteral("walk forward, fast");
     const auto draw = [&](const QFont& font, Qt::TextElideMode elide) {
@@ -328,7 +328,7 @@ class TestTheme : public QObject {
     QCOMPARE(scoreboardOf(frame).clock, QStringLiteral("00:00"));
   }
 
-  void theStateDropsWordsBeforeNumbers() {
+  void theStateDropsTextBeforeNumbers() {
     link::MatchFrame frame;
     frame.origin = link::FrameOrigin::Simulated;
     frame.paused = true;

@@ -233,7 +233,7 @@ class TestFieldLook : public QObject {
     }
   }
 
-  void wordsOfACrowdHideNobody() {
+  void labelsOfACrowdHideNoRobot() {
     std::vector<NamedRobot> crowd;
     for (const QPointF at : {QPointF(0, 0), QPointF(30, 2), QPointF(62, 0), QPointF(30, 32)}) {
       crowd.push_back({blue(static_cast<int>(crowd.size()) + 1), at, 9.0, {}, {80.0, 14.0}});
@@ -261,7 +261,7 @@ class TestFieldLook : public QObject {
     QVERIFY(!taken.intersects(QRectF(name - QPointF(9, 4.5), QSizeF(18, 9))));
   }
 
-  void robotsSideBySideShareAWord() {
+  void robotsSideBySideShareALabel() {
     // Four who are penalised stand at the touch line, and another one far from them.
     std::vector<NamedRobot> all;
     for (const double x : {0.0, 36.0, 72.0, 108.0, 400.0}) {

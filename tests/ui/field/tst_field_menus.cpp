@@ -261,7 +261,7 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     QVERIFY(m_view->picture(size) != four);
   }
 
-  void particlesAndPathAreDrawnOfRobotsThatTellThem() {
+  void particlesAndPathAreDrawnIfRobotsSendThem() {
     auto frame = std::make_shared<link::MatchFrame>(*m_controller->frame());
     auto cloud = std::make_shared<link::ParticleCloud>();
     for (int i = 0; i < 200; ++i) cloud->particles.push_back({{-3.0 + 0.01 * i, 2.0}, 0.5, 0.005});

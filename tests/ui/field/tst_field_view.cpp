@@ -270,8 +270,8 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     const QSignalSpy moved(m_view.get(), &FieldView::cursorMoved);
     moveTo(at({2.0, -1.0}));
     QVERIFY(!moved.isEmpty());
-    const QPointF told = moved.back().front().toPointF();
-    QVERIFY(std::abs(told.x() - 2.0) < 0.02 && std::abs(told.y() + 1.0) < 0.02);
+    const QPointF reported = moved.back().front().toPointF();
+    QVERIFY(std::abs(reported.x() - 2.0) < 0.02 && std::abs(reported.y() + 1.0) < 0.02);
   }
 
   void functionKeysAsk() {
@@ -300,7 +300,7 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     QCOMPARE(int(m_controller->frame()->robots.back().identity.team), int(TeamColor::Orange));
   }
 
-  void aDragWhilePanIsHeldMovesTheViewAndSaysSo() {
+  void aDragWhilePanIsHeldMovesTheViewAndReportsIt() {
     QVERIFY(!m_view->setPanHeld(true));
     QVERIFY(!m_view->setPanHeld(false));  // a tap
     const QPoint here = at({0.0, 0.0});

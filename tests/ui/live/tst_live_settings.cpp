@@ -138,7 +138,7 @@ class TestLiveSettings : public QObject {
   void mistakesAreReportedInTheDialog_data() {
     QTest::addColumn<QString>("box");
     QTest::addColumn<QString>("text");
-    QTest::addColumn<QString>("said");
+    QTest::addColumn<QString>("reported");
     QTest::newRow("address") << "bind"
                              << "localhost"
                              << "Listen on";
@@ -158,7 +158,7 @@ class TestLiveSettings : public QObject {
   void mistakesAreReportedInTheDialog() {
     QFETCH(QString, box);
     QFETCH(QString, text);
-    QFETCH(QString, said);
+    QFETCH(QString, reported);
     Dialog d;
     auto* widget = d.dialog->findChild<QWidget*>(box);
     if (auto* edit = qobject_cast<QLineEdit*>(widget))
@@ -168,7 +168,7 @@ class TestLiveSettings : public QObject {
     else
       qobject_cast<QSpinBox*>(widget)->setValue(text.toInt());
     QVERIFY(!d.dialog->apply());
-    QVERIFY2(d.problem().contains(said), qPrintable(d.problem()));
+    QVERIFY2(d.problem().contains(reported), qPrintable(d.problem()));
     QCOMPARE(d.live.options().portBase, 1240);
     QVERIFY(d.settings.allKeys().isEmpty());
   }

@@ -42,8 +42,8 @@ class TestLiveStatus : public QObject {
       if (seconds < 6.0) continue;
       const auto near = [](const QString& words, const QString& before, double wanted) {
         if (!words.startsWith(before)) return false;
-        const double said = words.mid(before.size()).section(QLatin1Char('/'), 0, 0).toDouble();
-        return std::abs(said - wanted) < 0.25;
+        const double reported = words.mid(before.size()).section(QLatin1Char('/'), 0, 0).toDouble();
+        return std::abs(reported - wanted) < 0.25;
       };
       QVERIFY2(near(text.referee, QStringLiteral("Referee: version 12, "), 2.0),
                qPrintable(text.referee));

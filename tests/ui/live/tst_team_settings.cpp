@@ -98,12 +98,12 @@ class TestTeamSettings : public QObject {
         {"teamSenders", "home", "home"},
         {"teamRobots", "Ana", "numbers and names"},
         {"teamRobots", "0 Ana", "numbers and names"}};
-    for (const auto& [box, typed, said] : mistakes) {
+    for (const auto& [box, typed, reported] : mistakes) {
       const QString before = d.box<QLineEdit>(box)->text();
       d.type(box, typed);
-      QVERIFY(d.box<QLabel>("teamMessage")->text().contains(QLatin1String(said)));
+      QVERIFY(d.box<QLabel>("teamMessage")->text().contains(QLatin1String(reported)));
       QVERIFY(!d.dialog->apply());
-      QVERIFY2(d.problem().contains(QLatin1String(said)), qPrintable(d.problem()));
+      QVERIFY2(d.problem().contains(QLatin1String(reported)), qPrintable(d.problem()));
       d.type(box, "");
     }
     d.box<QSpinBox>("teamFirstPort")->setValue(5000);
@@ -130,7 +130,9 @@ class TestTeamSettings : public QObject {
     };
     const live_rig::Robot robot(options, 3);
     // Without a setup: as Live reads it. (Sent again until the page looks.)
-    const auto isRead = [&] { return robot.say() && cell(0, 4).contains(QStringLiteral("X 270")); };
+    const auto isRead = [&] {
+      return robot.sendMessage() && cell(0, 4).contains(QStringLiteral("X 270"));
+    };
     QTRY_VERIFY(isRead());
     QCOMPARE(cell(0, 3), QStringLiteral("Robot 3"));
     QCOMPARE(cell(0, 0), QStringLiteral("127.0.0.1"));

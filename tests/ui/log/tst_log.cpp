@@ -59,9 +59,9 @@ class TestLog : public QObject {
   void whatWasUndoneIsStruckThrough() {
     LogModel model;
     const QAbstractItemModelTester tester(&model, Mode::QtTest);
-    std::vector<LogLine> said = lines(3);
-    said[1].cause = 7;
-    model.append(said, {}, SourceKind::Simulate);
+    std::vector<LogLine> reported = lines(3);
+    reported[1].cause = 7;
+    model.append(reported, {}, SourceKind::Simulate);
     const auto struck = [&model](int row) {
       return model.index(row, LogModel::Text).data(Qt::FontRole).value<QFont>().strikeOut();
     };
@@ -70,7 +70,7 @@ class TestLog : public QObject {
     model.strike(SourceKind::Simulate, 7);
     QVERIFY(!struck(0) && struck(1) && !struck(2));
     // Done again it counts: later lines of the same decision are plain.
-    model.append({said[1]}, {}, SourceKind::Simulate);
+    model.append({reported[1]}, {}, SourceKind::Simulate);
     QVERIFY(struck(1) && !struck(3));
   }
 
@@ -205,7 +205,7 @@ class TestLog : public QObject {
     QCOMPARE(model.rowCount(), 2);
   }
 
-  void theFilterWantsEveryWord() {
+  void theFilterRequiresEveryWord() {
     LogModel model;
     TextFilter filter;
     filter.setSourceModel(&model);
@@ -246,7 +246,7 @@ class TestLog : public QObject {
     QCOMPARE(shown(), QStringLiteral("blackboard"));
   }
 
-  void eventsInWords() {
+  void eventsAsSentences() {
     link::MatchEvent event;
     event.kind = link::MatchEventKind::UnknownAction;
     event.time = 2.0;
@@ -259,7 +259,7 @@ class TestLog : public QObject {
     QVERIFY(QString::fromStdString(line.text).contains(QStringLiteral("42")));
   }
 
-  void twoWaysToWriteOneTime() {
+  void twoFormatsOfOneTime() {
     const QDateTime clock(QDate(2026, 7, 4), QTime(14, 59, 58, 500));
     QCOMPARE(momentText(2.25, 0, clock), QStringLiteral("15:00:00"));
     QCOMPARE(momentText(2.25, 1, clock), QStringLiteral("15:00:00.7"));

@@ -131,9 +131,9 @@ class TestPlotCurves : public QObject {
     QTRY_VERIFY(isNew());
   }
 
-  void expressionsThatCannotWorkSaySo_data() {
+  void invalidExpressionsAreReported_data() {
     QTest::addColumn<QString>("text");
-    QTest::addColumn<QString>("says");
+    QTest::addColumn<QString>("hasText");
     QTest::newRow("empty") << "  "
                            << "empty";
     QTest::newRow("no variable") << "1 + 2"
@@ -157,12 +157,12 @@ class TestPlotCurves : public QObject {
     QTest::newRow("too long") << QString(5000, QLatin1Char('1')) << "longer";
     QTest::newRow("odd characters") << QString::fromUtf8("B1.X + §ß") << "cannot be read";
   }
-  void expressionsThatCannotWorkSaySo() {
+  void invalidExpressionsAreReported() {
     QFETCH(QString, text);
-    QFETCH(QString, says);
+    QFETCH(QString, hasText);
     const auto parsed = PlotExpression::parse(text);
     QVERIFY(!parsed);
-    QVERIFY2(QString::fromStdString(parsed.error().message).contains(says, Qt::CaseInsensitive),
+    QVERIFY2(QString::fromStdString(parsed.error().message).contains(hasText, Qt::CaseInsensitive),
              parsed.error().message.c_str());
     // In a plot the sentence stands in the legend, and in the dialog it keeps OK away.
     PlotBench bench;
@@ -242,7 +242,7 @@ class TestPlotCurves : public QObject {
 
   void brokenLayoutsAreRefused_data() {
     QTest::addColumn<QByteArray>("text");
-    QTest::addColumn<QString>("says");
+    QTest::addColumn<QString>("hasText");
     QTest::newRow("no json") << QByteArray("hello") << "plots.json:1: not valid JSON";
     QTest::newRow("other json") << QByteArray("{\"a\": 1}") << "not a layout";
     QTest::newRow("later") << QByteArray("{\"pitchboardPlots\": 7}") << "version 7";
@@ -258,7 +258,7 @@ class TestPlotCurves : public QObject {
   }
   void brokenLayoutsAreRefused() {
     QFETCH(QByteArray, text);
-    QFETCH(QString, says);
+    QFETCH(QString, hasText);
     QTemporaryDir folder;
     QFile file(folder.filePath("plots.json"));
     QVERIFY(file.open(QIODevice::WriteOnly));
@@ -266,7 +266,7 @@ class TestPlotCurves : public QObject {
     file.close();
     const auto read = PlotPresets::readFile(file.fileName());
     QVERIFY(!read);
-    QVERIFY2(QString::fromStdString(read.error().text()).contains(says),
+    QVERIFY2(QString::fromStdString(read.error().text()).contains(hasText),
              read.error().text().c_str());
   }
 

@@ -98,7 +98,7 @@ class TestPlotUnits : public QObject {
       text += QStringLiteral(" %1%2%3")
                   .arg(place.right ? 'r' : 'l')
                   .arg(place.factor)
-                  .arg(place.stranger ? QStringLiteral("!") : QString());
+                  .arg(place.otherUnit ? QStringLiteral("!") : QString());
     }
     QCOMPARE(text, plan);
   }
@@ -162,7 +162,7 @@ class TestPlotUnits : public QObject {
     QCOMPARE(stranger.side, QStringLiteral("right [V]"));
   }
 
-  void theWishIsKept() {
+  void theChosenAxisIsKept() {
     Units b({"cm", "cm"});
     b.dock->plotVariables(b.names);
     ChartPane* chart = b.chart();

@@ -74,17 +74,17 @@ class TestPlotVariables : public QObject {
     const double expected = PlotSource::distanceAt(10.0) / 100 + 900.0;
     // Two computations, one after the other, each by a worker between two looks of the plots: a
     // busy computer takes its time.
-    const auto says = [pane](double value) {
+    const auto hasText = [pane](double value) {
       const auto at = pane->curves()[0].valueAt(10.0);
       return at && std::abs(*at - value) < 1e-9;
     };
-    QTRY_VERIFY_WITH_TIMEOUT(says(expected), 60'000);
+    QTRY_VERIFY_WITH_TIMEOUT(hasText(expected), 60'000);
     // What it is made of changes: so does it.
     PlotPane* source = b.dock->currentPage()->panes()[1];
     near.expression = QStringLiteral("B1.DIST / 10");
     source->setCurve(0, near);
     const double now = PlotSource::distanceAt(10.0) / 10 + 900.0;
-    QTRY_VERIFY_WITH_TIMEOUT(says(now), 60'000);
+    QTRY_VERIFY_WITH_TIMEOUT(hasText(now), 60'000);
     // A curve that is made of itself waits for ever and harms nobody.
     CurveSpec circle = expression(QStringLiteral("{curve/circle} + B1.DIST"));
     circle.title = QStringLiteral("circle");
@@ -187,7 +187,7 @@ class TestPlotVariables : public QObject {
   }
 
   // Received before ours, a guest was the first plot, and stayed it.
-  void guestsGiveWayToOurFirstRobot() {
+  void ourFirstRobotReplacesGuests() {
     PlotBench bench;
     const auto frameOf = [](const std::vector<std::pair<const char*, RobotKey>>& robots) {
       auto frame = std::make_shared<link::MatchFrame>();

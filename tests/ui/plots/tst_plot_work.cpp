@@ -369,7 +369,7 @@ class TestPlotWork : public QObject {
     QCOMPARE(time.window(), 120.0);
   }
 
-  void aLayoutThatCannotComeBackSaysWhy() {
+  void aLayoutThatCannotBeRestoredReportsWhy() {
     Bench b;
     b.settings.setValue(QStringLiteral("plots/layout"),
                         QStringLiteral("{\"pitchboardPlots\": 99}"));

@@ -56,7 +56,7 @@ class TestPlots : public QObject {
     QCOMPARE(chart->curves().size(), std::size_t(2));
   }
 
-  void foreignDropsAreRefused() {
+  void otherDropsAreRefused() {
     Shown s;
     QMimeData data;
     data.setText("B1/DIST");
@@ -169,7 +169,7 @@ class TestPlots : public QObject {
     QVERIFY(chart->spec().autoValues);
   }
 
-  void theLegendTellsTheValueAtTheCursor() {
+  void theLegendShowsTheValueAtTheCursor() {
     Shown s;
     auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
     s.time.setRange({0.0, 10.0});
@@ -187,7 +187,7 @@ class TestPlots : public QObject {
     QCOMPARE(chart->legend()->entries()[0].value, valueText(PlotSource::distanceAt(30.0)));
   }
 
-  void nanAndSilenceBreakTheLine() {
+  void nanAndGapsBreakTheLine() {
     PlotSource source;
     const telemetry::GroupId group = source.addRobot("B1");
     for (int i = 0; i < 60; ++i) source.append(group, i / 60.0, 0, i == 30 ? std::nan("") : 1.0);
@@ -242,7 +242,7 @@ class TestPlots : public QObject {
     QVERIFY(model.index(0, MarksModel::Mean).data().toString() != QStringLiteral("–"));
   }
 
-  void aValueOfLongAgoIsNotSaid() {
+  void anOldValueIsNotShown() {
     Shown s(1.0);
     auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
     const telemetry::GroupId other = s.source.addRobot("B2");
@@ -380,7 +380,7 @@ class TestPlots : public QObject {
     QVERIFY(points <= 2 * trace.columns.size());
   }
 
-  void codesAreLanesInWords() {
+  void codesAreLanesWithLabels() {
     Shown s(9.0);
     auto* lane = qobject_cast<LanePane*>(s.dropped({"B1/ACTION"}));
     QVERIFY(lane);

@@ -39,7 +39,7 @@ class TestProcessesDock : public QObject {
   std::unique_ptr<SourceSwitch> m_switch;
   std::unique_ptr<QWidget> m_dock;
   QTableView* m_table = nullptr;
-  QStringList m_told;
+  QStringList m_messages;
   std::vector<link::MatchEvent> m_events;
 
   link::Scenario oneRobot(const QString& runtime = {}) const {
@@ -61,7 +61,7 @@ class TestProcessesDock : public QObject {
     m_dock->show();
     m_table = m_dock->findChild<QTableView*>(QStringLiteral("processesTable"));
     connect(m_controller.get(), &MatchController::errorOccurred, this,
-            [this](const QString& sentence) { m_told << sentence; });
+            [this](const QString& sentence) { m_messages << sentence; });
     connect(m_controller.get(), &MatchController::eventsReceived, this,
             [this](const std::vector<link::MatchEvent>& events) {
               m_events.insert(m_events.end(), events.begin(), events.end());
@@ -140,7 +140,7 @@ class TestProcessesDock : public QObject {
     m_dock.reset();
     m_switch.reset();
     m_controller.reset();
-    m_told.clear();
+    m_messages.clear();
     m_events.clear();
     removeSegment(m_base + 100);
     removeSegment(m_base + 300);
@@ -191,7 +191,7 @@ class TestProcessesDock : public QObject {
       return age > 2.0 && now.heartbeatAge && *now.heartbeatAge < 0.5 * age;
     };
     QTRY_VERIFY_WITH_TIMEOUT(givesSigns(), 30'000);
-    QVERIFY2(m_told.isEmpty(), qPrintable(m_told.join(QLatin1Char('\n'))));
+    QVERIFY2(m_messages.isEmpty(), qPrintable(m_messages.join(QLatin1Char('\n'))));
 
     // Nothing while the past is shown.
     auto* asNow = m_dock->findChild<QLabel*>("processesAsNow");
@@ -213,12 +213,12 @@ class TestProcessesDock : public QObject {
     QCOMPARE(process("decision").pid, last);
   }
 
-  void oneThatASignalStoppedIsShownAsSilent() {
+  void aProcessStoppedByASignalIsShownAsNotResponding() {
     QTemporaryDir folder;
     QFile profile(folder.filePath(QStringLiteral("mine.json")));
     QVERIFY(profile.open(QIODevice::WriteOnly));
     profile.write(R"({"version": 1, "name": "mine", "processes": [
-      {"name": "thinks", "command": ["sleep", "600"], "silent_after": 0.3}]})");
+      {"name": "thinks", "command": ["sleep", "600"], "response_timeout": 0.3}]})");
     profile.close();
     open(oneRobot(profile.fileName()));
     QTRY_VERIFY_WITH_TIMEOUT(runs("thinks"), 30'000);
@@ -354,20 +354,20 @@ class TestProcessesDock : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame() && m_controller->frame()->robots.size() == 1,
                              30'000);
     m_controller->setPaused(true);
-    QVERIFY(m_told.isEmpty());  // nobody plays it
+    QVERIFY(m_messages.isEmpty());  // nobody plays it
     m_controller->setPaused(false);
     const auto mine = link::SystemVSegments::open(m_base + 100, link::AttachMode::AttachOnly);
     QVERIFY(mine);
     QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame()->robots[0].ofOthers, 30'000);
     m_controller->setPaused(true);
-    QCOMPARE(m_told.size(), 1);
-    QVERIFY2(m_told.front().startsWith(
+    QCOMPARE(m_messages.size(), 1);
+    QVERIFY2(m_messages.front().startsWith(
                  QStringLiteral("The processes of B1 were not started by this match")),
-             qPrintable(m_told.front()));
+             qPrintable(m_messages.front()));
     m_controller->setPaused(false);
     m_controller->setSpeed(5.0);
     m_controller->setPaused(true);
-    QCOMPARE(m_told.size(), 1);
+    QCOMPARE(m_messages.size(), 1);
   }
 
   // At another speed than ×1 its clock is not the match's.
@@ -375,10 +375,10 @@ class TestProcessesDock : public QObject {
     const QTemporaryDir folder;
     open(oneRobot(realTimeProfile(folder)));
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
-    QVERIFY(m_told.isEmpty());
+    QVERIFY(m_messages.isEmpty());
     m_controller->answerSpeed(8.0, MatchController::RealTimePrograms::LeaveBehind);
-    QTRY_COMPARE_WITH_TIMEOUT(m_told.size(), 1, 30'000);
-    QCOMPARE(m_told.front(),
+    QTRY_COMPARE_WITH_TIMEOUT(m_messages.size(), 1, 30'000);
+    QCOMPARE(m_messages.front(),
              QStringLiteral(
                  "Real time only: B1 decision. Its runtime profile says \"clock\": \"real\"."));
   }

@@ -62,7 +62,7 @@ struct Desk {
     QTRY_VERIFY(players(right)->model()->rowCount() > row);
     players(right)->selectRow(row);
   }
-  QString says(int row, int column = RefereeModel::State, bool right = false) const {
+  QString shown(int row, int column = RefereeModel::State, bool right = false) const {
     return players(right)->model()->index(row, column).data().toString();
   }
   void openFold() const {

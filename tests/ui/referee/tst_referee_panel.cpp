@@ -295,7 +295,7 @@ class TestRefereePanel : public QObject {
     QCOMPARE(desk.state(), QString("PLAYING"));
   }
 
-  void theScoreboardTellsGoalsByHalf() {
+  void theScoreboardShowsGoalsByHalf() {
     Desk desk;
     QTRY_COMPARE(desk.state(), QString("INITIAL"));
     link::MatchFrame frame = desk.frame();
@@ -313,11 +313,11 @@ class TestRefereePanel : public QObject {
     QTRY_COMPARE(desk.state(), QString("INITIAL"));
     desk.choose(1);
     desk.press("Penalise");
-    QTRY_COMPARE(desk.says(1), QString("pickup 30 s"));
+    QTRY_COMPARE(desk.shown(1), QString("pickup 30 s"));
     QCOMPARE(scoreboardOf(desk.frame()).penalties, QString("B2 30"));
     QTRY_COMPARE(desk.undo()->count(), 1);
     desk.undo()->undo();
-    QTRY_COMPARE(desk.says(1), QString("plays"));
+    QTRY_COMPARE(desk.shown(1), QString("plays"));
   }
 
   void cardsAndSubstitutes() {
@@ -332,27 +332,27 @@ class TestRefereePanel : public QObject {
     };
     desk.choose(2);
     show("Warning");
-    QTRY_COMPARE(desk.says(2), QString("plays · warning"));
+    QTRY_COMPARE(desk.shown(2), QString("plays · warning"));
     show("Yellow card");
-    QTRY_COMPARE(desk.says(2), QString("plays · warning, yellow"));
+    QTRY_COMPARE(desk.shown(2), QString("plays · warning, yellow"));
     show("Red card");
-    QTRY_COMPARE(desk.says(2), QString("sent off · warning, yellow, red"));
+    QTRY_COMPARE(desk.shown(2), QString("sent off · warning, yellow, red"));
     QTRY_COMPARE(desk.undo()->count(), 3);
     desk.undo()->undo();
-    QTRY_COMPARE(desk.says(2), QString("plays · warning, yellow"));
+    QTRY_COMPARE(desk.shown(2), QString("plays · warning, yellow"));
     // Two at once are one step.
     const int before = desk.undo()->index();
     desk.players()->clearSelection();
     desk.choose(0);
     desk.choose(1, true);
     desk.press("Take off");
-    QTRY_VERIFY2(desk.says(0) == "substitute", qPrintable(desk.errors.join('\n')));
-    QTRY_COMPARE(desk.says(1, RefereeModel::State, true), QString("substitute"));
+    QTRY_VERIFY2(desk.shown(0) == "substitute", qPrintable(desk.errors.join('\n')));
+    QTRY_COMPARE(desk.shown(1, RefereeModel::State, true), QString("substitute"));
     QTRY_COMPARE(desk.undo()->index(), before + 1);
-    QCOMPARE(desk.says(2), QString("plays · warning, yellow"));
+    QCOMPARE(desk.shown(2), QString("plays · warning, yellow"));
     desk.press("Pardon");
-    QTRY_COMPARE(desk.says(0), QString("plays"));
-    QTRY_COMPARE(desk.says(1, RefereeModel::State, true), QString("plays"));
+    QTRY_COMPARE(desk.shown(0), QString("plays"));
+    QTRY_COMPARE(desk.shown(1, RefereeModel::State, true), QString("plays"));
     QVERIFY(desk.errors.isEmpty());
   }
 
@@ -365,7 +365,7 @@ class TestRefereePanel : public QObject {
     const auto press = [&desk](Qt::Key key) {
       QTest::keyClick(desk.dock.get(), key, Qt::ControlModifier | Qt::AltModifier);
     };
-    const auto says = [&desk](const char* setPlay) {
+    const auto hasText = [&desk](const char* setPlay) {
       return desk.frame().referee->setPlay == setPlay;
     };
     press(Qt::Key_3);  // blue kicks off
@@ -380,9 +380,9 @@ class TestRefereePanel : public QObject {
     press(Qt::Key_G);
     QTRY_VERIFY(!desk.frame().referee->stopped);
     press(Qt::Key_K);
-    QTRY_VERIFY(says("direct free kick"));
+    QTRY_VERIFY(hasText("direct free kick"));
     for (int step = 0; step < 3; ++step) press(Qt::Key_N);
-    QTRY_VERIFY(says(""));
+    QTRY_VERIFY(hasText(""));
     press(Qt::Key_D);
     QTRY_COMPARE(desk.state(), QString("READY"));
     press(Qt::Key_S);

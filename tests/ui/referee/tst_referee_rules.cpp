@@ -23,7 +23,7 @@ using referee_rig::Desk;
 class TestRefereeRules : public QObject {
   Q_OBJECT
  private slots:
-  void theBallGoesWhereTheRefereeWants() {
+  void theBallIsPlacedByTheReferee() {
     Desk desk;
     QTRY_COMPARE(desk.state(), QString("INITIAL"));
     desk.openFold();
@@ -100,8 +100,8 @@ class TestRefereeRules : public QObject {
     desk.press("Penalise");
     QTRY_VERIFY(desk.frame().robots[1].penalty.has_value());
     const auto before = desk.frame().robots;
-    auto* says = desk.dock->findChild<QLabel*>("refereeStaysOff");
-    QTRY_COMPARE(says->text(), QString("B2 is penalised and stays off the field."));
+    auto* hasText = desk.dock->findChild<QLabel*>("refereeStaysOff");
+    QTRY_COMPARE(hasText->text(), QString("B2 is penalised and stays off the field."));
     for (QPushButton* load : desk.dock->findChildren<QPushButton*>()) {
       if (load->text() == "Left attacks") QTest::mouseClick(load, Qt::LeftButton);
     }
@@ -158,14 +158,14 @@ class TestRefereeRules : public QObject {
     QTRY_COMPARE(desk.frame().refereeRules, rules == 0 ? std::string() : name);
     if (rules != 0) QCOMPARE(scoreboardOf(desk.frame()).right, 0);
     QTRY_COMPARE(stack->count(), steps + 1);
-    const auto told = [&desk] {
+    const auto reported = [&desk] {
       return std::ranges::count_if(desk.timeline.events()->events(), [](const auto& event) {
         return event.kind == link::MatchEventKind::SettingChanged && event.detail == "rules";
       });
     };
-    QTRY_COMPARE(told(), 1);
+    QTRY_COMPARE(reported(), 1);
     stack->undo();
-    QTRY_COMPARE(told(), 0);
+    QTRY_COMPARE(reported(), 0);
     QTRY_COMPARE(desk.frame().refereeRules, std::string("humanoid-2021"));
     QCOMPARE(desk.controller.stateHash(), hash);
     QCOMPARE(scoreboardOf(desk.frame()).clock, scoreboardOf(before).clock);

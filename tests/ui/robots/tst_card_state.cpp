@@ -37,7 +37,7 @@ class TestCardState : public QObject {
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
-  void saysWhatTheFrameHolds() {
+  void showsTheContentsOfTheFrame() {
     CardTracker tracker;
     const auto cards = tracker.update(frameOf(1), 0);
     QCOMPARE(cards.size(), std::size_t(1));
@@ -65,7 +65,7 @@ class TestCardState : public QObject {
     QCOMPARE(CardTracker().update(frame, 0)[0].action, QStringLiteral("walk forward, slow"));
   }
 
-  void aProcessThatStopsIsSilentAndSaysSinceWhen() {
+  void aProcessThatStopsShowsSinceWhen() {
     CardTracker tracker;
     link::MatchFrame frame = frameOf(1);
     frame.robots[0].lamps[3] = {LampState::NotResponding, 0.0, std::chrono::milliseconds(8900)};
@@ -84,7 +84,7 @@ class TestCardState : public QObject {
     QCOMPARE(stopped.tagKind, TagKind::Warning);
   }
 
-  void aPenaltyIsReportedInTheSameWordsEverywhere() {
+  void aPenaltyHasTheSameTextEverywhere() {
     link::MatchFrame frame = frameOf(1);
     frame.robots[0].penalty = link::Penalty{"pickup or incapable", 20};
     QCOMPARE(CardTracker().update(frame, 0)[0].tag, QStringLiteral("pickup 20 s"));
@@ -132,7 +132,7 @@ class TestCardState : public QObject {
     }
   }
 
-  void aProgramThatCannotKeepUpSaysWhatItMissed() {
+  void aProgramThatCannotKeepUpShowsItsMissedCycles() {
     link::MatchFrame frame = frameOf(1);
     link::ProcessSummary process;
     process.name = "decision";

@@ -163,7 +163,7 @@ class TestVideoWriter : public QObject {
     QVERIFY(!QFile::exists(path) && parts().isEmpty());
   }
 
-  void errorsComeInWords_data() {
+  void errorsAreSentences_data() {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("words");
     QTest::newRow("disk full")
@@ -178,7 +178,7 @@ class TestVideoWriter : public QObject {
     QTest::newRow("killed") << QByteArray("kill -9 $$") << "terminated";
     QTest::newRow("ends early") << QByteArray("exit 0") << "no reason";
   }
-  void errorsComeInWords() {
+  void errorsAreSentences() {
     QFETCH(QByteArray, text);
     QFETCH(QString, words);
     VideoWriter writer;

@@ -382,7 +382,7 @@ class TestMatchController : public QObject {
     }
   }
 
-  void badNoiseIsRefusedInWords() {
+  void invalidNoiseIsRefusedWithAReason() {
     MatchController c(inside());
     QSignalSpy errors(&c, &MatchController::errorOccurred);
     c.open(match(), true);
@@ -414,9 +414,9 @@ class TestMatchController : public QObject {
     QSignalSpy errors(&c, &MatchController::errorOccurred);
     c.open(match(), true);
     QTRY_COMPARE(errors.count(), 1);
-    const QString told = errors.first().first().toString();
-    QVERIFY2(told.contains("/nonexistent/pitchboard-robot"), qPrintable(told));
-    QVERIFY2(!told.contains("other program, then"), qPrintable(told));
+    const QString reported = errors.first().first().toString();
+    QVERIFY2(reported.contains("/nonexistent/pitchboard-robot"), qPrintable(reported));
+    QVERIFY2(!reported.contains("other program, then"), qPrintable(reported));
     QCOMPARE(c.cognition(), link::Cognition::Inline);
     QTRY_COMPARE(count(c), std::size_t(6));
   }

@@ -118,14 +118,14 @@ class TestRuntimeMenu : public QObject {
     answer.start(20);
     choose(controller, 1, QStringLiteral("Run my program"));
     QVERIFY(typed);
-    const auto says = [&](const QString& words) {
+    const auto hasText = [&](const QString& words) {
       const link::ProcessSummary now = decisionOf(controller, 1);
       const std::string wanted =
           (words + QLatin1Char(' ') + QString::number(m_base + 100)).toStdString();
       return now.isTeamProgram && now.state == link::ProcessState::Running &&
              !now.lastLines.empty() && now.lastLines.back() == wanted;
     };
-    QTRY_VERIFY_WITH_TIMEOUT(says(QStringLiteral("first")), 30'000);
+    QTRY_VERIFY_WITH_TIMEOUT(hasText(QStringLiteral("first")), 30'000);
     // It is watched: what runs beside it is ours and stays, planning is not.
     std::vector<std::string> names;
     for (const link::ProcessSummary& one : processesOf(controller, 1)) names.push_back(one.name);
@@ -134,7 +134,7 @@ class TestRuntimeMenu : public QObject {
     // Built again: it starts again.
     const pid_t before = decisionOf(controller, 1).pid;
     build(program, "second");
-    QTRY_VERIFY_WITH_TIMEOUT(says(QStringLiteral("second")), 30'000);
+    QTRY_VERIFY_WITH_TIMEOUT(hasText(QStringLiteral("second")), 30'000);
     QVERIFY(decisionOf(controller, 1).pid != before);
     QVERIFY2(errors.isEmpty(), qPrintable(errors.join(QLatin1Char('\n'))));
   }

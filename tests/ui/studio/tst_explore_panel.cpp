@@ -188,7 +188,7 @@ class TestExplorePanel : public QObject {
     QTRY_VERIFY(s.window.replay()->frame() && s.window.replay()->frame()->robots.size() == 6);
     panel.press("exploreStart");
     QTRY_VERIFY_WITH_TIMEOUT(panel.hasResult(), patience_ms);
-    QVERIFY(panel.text("exploreNotes").contains(QStringLiteral("where they believe to be")));
+    QVERIFY(panel.text("exploreNotes").contains(QStringLiteral("where they believe they are")));
     panel.press("exploreCancel");
   }
 
@@ -202,7 +202,7 @@ class TestExplorePanel : public QObject {
     panel.dock->show();
     QVERIFY(!panel.find<QPushButton>("exploreStart")->isEnabled());
     const live_rig::Robot one(options, 1), two(options, 2);
-    QTRY_VERIFY(one.say() && two.say() && s.window.live()->frame() &&
+    QTRY_VERIFY(one.sendMessage() && two.sendMessage() && s.window.live()->frame() &&
                 s.window.live()->frame()->robots.size() == 2);
     QTRY_VERIFY(panel.find<QPushButton>("exploreStart")->isEnabled());
     panel.press("exploreStart");

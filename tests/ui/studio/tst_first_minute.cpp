@@ -32,7 +32,7 @@ struct Studio : window_rig::Studio {
     QTRY_VERIFY(controller.frame());
   }
   QLabel* sign(const char* name) { return find<QLabel>(name); }
-  bool says(const char* name) { return sign(name) != nullptr && sign(name)->isVisible(); }
+  bool hasText(const char* name) { return sign(name) != nullptr && sign(name)->isVisible(); }
   QString state() const { return QString::fromStdString(controller.frame()->referee->state); }
 };
 
@@ -41,7 +41,7 @@ struct Studio : window_rig::Studio {
 class TestFirstMinute : public QObject {
   Q_OBJECT
  private slots:
-  void somebodyMovesWithinTwoSeconds() {
+  void aRobotMovesWithinTwoSeconds() {
     Studio s;
     s.open("kick-off", true);
     const auto begin = s.controller.frame();
@@ -102,7 +102,7 @@ class TestFirstMinute : public QObject {
     Studio s;
     s.open("kick-off", true);
     s.window.activateWindow();
-    QTRY_VERIFY(s.says("firstSteps") && s.window.isActiveWindow());
+    QTRY_VERIFY(s.hasText("firstSteps") && s.window.isActiveWindow());
     QVERIFY(s.sign("firstSteps")->text().startsWith(QStringLiteral("Drag the ball")));
     auto* canvas = s.window.field()->findChild<QGraphicsView*>();
     QVERIFY(canvas->rect().contains(s.sign("firstSteps")->geometry()));
@@ -120,7 +120,7 @@ class TestFirstMinute : public QObject {
     } else {
       QTest::keyClick(&s.window, action == "F1" ? Qt::Key_F1 : Qt::Key_Space);
     }
-    QTRY_VERIFY(!s.says("firstSteps"));
+    QTRY_VERIFY(!s.hasText("firstSteps"));
     QVERIFY(!s.settings.value(QStringLiteral("window/firstSteps")).toBool());
     MainWindow again(&s.controller, &s.settings);
     QVERIFY(again.findChild<QLabel*>(QStringLiteral("firstSteps")) == nullptr);
@@ -211,7 +211,7 @@ class TestFirstMinute : public QObject {
     }
   }
 
-  void aMatchThatCannotBeOpenedSaysWhy() {
+  void aMatchThatCannotBeOpenedReportsWhy() {
     Studio s;
     link::Scenario scenario = link::loadScenario("one-robot").value();
     scenario.settings.physics = "no-such-model";
@@ -239,21 +239,21 @@ class TestFirstMinute : public QObject {
     QVERIFY(!bar->text().contains(QStringLiteral("could not be opened")));
   }
 
-  void afterTheWhistleTheFieldSaysWhatToDo() {
+  void afterTheWhistleTheFieldShowsTheNextSteps() {
     Studio s;
     link::Scenario scenario = link::loadScenario("one-robot").value();
     scenario.stop.duration = 1.0;
     s.controller.setSpeed(link::MatchRunner::unlimitedSpeed);
     s.controller.open(scenario);
-    QTRY_VERIFY(s.says("finalWhistle"));
+    QTRY_VERIFY(s.hasText("finalWhistle"));
     QVERIFY(s.sign("finalWhistle")->text().contains(QStringLiteral("Space plays again")));
     s.timeline()->seek(0.5);
-    QTRY_VERIFY(!s.says("finalWhistle"));
+    QTRY_VERIFY(!s.hasText("finalWhistle"));
     s.timeline()->goLive();
-    QTRY_VERIFY(s.says("finalWhistle"));
+    QTRY_VERIFY(s.hasText("finalWhistle"));
     s.controller.setSpeed(0.01);
     QTest::keyClick(&s.window, Qt::Key_Space);
-    QTRY_VERIFY(!s.says("finalWhistle"));
+    QTRY_VERIFY(!s.hasText("finalWhistle"));
   }
 };
 

@@ -158,7 +158,7 @@ class TestGeometry : public QObject {
     QCOMPARE(past->visionRange, now.visionRange);
   }
 
-  void thePenaltyStripHidesNobody() {
+  void thePenaltyStripHidesNoRobot() {
     Studio s({960, 600});
     s.controller.open(link::loadScenario("kick-off").value(), true);
     s.controller.runTo(60);
@@ -189,7 +189,7 @@ class TestGeometry : public QObject {
              qPrintable(strip->text()));
   }
 
-  void theRoomFollowsTheWindow() {
+  void theSpaceFollowsTheWindow() {
     Studio s({1440, 900});
     s.play();
     const auto* robots = s.find<QDockWidget>("robots");
@@ -326,7 +326,7 @@ class TestGeometry : public QObject {
       QVERIFY(seen("livePorts") && seen("ourTeam") && seen("monitorMode") && seen("record"));
   }
 
-  void experimentsHaveRoomWhileTheyAreOpen() {
+  void experimentsHaveSpaceWhileTheyAreOpen() {
     Studio s({1280, 800});
     s.play();
     auto* dock = s.find<QDockWidget>("experiments");

@@ -40,12 +40,12 @@ class TestLive : public QObject {
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
-  void aFrameShowsWhatARobotSays() {
+  void aFrameShowsTheMessageOfARobot() {
     Studio s;
     s.goLive();
     const Robot robot(s.options, 3);
-    const telemetry::TextMessage said = live_rig::message(3);
-    QVERIFY(robot.say(said));
+    const telemetry::TextMessage reported = live_rig::message(3);
+    QVERIFY(robot.sendMessage(reported));
     QTRY_COMPARE(s.robots(), std::size_t(1));
     const FramePtr frame = s.live()->frame();
     QCOMPARE(frame->origin, link::FrameOrigin::Live);
@@ -53,7 +53,7 @@ class TestLive : public QObject {
     const link::RobotFrame& shown = frame->robots[0];
     QCOMPARE(shown.key, receivedAs(3));
     const Pose believed = sim::published_frame::studioFromLocalization(
-        s.options.field, {double(said.x), double(said.y), double(said.theta)});
+        s.options.field, {double(reported.x), double(reported.y), double(reported.theta)});
     QCOMPARE(shown.pose.position.x, believed.position.x);
     QCOMPARE(shown.pose.position.y, believed.position.y);
     QCOMPARE(shown.pose.yaw, believed.yaw);
@@ -68,13 +68,13 @@ class TestLive : public QObject {
   }
 
   // What the default profile says is named otherwise than on a blackboard.
-  void theFirstPlotsShowWhatIsHeard() {
+  void theFirstPlotsShowReceivedRobots() {
     Studio s;
     s.goLive();
     const Robot robot(s.options, 3);
-    telemetry::TextMessage said = live_rig::message(3);
-    said.ballDist = 123.0F;
-    QVERIFY(robot.say(said));
+    telemetry::TextMessage reported = live_rig::message(3);
+    reported.ballDist = 123.0F;
+    QVERIFY(robot.sendMessage(reported));
     const auto panes = s.window.findChild<PlotsDock*>()->currentPage()->panes();
     QCOMPARE(panes.size(), 2);
     QTRY_COMPARE(s.robots(), std::size_t(1));
@@ -123,7 +123,7 @@ class TestLive : public QObject {
     painted.live = s.live();
     s.canvas()->viewport()->installEventFilter(&painted);
     const Robot robot(s.options, 1);
-    QVERIFY(robot.say());
+    QVERIFY(robot.sendMessage());
     QTRY_COMPARE(s.robots(), std::size_t(1));
     std::vector<double> milliseconds;
     for (int i = 0; i < 31; ++i) {
@@ -132,7 +132,7 @@ class TestLive : public QObject {
       painted.wanted = m.x;
       painted.paintedAt = -1;
       painted.clock.start();
-      QVERIFY(robot.say(m));
+      QVERIFY(robot.sendMessage(m));
       while (painted.paintedAt < 0 && painted.clock.elapsed() < 2000) {
         QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
       }
@@ -171,7 +171,7 @@ class TestLive : public QObject {
     const FramePtr before = s.controller.frame();
     s.goLive();
     const Robot robot(s.options, 1);
-    QVERIFY(robot.say());
+    QVERIFY(robot.sendMessage());
     QTRY_COMPARE(s.robots(), std::size_t(1));
     const Point at = s.live()->frame()->robots[0].pose.position;
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
@@ -223,7 +223,7 @@ class TestLive : public QObject {
     QTRY_VERIFY(s.window.notices()->text().contains(QString::number(s.options.portBase + 5)));
     QTRY_VERIFY(s.label("statusProcesses").contains(QStringLiteral("Cannot receive on")));
     const Robot robot(s.options, 6);
-    QVERIFY(robot.say());
+    QVERIFY(robot.sendMessage());
     QTRY_COMPARE(s.robots(), std::size_t(1));
     stubborn.reset();
     QTRY_COMPARE_WITH_TIMEOUT(s.bound(), std::size_t(17), 30'000);
@@ -279,7 +279,7 @@ class TestLive : public QObject {
     s.change([](link::LiveOptions& o) { QVERIFY(o.team.senders.add("10.1.2.3")); });
     s.goLive();
     const Robot robot(s.options, 1);
-    QVERIFY(robot.say());
+    QVERIFY(robot.sendMessage());
     QTRY_COMPARE(s.live()->details().team.refusedByFilter, std::uint64_t(1));
     QCOMPARE(s.robots(), std::size_t(0));
   }
@@ -296,7 +296,7 @@ class TestLive : public QObject {
       const QByteArray line = file.readLine().trimmed();
       const qsizetype tab = line.lastIndexOf('\t');
       if (tab < 0) continue;
-      QVERIFY(robot.say(line.mid(tab + 1).toStdString()));
+      QVERIFY(robot.sendMessage(line.mid(tab + 1).toStdString()));
       ++sent;
     }
     QVERIFY(sent > 50);
@@ -366,7 +366,7 @@ class TestLive : public QObject {
     m.x = int(std::lround(cm.x)) + 30;
     m.y = int(std::lround(cm.y)) + 40;
     m.theta = int(std::lround(cm.degrees)) + 10;
-    QVERIFY(Robot(s.options, 1).say(m));
+    QVERIFY(Robot(s.options, 1).sendMessage(m));
     const auto error = [&]() -> QString {
       for (RobotCard* card : s.cards()) {
         if (card->state().id != blue(1)) continue;

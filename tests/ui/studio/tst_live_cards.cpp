@@ -38,13 +38,13 @@ class TestLiveCards : public QObject {
     s.change([](link::LiveOptions& o) { o.team.timeout = std::chrono::milliseconds(300); });
     s.goLive();
     const Robot robot(s.options, 2);
-    QVERIFY(robot.say());
+    QVERIFY(robot.sendMessage());
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
     QTRY_VERIFY(s.cards()[0]->state().tag.startsWith(QStringLiteral("TIMEOUT")));
     QVERIFY(s.cards()[0]->state().timedOut);
     QVERIFY(s.cards()[0]->state().action.startsWith(QStringLiteral("last: ")));
     QTRY_VERIFY(s.label("statusProcesses").contains(QStringLiteral("has been offline")));
-    QVERIFY(robot.say());
+    QVERIFY(robot.sendMessage());
     QTRY_VERIFY(!s.health().timedOut);
     QTRY_VERIFY(!s.cards()[0]->state().timedOut);
     QCOMPARE(s.health().recoveries, std::uint64_t(1));
@@ -58,11 +58,11 @@ class TestLiveCards : public QObject {
     const std::uint64_t before = s.live()->details().network.datagrams();
     const auto received = [&] { return s.live()->details().network.datagrams() - before; };
     for (std::uint64_t i = 0; i < 3; ++i) {
-      QVERIFY(one.say());
+      QVERIFY(one.sendMessage());
       QTRY_COMPARE(received(), 2 * i + 1);
       telemetry::TextMessage other = live_rig::message(4);
       other.x += 100 + static_cast<int>(i);
-      QVERIFY(two.say(other));
+      QVERIFY(two.sendMessage(other));
       QTRY_COMPARE(received(), 2 * i + 2);
     }
     QTRY_COMPARE(s.robots(), std::size_t(2));
@@ -82,27 +82,27 @@ class TestLiveCards : public QObject {
     }
     s.goLive();
     s.live()->setOptions(options);
-    QTRY_COMPARE(s.bound(), std::size_t(3));  // a port of each team, and the referee's
-    QVERIFY(Robot(s.options, 2).say());       // a guest
+    QTRY_COMPARE(s.bound(), std::size_t(3));     // a port of each team, and the referee's
+    QVERIFY(Robot(s.options, 2).sendMessage());  // a guest
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
-    QVERIFY(Robot(s.options, 1).say());
+    QVERIFY(Robot(s.options, 1).sendMessage());
     QTRY_COMPARE(s.cards().size(), qsizetype(2));
     QVERIFY(s.cards()[0]->state().id == blue(1) && s.cards()[1]->state().id == red(2));
   }
 
-  void lowBatteryAndSilentProcess() {
+  void lowBatteryAndUnresponsiveProcess() {
     Studio s;
     s.goLive();
     const Robot robot(s.options, 1);
     telemetry::TextMessage m = live_rig::message(1);
     m.voltage = 135;
-    QVERIFY(robot.say(m));
+    QVERIFY(robot.sendMessage(m));
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
     QTRY_COMPARE(s.cards()[0]->state().tag, QStringLiteral("battery low"));
     for (int i = 0; i < 8; ++i) {
       m.decision = 0;
       m.x += 1;
-      QVERIFY(robot.say(m));
+      QVERIFY(robot.sendMessage(m));
     }
     QTRY_VERIFY(s.cards()[0]->state().tag.startsWith(QStringLiteral("D no reply")));
   }
@@ -110,16 +110,16 @@ class TestLiveCards : public QObject {
   void robotsAgreeOnTheBall() {
     Studio s;
     s.goLive();
-    const auto says = [&](int number, int x, double distance) {
+    const auto hasText = [&](int number, int x, double distance) {
       telemetry::TextMessage m = live_rig::message(number);
       m.x = x;
       m.y = 300;
       m.theta = 0;
       m.ballAngle = 0;
       m.ballDist = static_cast<float>(distance);
-      return Robot(s.options, number).say(m);
+      return Robot(s.options, number).sendMessage(m);
     };
-    QVERIFY(says(1, 300, 150) && says(2, 200, 270) && says(3, 100, 20));
+    QVERIFY(hasText(1, 300, 150) && hasText(2, 200, 270) && hasText(3, 100, 20));
     QTRY_COMPARE(s.robots(), std::size_t(3));
     QTRY_COMPARE(s.live()->frame()->teamBalls.size(), std::size_t(1));
     const link::TeamBall ball = s.live()->frame()->teamBalls.front();
@@ -132,7 +132,7 @@ class TestLiveCards : public QObject {
   void cardsFloatReorderAndHide() {
     Studio s;
     s.goLive();
-    for (int n = 1; n <= 3; ++n) QVERIFY(Robot(s.options, n).say());
+    for (int n = 1; n <= 3; ++n) QVERIFY(Robot(s.options, n).sendMessage());
     QTRY_COMPARE(s.cards().size(), qsizetype(3));
     auto* dock = s.window.findChild<RobotsDock*>();
     // Drag the first below the last.

@@ -88,7 +88,7 @@ class TestLiveReferee : public QObject {
     s.goLive();
     const Robot robot(s.options, 3);
     const TestSocket referee;
-    QVERIFY(robot.say());
+    QVERIFY(robot.sendMessage());
     QVERIFY(referee.send(static_cast<std::uint16_t>(s.options.refereePort),
                          live_rig::packet(QStringLiteral("v12hl688_READY.bin"))));
     QTRY_COMPARE(s.scoreboard()->state().leftName, QStringLiteral("ROBOFEI"));
@@ -114,7 +114,7 @@ class TestLiveReferee : public QObject {
     const Robot robot(s.options, player);
     const TestSocket referee;
     QVERIFY(referee.send(static_cast<std::uint16_t>(s.options.refereePort), bytes));
-    QVERIFY(robot.say());
+    QVERIFY(robot.sendMessage());
     QTRY_VERIFY(s.robots() == 1 && s.live()->frame()->referee);
     QVERIFY(!s.robot().penalty);
     s.live()->setOurTeam(team);
@@ -173,7 +173,7 @@ class TestLiveReferee : public QObject {
     Studio s;
     s.goLive();
     const Robot robot(s.options, 3);
-    QVERIFY(robot.say());
+    QVERIFY(robot.sendMessage());
     QTRY_COMPARE(s.robots(), std::size_t(1));
     Timeline* timeline = s.window.timeline();
     QTRY_VERIFY(timeline->available());

@@ -140,7 +140,7 @@ class TestRenamedRobots : public QObject {
     Studio s;
     s.goLive();
     const Robot robot(s.options, 3);
-    QVERIFY(robot.say());
+    QVERIFY(robot.sendMessage());
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
     s.plot({variableCurve(QStringLiteral("Robot 3/LOCALIZATION_X")),
             expression("{Robot 3/LOCALIZATION_X} / 100")});
@@ -170,7 +170,8 @@ class TestRenamedRobots : public QObject {
     });
     int step = 0;
     const auto goesOn = [&] {
-      return robot.say(moved(3, ++step)) && s.rowsOf("R3") && s.rowsOf("R3")->end > began + 0.5;
+      return robot.sendMessage(moved(3, ++step)) && s.rowsOf("R3") &&
+             s.rowsOf("R3")->end > began + 0.5;
     };
     QTRY_VERIFY(goesOn());
     // One robot, under its new name, with all that it had.
@@ -206,7 +207,7 @@ class TestRenamedRobots : public QObject {
     });
     s.goLive();
     const Robot one(s.options, 1), three(s.options, 3);
-    QVERIFY(one.say() && three.say());
+    QVERIFY(one.sendMessage() && three.sendMessage());
     QTRY_COMPARE(s.namesOnCards(), (Names{QStringLiteral("Robot 1"), QStringLiteral("Robot 3")}));
     const QList<RobotCard*> cards = s.cards();
     s.plot({variableCurve(QStringLiteral("Robot 3/LOCALIZATION_X")),
@@ -225,7 +226,7 @@ class TestRenamedRobots : public QObject {
     QVERIFY(s.cards() == cards);
     QTRY_COMPARE(s.robotsInTree(), known);
     QCOMPARE(s.namesOnField(), known);
-    QVERIFY(one.say() && three.say());
+    QVERIFY(one.sendMessage() && three.sendMessage());
     QTRY_COMPARE(s.curves(), (QStringList{QStringLiteral("LOCALIZATION_X R3"),
                                           QStringLiteral("LOCALIZATION_Y R1"),
                                           QStringLiteral("LOCALIZATION_Y R3")}));
@@ -247,8 +248,8 @@ class TestRenamedRobots : public QObject {
     const auto drawn = [&] {
       ++step;
       // The fourth curve is of a second program with a robot's number.
-      if (!one.say(moved(1, step)) || !two.say(moved(2, step)) || !three.say(moved(3, step)) ||
-          !other.say(moved(3, 300 + step))) {
+      if (!one.sendMessage(moved(1, step)) || !two.sendMessage(moved(2, step)) ||
+          !three.sendMessage(moved(3, step)) || !other.sendMessage(moved(3, 300 + step))) {
         return false;
       }
       for (const PlotPane* pane : s.plots()->currentPage()->panes()) {
@@ -304,9 +305,9 @@ class TestRenamedRobots : public QObject {
                    QStringList{"--bind", "127.0.0.1", "--port-base", QString::number(at.portBase),
                                "--gamecontroller-port", QString::number(at.refereePort)} +
                    more);
-      QByteArray said;
-      QTRY_VERIFY_WITH_TIMEOUT((said += process.readAllStandardError()).contains("listening at"),
-                               30'000);
+      QByteArray reported;
+      QTRY_VERIFY_WITH_TIMEOUT(
+          (reported += process.readAllStandardError()).contains("listening at"), 30'000);
     };
     const link::LiveOptions forListen = live_rig::options(), forRecord = live_rig::options();
     QProcess listen, record;

@@ -296,10 +296,10 @@ class TestSafeHands : public QObject {
     };
     QTRY_COMPARE(marked("noise"), 1);
     const auto* log = s.find<QDockWidget>("log")->findChild<QTableView*>()->model();
-    const auto said = log->match(log->index(0, 2), Qt::DisplayRole, QStringLiteral("noise changed"),
-                                 -1, Qt::MatchExactly);
-    QCOMPARE(said.size(), 1);
-    const QPersistentModelIndex line = said.first();
+    const auto reported = log->match(log->index(0, 2), Qt::DisplayRole,
+                                     QStringLiteral("noise changed"), -1, Qt::MatchExactly);
+    QCOMPARE(reported.size(), 1);
+    const QPersistentModelIndex line = reported.first();
     const auto isStruck = [&line] { return line.data(Qt::FontRole).value<QFont>().strikeOut(); };
     QVERIFY(!isStruck());
     s.controller.runTo(360);

@@ -125,7 +125,7 @@ class TestSameEventsShown : public QObject {
       return referee.send(static_cast<std::uint16_t>(options.refereePort),
                           live_rig::packet(QLatin1String(file)));
     };
-    QVERIFY(robot.say());
+    QVERIFY(robot.sendMessage());
     QTRY_VERIFY(has(*received, Kind::RobotReceived));
     QVERIFY(send("v12hl688_INITIAL.bin"));
     QTRY_VERIFY(has(*received, Kind::RefereeReceived));

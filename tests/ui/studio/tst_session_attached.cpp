@@ -263,7 +263,7 @@ class TestSessionAttached : public QObject {
       return names.join(QLatin1Char(' '));
     };
     const auto received = [&] {
-      return sender.say() && robotsShown() == QStringLiteral("B2 B3 R4");
+      return sender.sendMessage() && robotsShown() == QStringLiteral("B2 B3 R4");
     };
     QTRY_VERIFY2(received(), qPrintable(robotsShown()));
 

@@ -404,13 +404,13 @@ class TestSessionCompare : public QObject {
   }
 
   // Field, cards, variables and plots of a moment, whichever way somebody came to it.
-  void everyWayToAMomentLooksTheSame_data() {
+  void everyPathToAMomentLooksTheSame_data() {
     QTest::addColumn<QString>("way");
     for (const char* way : {"click", "drag", "keys", "seconds", "events", "play"}) {
       QTest::newRow(way) << QString(way);
     }
   }
-  void everyWayToAMomentLooksTheSame() {
+  void everyPathToAMomentLooksTheSame() {
     QFETCH(QString, way);
     Studio s;
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
@@ -490,7 +490,7 @@ class TestSessionCompare : public QObject {
     QTRY_VERIFY2(same(), qPrintable(way));
   }
 
-  void trailsOfLiveRobotsLookTheSameAfterEveryWay() {
+  void trailsOfLiveRobotsLookTheSameOnEveryPath() {
     Studio s(0);
     const QTemporaryDir files;
     s.window.openSession(liveSession(files));

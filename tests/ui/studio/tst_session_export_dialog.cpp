@@ -213,7 +213,7 @@ class TestSessionExportDialog : public QObject {
       const char* name;
       std::function<bool(const QString&)> write;  ///< true: it is written
     };
-    const auto said = [&scenarios](void (ScenarioFiles::*work)(const QString&)) {
+    const auto reported = [&scenarios](void (ScenarioFiles::*work)(const QString&)) {
       return [&scenarios, work](const QString& path) {
         QSignalSpy failed(&scenarios, &ScenarioFiles::failed);
         (scenarios.*work)(path);
@@ -221,9 +221,9 @@ class TestSessionExportDialog : public QObject {
       };
     };
     std::vector<Writer> writers{
-        {"scenario.json", said(&ScenarioFiles::save)},
-        {"field.png", said(&ScenarioFiles::exportPicture)},
-        {"field.svg", said(&ScenarioFiles::exportPicture)},
+        {"scenario.json", reported(&ScenarioFiles::save)},
+        {"field.png", reported(&ScenarioFiles::exportPicture)},
+        {"field.svg", reported(&ScenarioFiles::exportPicture)},
         {"layout.json",
          [&](const QString& path) {
            return PlotPresets::writeFile(path, plots->layoutSpec()).has_value();
@@ -285,7 +285,7 @@ class TestSessionExportDialog : public QObject {
     QVERIFY(parts(s.folder.path()).isEmpty());
   }
 
-  void withoutFfmpegTheDialogSaysWhatToInstall() {
+  void withoutFfmpegTheDialogNamesThePackage() {
     Studio s(60);
     QTRY_VERIFY_WITH_TIMEOUT(s.played(60), 20'000);
     ExportDialog* dialog = openExport(s);

@@ -144,8 +144,8 @@ class TestSessionFiles : public QObject {
     s.window.openSession(path);
     QTRY_COMPARE_WITH_TIMEOUT(found.size(), 1, 20'000);
     QVERIFY(!s.window.replay()->isBroken());
-    const QString told = found[0][0].toStringList().join(QLatin1Char(' '));
-    QVERIFY2(told.contains(QStringLiteral(" lost, between ")), qPrintable(told));
+    const QString reported = found[0][0].toStringList().join(QLatin1Char(' '));
+    QVERIFY2(reported.contains(QStringLiteral(" lost, between ")), qPrintable(reported));
     QPushButton* repair = nullptr;
     const auto looked = [&] {
       for (auto* button : s.window.notices()->findChildren<QPushButton*>()) {
@@ -164,7 +164,7 @@ class TestSessionFiles : public QObject {
     QVERIFY(s.window.replay()->path().contains(QStringLiteral("repaired")));
   }
 
-  void aNewerFileSaysSoAndIsShown() {
+  void aNewerFileIsReportedAndShown() {
     Studio s(0);
     const QString path = s.folder.filePath(QStringLiteral("newer.mcap"));
     {
@@ -194,7 +194,7 @@ class TestSessionFiles : public QObject {
     QCOMPARE(s.window.timeline()->events()->rowCount(), 1);
   }
 
-  void aSessionThatDoesNotFitSaysSo() {
+  void aSessionThatDoesNotFitIsReported() {
     Studio s;
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
     const QString path = s.recorded(600);

@@ -46,7 +46,7 @@ class TestSessionLive : public QObject {
   Q_OBJECT
 
   /// Two robots are received for a while.
-  static bool hear(Studio& s, const link::LiveOptions& options) {
+  static bool receive(Studio& s, const link::LiveOptions& options) {
     s.window.live()->setOptions(options);
     s.window.showSource(SourceKind::Live);
     const bool bound = QTest::qWaitFor(
@@ -63,7 +63,7 @@ class TestSessionLive : public QObject {
     LiveController* live = s.window.live();
     for (int i = 0; i < times; ++i) {
       const double before = live->frame() ? live->frame()->snapshot.time : -1.0;
-      if (!one.say() || !two.say()) return false;
+      if (!one.sendMessage() || !two.sendMessage()) return false;
       const bool received = QTest::qWaitFor(
           [live, before] {
             return live->frame() && live->frame()->robots.size() == 2 &&
@@ -101,10 +101,10 @@ class TestSessionLive : public QObject {
   /// Robot 1 says that it is there, and is seen there.
   static bool stand(Studio& s, const link::LiveOptions& options, int place) {
     const Robot robot(options, 1);
-    telemetry::TextMessage said = live_rig::message(1);
-    said.x = place;
+    telemetry::TextMessage reported = live_rig::message(1);
+    reported.x = place;
     LiveController* live = s.window.live();
-    return robot.say(said) &&
+    return robot.sendMessage(reported) &&
            QTest::qWaitFor([&] { return placeIn(live->frame()) == place; }, 30'000);
   }
   /// The file that has been written since `work` began.
@@ -159,10 +159,10 @@ class TestSessionLive : public QObject {
   void cleanup() { clockSetBy = 0; }
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
-  void whatIsHeardIsRecordedAndReplays() {
+  void receivedMessagesAreRecordedAndReplayed() {
     Studio s(0);
     const link::LiveOptions options = live_rig::options();
-    QVERIFY(hear(s, options));
+    QVERIFY(receive(s, options));
     QVERIFY(s.window.recording()->isPossible());
     QSignalSpy saved(s.window.recording(), &SessionRecording::saved);
     QTest::mouseClick(s.record(), Qt::LeftButton, {}, {8, 8});
@@ -181,7 +181,7 @@ class TestSessionLive : public QObject {
 
   void theRecentPastOfLiveIsSaved() {
     Studio s(0);
-    QVERIFY(hear(s, live_rig::options()));
+    QVERIFY(receive(s, live_rig::options()));
     QSignalSpy saved(s.window.recording(), &SessionRecording::saved);
     s.window.recording()->saveLast(60);
     QTRY_VERIFY2(saved.size() == 1, qPrintable(s.notice()));
@@ -197,7 +197,7 @@ class TestSessionLive : public QObject {
     constexpr double tenMinutes = 600.0;  // an hour off is beyond it, a slow computer is not
     Studio s(0);
     const link::LiveOptions options = live_rig::options();
-    QVERIFY(hear(s, options));
+    QVERIFY(receive(s, options));
     LiveController* live = s.window.live();
     Timeline* timeline = s.window.timeline();
     const std::vector<int> steps{0, 3600, 0, -3600, 0}, places{410, 420, 430, 440, 450};
@@ -266,7 +266,7 @@ class TestSessionLive : public QObject {
     constexpr int place = 444;
     Studio first(0);
     const link::LiveOptions options = live_rig::options();
-    QVERIFY(hear(first, options));
+    QVERIFY(receive(first, options));
     const QString path = record(first, [&] {
       return talk(first, options, 5) && stand(first, options, place) && talk(first, options, 1);
     });
@@ -278,7 +278,7 @@ class TestSessionLive : public QObject {
 
     Studio second(0);
     const link::LiveOptions others = live_rig::options();
-    QVERIFY(hear(second, others));
+    QVERIFY(receive(second, others));
     Timeline* timeline = second.window.timeline();
     const auto elapsed = [&] { return timeline->available()->end - timeline->available()->begin; };
     for (int i = 0; i < 200 && elapsed() <= stoodAfter; ++i) QVERIFY(talk(second, others, 1));
@@ -304,7 +304,7 @@ class TestSessionLive : public QObject {
   void namesWithSpacesAreExported() {
     Studio s(0);
     const link::LiveOptions options = live_rig::options();
-    QVERIFY(hear(s, options));
+    QVERIFY(receive(s, options));
     const QString path = record(s, [&] { return talk(s, options, 10); });
     QVERIFY(!path.isEmpty());
     s.window.openSession(path);
@@ -451,7 +451,7 @@ class TestSessionLive : public QObject {
     QVERIFY(page.open(QIODevice::ReadOnly) && page.readAll().contains("Robot 1"));
   }
 
-  void withoutAnythingHeardNothingIsSaved() {
+  void withoutReceivedMessagesNothingIsSaved() {
     Studio s(0);
     s.window.live()->setOptions(live_rig::options());
     s.window.showSource(SourceKind::Live);

@@ -53,7 +53,7 @@ class TestSessions : public QObject {
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
-  void aRunThatIsNotRepeatableSaysSo() {
+  void aRunThatIsNotRepeatableIsMarked() {
     Studio s;
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
     const QString recorded = s.recorded(60);
@@ -137,7 +137,7 @@ class TestSessions : public QObject {
     QVERIFY(s.controller.stateHash() != end);
   }
 
-  void theMomentGoneOnFromIsWhatWas() {
+  void theContinuedMomentIsUnchanged() {
     Studio s(300);
     QTRY_VERIFY_WITH_TIMEOUT(s.played(300), 20'000);
     const std::uint64_t then = s.controller.stateHash();
@@ -150,7 +150,7 @@ class TestSessions : public QObject {
   }
 
   /// What came after that moment has not happened, wherever it was remembered.
-  void theFutureLeavesWithTheMomentGoneOnFrom() {
+  void theAbandonedFutureEndsAtTheContinuedMoment() {
     Studio s(0);
     s.controller.open(link::loadScenario("match").value(), true);
     constexpr std::uint64_t end = 960;
@@ -293,7 +293,7 @@ class TestSessions : public QObject {
     const telemetry::WallTime zero = std::chrono::system_clock::now();
     auto recorder = link::LiveRecorder::create(path.toStdString(), options, zero).value();
     recorder->remembered(0.5, link::LiveState(options).text(options, 0.5, zero));
-    const auto say = [&](double time, int port, std::string_view payload) {
+    const auto send = [&](double time, int port, std::string_view payload) {
       const telemetry::Duration after(static_cast<std::int64_t>(time * 1e9));
       const auto from = static_cast<std::uint16_t>(4000 + port);
       const telemetry::DatagramView datagram{
@@ -305,12 +305,12 @@ class TestSessions : public QObject {
     };
     for (int robot = 1; robot <= 10; ++robot) {
       telemetry::TextMessage message = live_rig::message(robot);
-      say(1.0 + 0.1 * robot, options.portBase + robot, telemetry::encode(message));
+      send(1.0 + 0.1 * robot, options.portBase + robot, telemetry::encode(message));
     }
     QFile packet(QStringLiteral(PITCHBOARD_TEST_DATA "/gamecontroller/v12hl688_READY.bin"));
     QVERIFY(packet.open(QIODevice::ReadOnly));
-    say(2.4, options.refereePort, packet.readAll().toStdString());
-    say(9.0, options.portBase + 1, telemetry::encode(live_rig::message(1)));
+    send(2.4, options.refereePort, packet.readAll().toStdString());
+    send(9.0, options.portBase + 1, telemetry::encode(live_rig::message(1)));
     QVERIFY(recorder->finish());
 
     ReplayController replay;
@@ -412,7 +412,7 @@ class TestSessions : public QObject {
     QVERIFY2(s.notice().isEmpty(), qPrintable(s.notice()));
   }
 
-  void theRoomOnTheDiskIsShownAndItsEndIsReportedInTime() {
+  void freeDiskSpaceIsShownAndItsEndIsReportedInTime() {
     Studio s;
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
     std::atomic<std::uint64_t> free = 52'300'000'000;

@@ -114,7 +114,7 @@ class TestSituationTests : public QObject {
   void momentsOfAMatchAndOfARecordingArePlayed();
   void momentOfLiveRobotsIsPlayed();
   void aTestIsPlayedAtOnceAndItsRunsAreSeen();
-  void theDialogSaysWhatCannotBe();
+  void theDialogExplainsWhatIsNotPossible();
 };
 
 void TestSituationTests::momentsOfAMatchAndOfARecordingArePlayed() {
@@ -169,7 +169,7 @@ void TestSituationTests::momentOfLiveRobotsIsPlayed() {
   QTRY_VERIFY(!s.window.live()->details().network.ports.empty());
   for (const auto& port : s.window.live()->details().network.ports) QVERIFY(port.bound);
   const live_rig::Robot one(options, 1), two(options, 2);
-  QTRY_VERIFY(one.say() && two.say() && s.window.live()->frame() &&
+  QTRY_VERIFY(one.sendMessage() && two.sendMessage() && s.window.live()->frame() &&
               s.window.live()->frame()->robots.size() == 2);
   QDialog* dialog = dialogOf(s);
   auto* behaviour = in<QComboBox>(dialog, "testBehaviour");
@@ -227,7 +227,7 @@ void TestSituationTests::aTestIsPlayedAtOnceAndItsRunsAreSeen() {
   QVERIFY(s.window.compared()->path().endsWith(QStringLiteral("/sessions/run-000002.mcap")));
 }
 
-void TestSituationTests::theDialogSaysWhatCannotBe() {
+void TestSituationTests::theDialogExplainsWhatIsNotPossible() {
   Studio s(10);
   QTRY_VERIFY(s.played(10));
   QDialog* dialog = dialogOf(s);

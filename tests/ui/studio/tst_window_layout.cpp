@@ -63,7 +63,7 @@ class TestWindowLayout : public QObject {
     QVERIFY(right.x() <= s.window.width());
   }
 
-  void whatHasNoRoomInTheToolBarIsAClickAway() {
+  void hiddenToolBarButtonsAreOneClickAway() {
     Studio s({720, 600});
     s.play();
     for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
@@ -264,7 +264,7 @@ class TestWindowLayout : public QObject {
     QTRY_COMPARE(referee->grab().toImage().pixelColor(0, referee->height() / 2), theme().outerEdge);
   }
 
-  void aNoticeIsAsHighAsItsWords() {
+  void aNoticeIsAsHighAsItsText() {
     Studio s;
     s.play();
     auto* notices = s.window.notices();

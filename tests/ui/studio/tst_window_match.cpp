@@ -168,7 +168,7 @@ class TestWindowMatch : public QObject {
     QVERIFY(!s.menu("matchNumber")->menuAction()->isEnabled());
   }
 
-  void everythingSpeaksOfOneMoment() {
+  void allPanelsShowTheSameMoment() {
     Studio s(m_settings.get());
     s.controller.open(link::loadScenario("match-3v3").value(), true);
     s.controller.runTo(300);

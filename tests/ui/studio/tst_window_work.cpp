@@ -94,7 +94,7 @@ class TestWindowWork : public QObject {
     QVERIFY(!row(QStringLiteral("later")).data(Qt::ForegroundRole).isValid());
   }
 
-  void wordsFindEverything() {
+  void searchFindsEverything() {
     Studio s;
     s.play();
     const auto find = [&s](const QString& words) {
@@ -266,7 +266,7 @@ class TestWindowWork : public QObject {
     QTRY_VERIFY(!bar->text().contains(QStringLiteral("missing.json")));
   }
 
-  void aFinishedMatchSaysWhatCanBeDone() {
+  void aFinishedMatchOffersTheNextSteps() {
     Studio s;
     link::Scenario scenario = link::loadScenario("one-robot").value();
     scenario.stop.duration = 1.0;
@@ -283,7 +283,7 @@ class TestWindowWork : public QObject {
   }
 
   // In order of time, wherever the focus is; what cannot be undone now is passed over.
-  void undoTakesTheLastThingDone() {
+  void undoRevertsTheLastEdit() {
     Studio s;
     s.play();
     auto* plots = s.window.findChild<PlotsDock*>();
@@ -345,9 +345,9 @@ class TestWindowWork : public QObject {
       area = QRect(stop->mapTo(&s.window, QPoint()), stop->size()).adjusted(-2, -2, 2, 2);
       focused = s.window.grab(area).toImage();
       before = QString::fromLatin1(stop->metaObject()->className()) + ' ' + stop->objectName();
-      QAccessibleInterface* spoken = QAccessible::queryAccessibleInterface(stop);
-      QVERIFY(spoken);
-      const QString name = spoken->text(QAccessible::Name);
+      QAccessibleInterface* sentText = QAccessible::queryAccessibleInterface(stop);
+      QVERIFY(sentText);
+      const QString name = sentText->text(QAccessible::Name);
       QVERIFY2(!name.isEmpty(), qPrintable(QString::fromLatin1(stop->metaObject()->className()) +
                                            ' ' + stop->objectName()));
     }
@@ -368,7 +368,7 @@ class TestWindowWork : public QObject {
     QTRY_COMPARE(inputs(), QStringList(QStringLiteral("B3/VISION_BALL_DIST")));
   }
 
-  void anAlarmSaysWhat() {
+  void anAlarmNamesItsEvent() {
     Studio s;
     s.play();
     s.menuAction(QStringLiteral("A goal"))->trigger();
@@ -384,7 +384,7 @@ class TestWindowWork : public QObject {
     QVERIFY(frame->isVisible());
   }
 
-  void whatCannotFollowIsNotSaidInRealTimeAndAfterRestart() {
+  void programsInRealTimeAreNotReportedAtSpeed1AndAfterRestart() {
     Studio s;
     s.play();
     const auto notice = [&s] { return s.window.notices()->text(); };

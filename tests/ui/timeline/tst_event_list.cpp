@@ -192,7 +192,7 @@ class TestEventList : public QObject {
              std::ptrdiff_t(1));
   }
 
-  void labelsNeedRoom() {
+  void labelsNeedSpace() {
     EventList list;
     list.add(at(10, MatchEventKind::GameState, "PLAYING"));
     list.add(at(10.5, MatchEventKind::GameState, "SET"));

@@ -155,7 +155,7 @@ class TestTimeline : public QObject {
     QVERIFY(!b.timeline.isLookingBack());
   }
 
-  void theSignSaysWhen() {
+  void theSignShowsTheTime() {
     Bench b;
     QLabel& sign = *qobject_cast<QLabel*>(makeLookingBackSign(&b.timeline, &b.window));
     QVERIFY(!sign.isVisible());
@@ -166,7 +166,7 @@ class TestTimeline : public QObject {
     QVERIFY(!sign.isVisible());
   }
 
-  void aSignSaysThatNobodyPlays() {
+  void aSignWarnsThatNoRobotPlays() {
     Bench b;
     QLabel& sign = *qobject_cast<QLabel*>(makeNobodyPlaysSign(&b.shown, &b.window));
     b.source.goTo(101);
@@ -239,7 +239,7 @@ class TestTimeline : public QObject {
 
   void aBookmarkIsWrittenInItsPlace() {
     Bench b;
-    QSignalSpy told(&b.timeline, &Timeline::bookmarked);
+    QSignalSpy reported(&b.timeline, &Timeline::bookmarked);
     b.timeline.seek(50);
     b.actions.bookmark()->trigger();
     auto* note = b.strip->findChild<QLineEdit*>(QStringLiteral("bookmarkNote"));
@@ -249,7 +249,7 @@ class TestTimeline : public QObject {
     const EventList* list = b.timeline.events();
     QCOMPARE(list->event(0).detail, std::string("slipped turn"));
     QCOMPARE(list->event(0).time, 50.0);
-    QCOMPARE(told.last().at(0).value<link::MatchEvent>().detail, std::string("slipped turn"));
+    QCOMPARE(reported.last().at(0).value<link::MatchEvent>().detail, std::string("slipped turn"));
     QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
     // Again by double-click; Escape keeps what was.
     QTest::mouseDClick(b.strip, Qt::LeftButton, {}, b.above(50) - QPoint(0, 8));

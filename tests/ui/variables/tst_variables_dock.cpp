@@ -29,7 +29,7 @@ class TestVariablesDock : public QObject {
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
   // Over the curve beside them, though columns that are hidden stand between the two.
-  void wordsOfCodesAreReadWhole() {
+  void labelsOfCodesAreReadCompletely() {
     Bench bench;
     bench.hand.take(twoRobots(), SourceKind::Simulate);
     bench.choose(action);
@@ -95,7 +95,7 @@ class TestVariablesDock : public QObject {
     QCOMPARE(filter.rowCount(), 0);
   }
 
-  void valuesWithWordsUnitsAndRates() {
+  void valuesWithLabelsUnitsAndRates() {
     Bench bench;
     bench.hand.take(twoRobots(), SourceKind::Simulate);
     bench.view->openAll();
@@ -407,7 +407,7 @@ class TestVariablesDock : public QObject {
     QVERIFY(bench.view->isExpanded(bench.at(QStringLiteral("B2\nDecision"))));
   }
 
-  void emptyStatesAreWords() {
+  void emptyStatesAreTexts() {
     Bench bench;
     auto* empty = bench.dock->findChild<QLabel*>(QStringLiteral("emptyVariables"));
     QTRY_VERIFY(empty->isVisible());

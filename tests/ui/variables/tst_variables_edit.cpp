@@ -74,7 +74,7 @@ class TestVariablesEdit : public QObject {
     QVERIFY(look() != theme().disabledText);
   }
 
-  void whatCannotBeEditedSaysWhy_data() {
+  void readOnlyVariablesExplainWhy_data() {
     QTest::addColumn<SourceKind>("kind");
     QTest::addColumn<QString>("path");
     QTest::addColumn<QString>("reason");
@@ -85,7 +85,7 @@ class TestVariablesEdit : public QObject {
     QTest::newRow("attached") << SourceKind::Simulate << "key 900/VISION_LOST"
                               << "read-only";
   }
-  void whatCannotBeEditedSaysWhy() {
+  void readOnlyVariablesExplainWhy() {
     QFETCH(const SourceKind, kind);
     QFETCH(const QString, path);
     QFETCH(const QString, reason);
@@ -137,9 +137,9 @@ class TestVariablesEdit : public QObject {
     on.editor->selectAll();
     QTest::keyClicks(on.editor, typed);
     QTest::keyClick(on.editor, Qt::Key_Return);
-    auto* said = on.bench.dock->findChild<QLabel*>(QStringLiteral("valueProblem"));
-    QVERIFY(said->isVisible());
-    QVERIFY2(said->text().contains(problem), qPrintable(said->text()));
+    auto* reported = on.bench.dock->findChild<QLabel*>(QStringLiteral("valueProblem"));
+    QVERIFY(reported->isVisible());
+    QVERIFY2(reported->text().contains(problem), qPrintable(reported->text()));
     QVERIFY(on.bench.view->isEditing());
     QTest::keyClick(on.editor, Qt::Key_Escape);
     QTRY_VERIFY(!on.bench.view->isEditing());
@@ -258,9 +258,9 @@ class TestVariablesEdit : public QObject {
     dialog.show();
     dialog.findChild<QSpinBox*>(QStringLiteral("attachKey"))->setValue(key);
     auto* attach = dialog.findChild<QPushButton*>(QStringLiteral("attach"));
-    auto* said = dialog.findChild<QLabel*>(QStringLiteral("attachMessage"));
+    auto* reported = dialog.findChild<QLabel*>(QStringLiteral("attachMessage"));
     QTest::mouseClick(attach, Qt::LeftButton);
-    QVERIFY(!said->text().isEmpty());
+    QVERIFY(!reported->text().isEmpty());
     // The list is that of Live.
     QCOMPARE(bench.live.options().boards.size(), std::size_t(1));
     const QString group = QStringLiteral("B%1").arg(key / 100);  // as published: 100 n is robot n
@@ -269,7 +269,7 @@ class TestVariablesEdit : public QObject {
       QVERIFY(board);
       board->write(*link::VariableCatalog::published().intVar("DECISION_STATE"), 42);
       QTest::mouseClick(attach, Qt::LeftButton);
-      QVERIFY2(said->text().isEmpty(), qPrintable(said->text()));
+      QVERIFY2(reported->text().isEmpty(), qPrintable(reported->text()));
       const QString state = group + QStringLiteral("/DECISION_STATE");
       QTRY_VERIFY(bench.model->find(state).isValid());
       bench.choose(state);

@@ -203,7 +203,7 @@ class TestRobotsMenu : public QObject {
     QVERIFY(!mine->isCollapsed());
   }
 
-  void aCardSaysWhoItIs() {
+  void aCardShowsNameAndTeam() {
     Studio s;
     QTRY_COMPARE(s.cards().size(), qsizetype(6));
     s.controller.edits()->setBehaviour({RobotId{1}}, QStringLiteral("keeper"));

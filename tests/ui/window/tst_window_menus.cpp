@@ -142,7 +142,7 @@ class TestWindowMenus : public QObject {
   }
 
   // Programs cannot be told what they knew; who goes on from the past is told that.
-  void goingOnSaysWhatProcessesDoNotRemember() {
+  void continuingReportsLostMemories() {
     Studio s;
     QTRY_VERIFY(s.controller.frame());
     QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Run robot processes"),
@@ -203,7 +203,7 @@ class TestWindowMenus : public QObject {
     QTRY_COMPARE(QApplication::focusWidget(), s.window.field()->focusProxy());
   }
 
-  void theRefereesDockSaysWhatItLeads() {
+  void theRefereeDockNamesItsMatch() {
     Studio s;
     QTRY_VERIFY(s.controller.frame());
     auto* dock = s.window.findChild<QDockWidget*>(QStringLiteral("referee"));

@@ -41,8 +41,8 @@ InPlaceMessage::InPlaceMessage(QWidget* parent)
   hide();
 }
 
-void InPlaceMessage::say(Tone tone, const QString& sentence, const QString& button,
-                         std::function<void()> action) {
+void InPlaceMessage::showMessage(Tone tone, const QString& sentence, const QString& button,
+                                 std::function<void()> action) {
   m_tone = tone;
   m_action = std::move(action);
   m_text->setText(sentence);

@@ -147,7 +147,7 @@ CalibrateDialog::CalibrateDialog(MatchController* match, QWidget* parent)
   connect(m_match->edits(), &MatchEdits::robotsChanged, this, &CalibrateDialog::showButtons);
   connect(m_match->edits(), &MatchEdits::lockedChanged, this, &CalibrateDialog::showButtons);
   showButtons();
-  say(
+  showStatus(
       QStringLiteral("Add recordings of one robot: walking in every direction with stops, turning, "
                      "and a dozen kicks."));
 }
@@ -275,11 +275,11 @@ void CalibrateDialog::addFiles(const QStringList& paths) {
 
 void CalibrateDialog::addRobots(const QString& path, const Result<QStringList>& robots) {
   if (!robots) {
-    say(QString::fromStdString(robots.error().text()), true);
+    showStatus(QString::fromStdString(robots.error().text()), true);
     return;
   }
   if (robots->isEmpty()) {
-    say(QStringLiteral("%1 has no robots.").arg(QFileInfo(path).fileName()), true);
+    showStatus(QStringLiteral("%1 has no robots.").arg(QFileInfo(path).fileName()), true);
     return;
   }
   auto* item = new QListWidgetItem(QFileInfo(path).fileName(), m_files);
@@ -288,7 +288,7 @@ void CalibrateDialog::addRobots(const QString& path, const Result<QStringList>& 
   for (const QString& name : *robots) {
     if (m_robot->findText(name) < 0) m_robot->addItem(name);
   }
-  say({});
+  showStatus({});
   showButtons();
 }
 
@@ -323,19 +323,20 @@ void CalibrateDialog::start() {
   work.base = m_base->currentData().toString().toStdString();
   const auto from = momentOr(m_from, work.range.begin), to = momentOr(m_to, work.range.end);
   if (!from || !to) {
-    say(QStringLiteral("From and To must be %1, or empty.").arg(QLatin1String(timeForms)), true);
+    showStatus(QStringLiteral("From and To must be %1, or empty.").arg(QLatin1String(timeForms)),
+               true);
     return;
   }
   work.range = {*from, *to};
   if (*from >= *to) {
-    say(QStringLiteral("The range ends before it begins."), true);
+    showStatus(QStringLiteral("The range ends before it begins."), true);
     return;
   }
   m_cancelled = false;
   m_calibrating = true;
   m_calibration.reset();
   m_progress->setValue(0);
-  say({});
+  showStatus({});
   showValues();
   showButtons();
   m_worker.start([this, work] {
@@ -360,11 +361,12 @@ void CalibrateDialog::finish(const Result<CalibrationPtr>& made, const sim::Fiel
                        .arg(durationText(c.seconds));
     for (const std::string& note : c.notes)
       text += QLatin1Char('\n') + QString::fromStdString(note);
-    say(text);
+    showStatus(text);
   } else if (m_cancelled) {
-    say(QStringLiteral("Calibration cancelled."));
+    showStatus(QStringLiteral("Calibration cancelled."));
   } else {
-    say(QStringLiteral("Calibration failed: %1").arg(QString::fromStdString(made.error().text())),
+    showStatus(
+        QStringLiteral("Calibration failed: %1").arg(QString::fromStdString(made.error().text())),
         true);
   }
   showValues();
@@ -455,7 +457,7 @@ void CalibrateDialog::use(bool team) {
   const QString whose =
       ids.size() == 1 ? QStringLiteral("%1 uses").arg(QString::fromStdString(m_calibration->robot))
                       : QStringLiteral("%1 robots use").arg(ids.size());
-  say(QStringLiteral("%1 these parameters now. Undo reverts it.").arg(whose));
+  showStatus(QStringLiteral("%1 these parameters now. Undo reverts it.").arg(whose));
 }
 
 void CalibrateDialog::saveTo(const QString& path) {
@@ -464,14 +466,15 @@ void CalibrateDialog::saveTo(const QString& path) {
   const auto written = link::writeCalibration(path.toStdString(), *m_calibration,
                                               program.toStdString(), IfExists::Replace);
   if (written) {
-    say(QStringLiteral("Saved as %1").arg(path));
+    showStatus(QStringLiteral("Saved as %1").arg(path));
   } else {
-    say(QStringLiteral("Could not save: %1").arg(QString::fromStdString(written.error().text())),
+    showStatus(
+        QStringLiteral("Could not save: %1").arg(QString::fromStdString(written.error().text())),
         true);
   }
 }
 
-void CalibrateDialog::say(const QString& sentence, bool bad) {
+void CalibrateDialog::showStatus(const QString& sentence, bool bad) {
   QPalette colours = palette();
   if (bad) colours.setColor(QPalette::PlaceholderText, theme().errorText);
   m_message->setPalette(colours);

@@ -55,7 +55,7 @@ class ExperimentsDock : public QWidget {
     connect(m_play, &ExperimentPlay::ended, this, &ExperimentsDock::showResults);
     connect(m_play, &ExperimentPlay::failed, this, [this](const QString& sentence) {
       setPlaying(false);
-      say(sentence, true);
+      showStatus(sentence, true);
     });
     connect(m_play, &ExperimentPlay::recorded, this, &ExperimentsDock::showRecorded);
     if (m_parts.tests != nullptr) {
@@ -135,7 +135,8 @@ class ExperimentsDock : public QWidget {
 
   /// One in Replay, or two over each other.
   void see(const std::vector<std::size_t>& numbers) {
-    say(numbers.size() == 1
+    showStatus(
+        numbers.size() == 1
             ? QStringLiteral("Playing run %1 again…").arg(numbers[0])
             : QStringLiteral("Playing runs %1 and %2 again…").arg(numbers[0]).arg(numbers[1]));
     m_play->record(m_shown, numbers);
@@ -145,18 +146,19 @@ class ExperimentsDock : public QWidget {
     m_parts.replay->open(sessions.front());
     if (sessions.size() == 1) {
       if (m_parts.compared != nullptr) m_parts.compared->stop();
-      return say(m_shown->experiment.hasTeamPrograms()
-                     ? QStringLiteral("The run is open in Replay. Team programs do not repeat "
-                                      "exactly: a run that was not recorded was played again.")
-                     : QStringLiteral("The run is open in Replay."));
+      return showStatus(
+          m_shown->experiment.hasTeamPrograms()
+              ? QStringLiteral("The run is open in Replay. Team programs do not repeat "
+                               "exactly: a run that was not recorded was played again.")
+              : QStringLiteral("The run is open in Replay."));
     }
     m_parts.compared->open(sessions.back());
-    say(
+    showStatus(
         QStringLiteral("Both runs are open in Replay; the second is drawn over the first. "
                        "Timeline > Stop comparing ends it."));
   }
 
-  void say(const QString& message, bool isError = false) {
+  void showStatus(const QString& message, bool isError = false) {
     QPalette colours = palette();
     if (isError) colours.setColor(QPalette::WindowText, theme().errorText);
     m_message->setPalette(colours);
@@ -167,11 +169,11 @@ class ExperimentsDock : public QWidget {
 
   void load() {
     const auto loaded = link::loadExperiment(m_choice->currentData().toString().toStdString());
-    if (!loaded) return say(QString::fromStdString(loaded.error().text()), true);
+    if (!loaded) return showStatus(QString::fromStdString(loaded.error().text()), true);
     m_text->setPlainText(QString::fromStdString(loaded->text));
     m_form->show(*loaded, link::editsOf(loaded->text).value_or(link::ExperimentEdits()));
     m_text->document()->setModified(false);
-    say({});
+    showStatus({});
   }
 
   void showForm() {
@@ -187,15 +189,15 @@ class ExperimentsDock : public QWidget {
   /// The file says what the form says; what it cannot say stays in the form until it is right.
   void takeForm() {
     const auto text = link::withEdits(m_text->toPlainText().toStdString(), m_form->edits());
-    if (!text) return say(QString::fromStdString(text.error().text()), true);
+    if (!text) return showStatus(QString::fromStdString(text.error().text()), true);
     const auto experiment = link::experimentFromJson(*text, "File", {}, {});
-    if (!experiment) return say(QString::fromStdString(experiment.error().text()), true);
+    if (!experiment) return showStatus(QString::fromStdString(experiment.error().text()), true);
     QTextCursor all(m_text->document());
     all.select(QTextCursor::Document);
     all.insertText(QString::fromStdString(*text));  // Ctrl+Z in the file takes it back
     m_text->document()->setModified(false);
     m_form->show(*experiment, link::editsOf(*text).value_or(link::ExperimentEdits()));
-    say({});
+    showStatus({});
   }
 
   void askAndOpen() {
@@ -209,7 +211,8 @@ class ExperimentsDock : public QWidget {
   /// A file, read again when it was open before.
   void open(const QString& path, bool play) {
     if (m_play->isPlaying()) {
-      return say(QStringLiteral("Cannot open %1 while an experiment is running.").arg(path), true);
+      return showStatus(QStringLiteral("Cannot open %1 while an experiment is running.").arg(path),
+                        true);
     }
     const int known = m_choice->findData(path);
     if (known < 0) m_choice->addItem(QFileInfo(path).completeBaseName(), path);
@@ -229,8 +232,8 @@ class ExperimentsDock : public QWidget {
     if (path.isEmpty()) return;
     const auto written =
         writeFile(path.toStdString(), m_text->toPlainText().toStdString(), IfExists::Replace);
-    if (!written) return say(QString::fromStdString(written.error().text()), true);
-    say(QStringLiteral("Saved as %1").arg(path));
+    if (!written) return showStatus(QString::fromStdString(written.error().text()), true);
+    showStatus(QStringLiteral("Saved as %1").arg(path));
   }
 
   void startOrCancel() {
@@ -242,10 +245,10 @@ class ExperimentsDock : public QWidget {
     auto experiment = link::experimentFromJson(m_text->toPlainText().toStdString(), "File", {}, {});
     if (!experiment) {
       m_tabs->setCurrentWidget(m_text);
-      return say(QString::fromStdString(experiment.error().text()), true);
+      return showStatus(QString::fromStdString(experiment.error().text()), true);
     }
     setPlaying(true);
-    say(QStringLiteral("Playing %1 runs…").arg(experiment->allRuns()));
+    showStatus(QStringLiteral("Playing %1 runs…").arg(experiment->allRuns()));
     m_play->start(std::move(*experiment), folderOfExperiments());
   }
 
@@ -266,11 +269,11 @@ class ExperimentsDock : public QWidget {
         static_cast<int>(1000.0 * double(done) / double(std::max<qulonglong>(all, 1))));
     const double rate = double(done) / std::max(seconds, 1e-9);
     const double left = double(all - done) / std::max(rate, 1e-9);
-    say(QStringLiteral("%1 of %2 runs, %3 runs/s, %4 left")
-            .arg(done)
-            .arg(all)
-            .arg(rate, 0, 'f', rate < 10.0 ? 1 : 0)
-            .arg(durationText(left)));
+    showStatus(QStringLiteral("%1 of %2 runs, %3 runs/s, %4 left")
+                   .arg(done)
+                   .arg(all)
+                   .arg(rate, 0, 'f', rate < 10.0 ? 1 : 0)
+                   .arg(durationText(left)));
   }
 
   void showResults(const PlayedPtr& played) {
@@ -301,8 +304,8 @@ class ExperimentsDock : public QWidget {
                      ? QStringLiteral("; all assertions hold")
                      : QStringLiteral("; %1 of %2 assertions fail").arg(failed).arg(checks.size());
     }
-    say(message + QStringLiteral(". Results: ") + played->folder,
-        notPlayed.isEmpty() && failed > 0);
+    showStatus(message + QStringLiteral(". Results: ") + played->folder,
+               notPlayed.isEmpty() && failed > 0);
     if (m_tabs->currentWidget() == m_form || m_tabs->currentWidget() == m_text) {
       m_tabs->setCurrentIndex(1);
     }

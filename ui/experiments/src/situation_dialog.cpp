@@ -98,7 +98,7 @@ void SituationDialog::makeForm() {
   form->addRow(QStringLiteral("Name"), m_name);
   form->addRow(QStringLiteral("Folder"), makeFolder());
   makeRobotRows(form);
-  form->addRow(QStringLiteral("What must hold"), makeAssertions());
+  form->addRow(QStringLiteral("Assertions"), makeAssertions());
   form->addRow(QStringLiteral("A run ends after"), makeEnds());
   m_runs->setObjectName(QStringLiteral("testRuns"));
   m_runs->setRange(1, mostTestRuns);
@@ -310,12 +310,12 @@ void SituationDialog::check() {
                                      : QStringLiteral("%1");
     text = text.arg(QDir::toNativeSeparators(path()));
   }
-  tell(text, usable ? theme().secondaryText : theme().errorText);
+  showStatus(text, usable ? theme().secondaryText : theme().errorText);
   m_play->setEnabled(usable);
   m_save->setEnabled(usable);
 }
 
-void SituationDialog::tell(const QString& text, const QColor& colour) {
+void SituationDialog::showStatus(const QString& text, const QColor& colour) {
   QPalette colours = palette();
   colours.setColor(QPalette::WindowText, colour);
   m_problem->setPalette(colours);
@@ -328,7 +328,8 @@ void SituationDialog::save(bool play) {
   const QString to = path();
   QDir().mkpath(QFileInfo(to).path());
   const auto written = writeFile(to.toStdString(), *text, IfExists::Replace);
-  if (!written) return tell(QString::fromStdString(written.error().text()), theme().errorText);
+  if (!written)
+    return showStatus(QString::fromStdString(written.error().text()), theme().errorText);
   if (m_settings != nullptr) m_settings->setValue(folderKey, QFileInfo(to).path());
   emit saved(to, play);
   accept();

@@ -45,7 +45,7 @@ class SituationDialog : public QDialog {
   link::SituationTest situation() const;
   QString path() const;
   void check();
-  void tell(const QString& text, const QColor& colour);
+  void showStatus(const QString& text, const QColor& colour);
   void save(bool play);
 
   FramePtr m_frame;

@@ -79,7 +79,7 @@ void Explorer::start() {
   m_progress = 0.0;
   if (!start) {
     m_problem = QString::fromStdString(start.error().text());
-    return tell();
+    return notify();
   }
   m_found = std::make_unique<ExploredMoment>();
   m_found->time = frame->snapshot.time;
@@ -102,7 +102,7 @@ void Explorer::start() {
         result || job->load() ? QString() : QString::fromStdString(result.error().text());
     m_ui.post([this, job, problem] { end(job, problem); });
   });
-  tell();
+  notify();
 }
 
 void Explorer::take(const std::shared_ptr<std::atomic<bool>>& job, double progress,
@@ -110,14 +110,14 @@ void Explorer::take(const std::shared_ptr<std::atomic<bool>>& job, double progre
   if (job != m_running) return;
   m_progress = progress;
   m_found->result = result;
-  tell();
+  notify();
 }
 
 void Explorer::end(const std::shared_ptr<std::atomic<bool>>& job, const QString& problem) {
   if (job != m_running) return;
   m_running.reset();
   m_problem = problem;
-  tell();
+  notify();
 }
 
 void Explorer::cancel() {
@@ -125,7 +125,7 @@ void Explorer::cancel() {
   *m_running = true;
   m_running.reset();
   if (m_found && m_found->result.times.empty()) m_found.reset();
-  tell();
+  notify();
 }
 
 void Explorer::clear() {
@@ -133,17 +133,17 @@ void Explorer::clear() {
   cancel();
   m_found.reset();
   m_problem.clear();
-  tell();
+  notify();
 }
 
 void Explorer::showSecond(int second) {
   second = std::clamp(second, 0, seconds);
   if (second == m_second) return;
   m_second = second;
-  tell();
+  notify();
 }
 
-void Explorer::tell() {
+void Explorer::notify() {
   emit changed();
   emit forecastChanged(forecastOf(m_found.get(), m_second));
 }

@@ -188,13 +188,14 @@ void AttachDialog::listSegments() {
   }
   const bool isNote = m_message->property("note").toBool();
   if (segments.empty() && m_message->text().isEmpty()) {
-    say(QStringLiteral(
+    showStatus(
+        QStringLiteral(
             "No program on this computer has shared memory. Start the robot's processes, or enter "
             "the key: the segment is attached as soon as it appears."),
         false);
     m_message->setProperty("note", true);
   } else if (!segments.empty() && isNote) {
-    say({}, false);
+    showStatus({}, false);
   }
 }
 
@@ -245,7 +246,8 @@ bool AttachDialog::attach() {
   board.rate = m_rate->value();
   const auto attached = m_boards->attach(board);
   refresh();
-  return say(attached ? QString() : QString::fromStdString(attached.error().text()), !attached);
+  return showStatus(attached ? QString() : QString::fromStdString(attached.error().text()),
+                    !attached);
 }
 
 void AttachDialog::detach() {
@@ -253,10 +255,10 @@ void AttachDialog::detach() {
   if (item == nullptr) return;
   m_boards->detach(item->data(Qt::UserRole).toInt());
   refresh();
-  say({}, false);
+  showStatus({}, false);
 }
 
-bool AttachDialog::say(const QString& sentence, bool bad) {
+bool AttachDialog::showStatus(const QString& sentence, bool bad) {
   QPalette colours = palette();
   colours.setColor(QPalette::WindowText, bad ? theme().errorText : theme().secondaryText);
   m_message->setPalette(colours);

@@ -210,7 +210,7 @@ void ProfileEditor::showLast() {
   m_last->setText(rows.empty()
                       ? QString()
                       : QStringLiteral("Last message, from %1: %2 %3")
-                            .arg(rows.front().sender, rows.front().robot, rows.front().says));
+                            .arg(rows.front().sender, rows.front().robot, rows.front().values));
 }
 
 void ProfileEditor::addRow(int row, const ProfileField& field) {
@@ -303,7 +303,7 @@ void ProfileEditor::removeRows() {
   check();
 }
 
-void ProfileEditor::say(const QString& sentence, bool bad) {
+void ProfileEditor::showStatus(const QString& sentence, bool bad) {
   QPalette colours = palette();
   colours.setColor(QPalette::WindowText, bad ? theme().errorText : theme().secondaryText);
   m_problem->setPalette(colours);
@@ -331,9 +331,10 @@ void ProfileEditor::check() {
   }
   m_save->setEnabled(good.has_value());
   if (good)
-    say(QStringLiteral("%1 fields. Save the profile to use it.").arg(now.fields.size()), false);
+    showStatus(QStringLiteral("%1 fields. Save the profile to use it.").arg(now.fields.size()),
+               false);
   else
-    say(QString::fromStdString(good.error().text()), true);
+    showStatus(QString::fromStdString(good.error().text()), true);
 }
 
 bool ProfileEditor::saveTo(const QString& path) {
@@ -342,18 +343,18 @@ bool ProfileEditor::saveTo(const QString& path) {
   const std::string text = telemetry::profileText(now);
   // Reading it back finds everything that reading it later would.
   if (const auto again = telemetry::parseProfile(text, path.toStdString()); !again) {
-    say(QString::fromStdString(again.error().text()), true);
+    showStatus(QString::fromStdString(again.error().text()), true);
     return false;
   }
   if (const auto written = writeFile(path.toStdString(), text, IfExists::Replace); !written) {
-    say(QStringLiteral("Could not write %1. %2")
-            .arg(path, QString::fromStdString(written.error().message)),
-        true);
+    showStatus(QStringLiteral("Could not write %1. %2")
+                   .arg(path, QString::fromStdString(written.error().message)),
+               true);
     return false;
   }
   m_file = path;
   emit saved(now, path);
-  say(QStringLiteral("Saved as %1.").arg(QFileInfo(path).fileName()), false);
+  showStatus(QStringLiteral("Saved as %1.").arg(QFileInfo(path).fileName()), false);
   return true;
 }
 

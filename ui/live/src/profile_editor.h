@@ -50,7 +50,7 @@ class ProfileEditor : public QDialog {
   void removeRows();
   void check();
   void askAndSave();
-  void say(const QString& sentence, bool bad);
+  void showStatus(const QString& sentence, bool bad);
 
   QString m_file;
   const telemetry::Profile m_opened;

@@ -72,7 +72,7 @@ std::vector<PreviewRow> previewOf(const std::vector<Arrival>& arrivals,
     if (decoder && decoded.accepted()) {
       row.used = true;
       row.robot = robotText(options, {decoded.place, decoded.robot, 0});
-      row.says = valuesOf(*decoder, decoded);
+      row.values = valuesOf(*decoder, decoded);
       continue;
     }
     row.robot = QStringLiteral("–");
@@ -83,9 +83,9 @@ std::vector<PreviewRow> previewOf(const std::vector<Arrival>& arrivals,
     }
     if (!listed) why << QStringLiteral("sender not on the team's list");
     if (listed && !decoder) why << QStringLiteral("no team has this sender and port");
-    row.says = why.join(QStringLiteral(", ")) + knownFormats(arrival, known) +
-               QStringLiteral(": ") +
-               QString::fromStdString(telemetry::printable(arrival.payload, 60));
+    row.values = why.join(QStringLiteral(", ")) + knownFormats(arrival, known) +
+                 QStringLiteral(": ") +
+                 QString::fromStdString(telemetry::printable(arrival.payload, 60));
   }
   return rows;
 }

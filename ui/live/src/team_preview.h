@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What team setups make of datagrams that have arrived: whose each one is and what it says, or why
-// it cannot be read and which of the known formats it has. Pure functions; any thread.
+// What team setups make of datagrams that have arrived: whose each one is and which values it has,
+// or why it cannot be read and which of the known formats it has. Pure functions; any thread.
 
 #include <QString>
 #include <span>
@@ -19,7 +19,7 @@ struct PreviewRow {
   int port = 0;
   qulonglong messages = 0;
   QString robot;  ///< "R3 (Guests)", "R3 Ana (Guests)"
-  QString says;
+  QString values;
   bool used = false;
 };
 

@@ -206,9 +206,9 @@ Result<std::vector<telemetry::TeamSetup>> TeamsPage::teams() const {
 
 void TeamsPage::add(TeamDraft draft) {
   if (m_drafts.size() >= telemetry::TeamSetup::mostTeams) {
-    return say(QStringLiteral("Live can receive at most %1 teams. Remove one first.")
-                   .arg(telemetry::TeamSetup::mostTeams),
-               true);
+    return showStatus(QStringLiteral("Live can receive at most %1 teams. Remove one first.")
+                          .arg(telemetry::TeamSetup::mostTeams),
+                      true);
   }
   m_drafts.push_back(std::move(draft));
   m_list->addItem(QString());
@@ -281,9 +281,9 @@ void TeamsPage::chooseProfile(int index) {
     if (profile) {
       draft->setup.profile = std::move(*profile);
       draft->setup.profileName = name.toStdString();
-      say({}, false);
+      showStatus({}, false);
     } else {
-      say(QString::fromStdString(profile.error().text()), true);
+      showStatus(QString::fromStdString(profile.error().text()), true);
     }
     fillProfiles();
     preview();
@@ -314,7 +314,7 @@ void TeamsPage::take() {
   draft->robots = m_names->text();
   name(m_list->currentRow());
   const auto good = setupOf(*draft);
-  say(good ? QString() : QString::fromStdString(good.error().text()), true);
+  showStatus(good ? QString() : QString::fromStdString(good.error().text()), true);
   preview();
 }
 
@@ -342,7 +342,7 @@ void TeamsPage::ask(bool save) {
   dialog->setDefaultSuffix(QStringLiteral("json"));
   connect(dialog, &QFileDialog::fileSelected, this, [this, save](const QString& path) {
     const auto done = save ? this->save(path) : load(path);
-    say(done ? QString() : QString::fromStdString(done.error().text()), true);
+    showStatus(done ? QString() : QString::fromStdString(done.error().text()), true);
   });
   dialog->open();
 }
@@ -367,7 +367,7 @@ void TeamsPage::preview() {
   for (int row = 0; row < m_table->rowCount(); ++row) {
     const PreviewRow& from = rows[static_cast<std::size_t>(row)];
     const QString texts[] = {from.sender, QString::number(from.port),
-                             QString::number(from.messages), from.robot, from.says};
+                             QString::number(from.messages), from.robot, from.values};
     for (int column = 0; column < 5; ++column) {
       QTableWidgetItem* item = m_table->item(row, column);
       if (item == nullptr) m_table->setItem(row, column, item = new QTableWidgetItem);
@@ -378,17 +378,18 @@ void TeamsPage::preview() {
     }
   }
   if (rows.empty() && m_message->text().isEmpty()) {
-    say(m_live->isListening()
+    showStatus(
+        m_live->isListening()
             ? QStringLiteral("Nothing received on the robots' ports since this page was opened.")
             : QStringLiteral("Live is not listening, but messages on these teams' ports are still "
                              "shown here."),
         false);
   } else if (!rows.empty() && m_message->property("note").toBool()) {
-    say({}, false);
+    showStatus({}, false);
   }
 }
 
-void TeamsPage::say(const QString& sentence, bool bad) {
+void TeamsPage::showStatus(const QString& sentence, bool bad) {
   QPalette colours = palette();
   colours.setColor(QPalette::WindowText, bad ? theme().errorText : theme().secondaryText);
   m_message->setPalette(colours);

@@ -48,7 +48,7 @@ class TeamsPage : public QWidget {
   void chooseProfile(int index);
   void ask(bool save);
   void preview();
-  void say(const QString& sentence, bool bad);
+  void showStatus(const QString& sentence, bool bad);
 
   LiveController* m_live;
   Arrivals m_arrivals;

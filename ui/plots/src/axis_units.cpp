@@ -41,7 +41,7 @@ AxisPlan planAxes(std::span<const AxisRequest> curves) {
     }
     const auto factor = factorTo(place.right ? plan.right : plan.left, curve.unit);
     place.factor = factor.value_or(1.0);
-    place.stranger = !factor;
+    place.otherUnit = !factor;
     plan.places.push_back(place);
   }
   return plan;

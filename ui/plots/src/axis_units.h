@@ -15,8 +15,8 @@ namespace pitchboard::ui {
 struct AxisPlan {
   struct Place {
     bool right = false;
-    double factor = 1.0;    ///< number at the axis = factor × value of the curve
-    bool stranger = false;  ///< its unit is none of the axis, nor can be converted to it
+    double factor = 1.0;     ///< number at the axis = factor × value of the curve
+    bool otherUnit = false;  ///< its unit cannot be converted to that of the axis
     bool operator==(const Place&) const = default;
   };
   QString left, right;        ///< units of the axes; empty: unknown, or there is no such axis

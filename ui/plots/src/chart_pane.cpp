@@ -295,7 +295,7 @@ void ChartPane::paintCurves(QPainter& painter) const {
 }
 
 void ChartPane::extendMenu(QMenu* menu) {
-  QAction* automatic = menu->addAction(QStringLiteral("Values follow the curves"));
+  QAction* automatic = menu->addAction(QStringLiteral("Fit the value axis automatically"));
   automatic->setCheckable(true);
   automatic->setChecked(m_spec.autoValues && (m_spec.autoRight || !hasRightAxis()));
   connect(automatic, &QAction::triggered, this, [this](bool on) {

@@ -129,7 +129,7 @@ bool PlotPane::canTake(const QString& unit) const {
   if (kind() != PaneKind::Chart) return true;
   std::vector<AxisRequest> all = unitsOfCurves();
   all.push_back({unit});
-  return !planAxes(all).places.back().stranger;
+  return !planAxes(all).places.back().otherUnit;
 }
 
 void PlotPane::setHidden(int index, bool on) {
@@ -206,7 +206,7 @@ LegendEntry PlotPane::legendEntry(std::size_t index) const {
   if (!curve.unit().isEmpty() && curve.unit() != axis)
     side << QStringLiteral("[%1]").arg(curve.unit());
   entry.side = side.join(QLatin1Char(' '));
-  entry.odd = chart && place.stranger;
+  entry.odd = chart && place.otherUnit;
   if (entry.odd) {
     entry.tip += QStringLiteral("\nNeither axis has the unit %1").arg(curve.unit());
   }

@@ -84,7 +84,8 @@ std::vector<NextStep> nextSteps(const link::RefereedGame& refereed) {
       if (game.restart.isAnnounced()) steps.push_back(nextOfSetPlay(game.restart.step));
       steps.push_back(calling(CallKind::Stop, "Stop", "Play is stopped"));
       if (!shootOut && !game.restart.isAnnounced()) {
-        steps.push_back(calling(CallKind::DropBall, "Drop ball", "READY, nobody's kick-off"));
+        steps.push_back(
+            calling(CallKind::DropBall, "Drop ball", "READY, no team has the kick-off"));
       }
       steps.push_back(shootOut ? toState(PlayState::Finished, "End shot", "No goal")
                                : toState(PlayState::Finished, "End half", "FINISHED"));

@@ -307,17 +307,17 @@ void ExportDialog::cancel() {
 }
 
 void ExportDialog::succeed(const QString& path) {
-  tell(QStringLiteral("Exported to %1 (%2 MB)")
-           .arg(path)
-           .arg(static_cast<double>(QFileInfo(path).size()) / 1e6, 0, 'f', 1),
-       false);
+  showStatus(QStringLiteral("Exported to %1 (%2 MB)")
+                 .arg(path)
+                 .arg(static_cast<double>(QFileInfo(path).size()) / 1e6, 0, 'f', 1),
+             false);
   m_written = path;
   for (QToolButton* button : {m_open, m_show}) button->show();
   emit written(path);
 }
 
 void ExportDialog::fail(const QString& sentence) {
-  tell(sentence, !m_cancelled);
+  showStatus(sentence, !m_cancelled);
   emit failed(sentence);
 }
 
@@ -332,10 +332,10 @@ void ExportDialog::setWriting(bool writing) {
   for (QWidget* choice : {static_cast<QWidget*>(m_format), static_cast<QWidget*>(m_size)}) {
     choice->setEnabled(!writing);
   }
-  if (writing) tell({}, false);
+  if (writing) showStatus({}, false);
 }
 
-void ExportDialog::tell(const QString& text, bool error) {
+void ExportDialog::showStatus(const QString& text, bool error) {
   QPalette colours = palette();
   if (error) colours.setColor(QPalette::PlaceholderText, theme().errorText);
   m_message->setPalette(colours);

@@ -331,7 +331,7 @@ void ReplayController::load() {
   m_loaded = 0.0;
   emit loadedChanged(m_loaded);
   m_loader.start([this, path = m_path, file = m_file, rows = m_file->rows, mine = ++m_loading] {
-    const auto tell = [this, mine](double part) {
+    const auto reportProgress = [this, mine](double part) {
       m_toUi.post([this, part, mine] {
         if (mine != m_loading) return;
         m_loaded = part;
@@ -341,11 +341,12 @@ void ReplayController::load() {
         emit rowsCame();
       });
     };
-    const QStringList damage = readRows(path, *rows, file->whole, [this, mine, &tell](double part) {
-      if (part < 1.0) tell(part);
-      return mine == m_loading;
-    });
-    tell(1.0);
+    const QStringList damage =
+        readRows(path, *rows, file->whole, [this, mine, &reportProgress](double part) {
+          if (part < 1.0) reportProgress(part);
+          return mine == m_loading;
+        });
+    reportProgress(1.0);
     if (damage.isEmpty()) return;
     m_toUi.post([this, damage, mine] {
       if (mine == m_loading && !m_file->broken) emit damageFound(damage);

@@ -142,7 +142,7 @@ void ReplayPages::setListener(std::function<void()> listener) {
   m_listener = std::move(listener);
 }
 
-void ReplayPages::tell() {
+void ReplayPages::notify() {
   const std::lock_guard lock(m_listening);
   if (m_listener) m_listener();
 }
@@ -175,7 +175,7 @@ void ReplayPages::work() {
       } else {
         measure();
       }
-      tell();
+      notify();
     }
   });
 }

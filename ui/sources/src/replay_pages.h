@@ -57,7 +57,7 @@ class ReplayPages : public telemetry::SeriesPages {
                                                  const std::function<bool()>& goOn);
   bool isMeasuring() const;
   void measure();
-  void tell();
+  void notify();
   void forgetSummaries();
   double secondsThatFit() const;
   void keepFreeSpace();

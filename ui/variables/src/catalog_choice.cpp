@@ -36,7 +36,7 @@ CatalogChoice::CatalogChoice(MatchController* controller, QSettings* settings,
     m_file = file;
     m_controller->setCatalog(remembered.catalog);
   } else {
-    m_message->say(
+    m_message->showMessage(
         InPlaceMessage::Tone::Error,
         QStringLiteral("Could not read the imported catalog, so the published one is used: %1")
             .arg(remembered.problem));
@@ -58,8 +58,8 @@ void CatalogChoice::askAndImport(QWidget* parent) {
 void CatalogChoice::importFile(const QString& file) {
   const ReadCatalog made = read(file);
   if (!made.catalog) {
-    m_message->say(InPlaceMessage::Tone::Error,
-                   QStringLiteral("Could not import the catalog. %1").arg(made.problem));
+    m_message->showMessage(InPlaceMessage::Tone::Error,
+                           QStringLiteral("Could not import the catalog. %1").arg(made.problem));
     return;
   }
   m_file = QFileInfo(file).absoluteFilePath();
@@ -80,7 +80,7 @@ void CatalogChoice::usePublished() {
 void CatalogChoice::offerRestart(const QString& sentence) {
   const bool playing = m_controller->isOpen() || m_controller->isOpening();
   if (!playing || m_controller->catalog() == m_controller->nextCatalog()) {
-    m_message->say(InPlaceMessage::Tone::Note, sentence);
+    m_message->showMessage(InPlaceMessage::Tone::Note, sentence);
     return;
   }
   QString all = sentence + QLatin1Char(' ') + QStringLiteral("They apply from the next match on.");
@@ -89,8 +89,8 @@ void CatalogChoice::offerRestart(const QString& sentence) {
                                   "The studio's reference processes only know the published "
                                   "catalog: use your team's programs with this one.");
   }
-  m_message->say(InPlaceMessage::Tone::Note, all, QStringLiteral("Restart the match"),
-                 [this] { m_controller->restart(); });
+  m_message->showMessage(InPlaceMessage::Tone::Note, all, QStringLiteral("Restart the match"),
+                         [this] { m_controller->restart(); });
 }
 
 }  // namespace pitchboard::ui

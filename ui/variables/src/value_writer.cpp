@@ -58,7 +58,7 @@ void ValueWriter::check() {
   const QModelIndex index =
       m_model->find(found->written.group + QLatin1Char('/') + found->written.column);
   if (const telemetry::ColumnInfo* column = m_model->columnOf(index)) {
-    m_message->say(InPlaceMessage::Tone::Warning, overwrittenText(*found, *column));
+    m_message->showMessage(InPlaceMessage::Tone::Warning, overwrittenText(*found, *column));
   }
 }
 

@@ -200,7 +200,8 @@ class VariablesDock : public QWidget {
       if (status.attached) {
         m_attached.insert(status.board.key);
       } else if (m_attached.erase(status.board.key) != 0) {
-        m_message->say(InPlaceMessage::Tone::Warning, QString::fromStdString(status.problem));
+        m_message->showMessage(InPlaceMessage::Tone::Warning,
+                               QString::fromStdString(status.problem));
       }
       for (int row = 0; row < m_model->rowCount(); ++row) {
         const auto group = m_model->groupOf(m_model->index(row, 0));
@@ -227,11 +228,11 @@ class VariablesDock : public QWidget {
     connect(m_view, &VariablesView::editRefused, this, [this](const QModelIndex& index) {
       const QString why = m_model->whyNotEditable(index);
       if (!why.isEmpty())
-        m_message->say(InPlaceMessage::Tone::Note, why);
+        m_message->showMessage(InPlaceMessage::Tone::Note, why);
       else
-        m_message->say(InPlaceMessage::Tone::Note,
-                       QStringLiteral("Editing is off to prevent accidents."),
-                       QStringLiteral("Edit values"), [this] { m_lock->setChecked(true); });
+        m_message->showMessage(InPlaceMessage::Tone::Note,
+                               QStringLiteral("Editing is off to prevent accidents."),
+                               QStringLiteral("Edit values"), [this] { m_lock->setChecked(true); });
     });
     connect(m_model, &VariablesModel::favouritesChanged, this, [this] {
       if (m_context.settings) m_context.settings->setValue(favouritesKey, m_model->favourites());
@@ -287,7 +288,8 @@ class VariablesDock : public QWidget {
     m_changed->setChecked(false);
     // With the slash B1 is not B11, too.
     m_filterText->setText(robotName(robot->identity) + QLatin1Char('/'));
-    if (robot->boardKey) m_message->say(InPlaceMessage::Tone::Note, whereText(*robot->boardKey));
+    if (robot->boardKey)
+      m_message->showMessage(InPlaceMessage::Tone::Note, whereText(*robot->boardKey));
     if (auto* dock = qobject_cast<QDockWidget*>(parentWidget())) {
       dock->show();
       dock->raise();

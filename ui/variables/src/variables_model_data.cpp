@@ -15,7 +15,7 @@ using telemetry::ColumnKind;
 using telemetry::Sample;
 using telemetry::SeriesBucket;
 
-constexpr double silence = 10.0;  // s; what stands there after it is history
+constexpr double staleAfter = 10.0;  // s; what stands there after it is history
 
 /// Missing values are the same, too.
 bool sameValue(double a, double b) {
@@ -108,7 +108,7 @@ void VariablesModel::refresh(const QModelIndexList& rows, int sparkPixels) {
     const bool other = row->kind == Kind::Variable
                            ? read(*row, sparkPixels)
                            : row->kind == Kind::Group && rate != group->rowsPerSecond;
-    const bool isHistory = m_now - group->newest > silence;
+    const bool isHistory = m_now - group->newest > staleAfter;
     const bool turned = std::exchange(row->isHistory, isHistory) != isHistory;
     withNames = withNames || turned;
     if (other || turned) changed.push_back(row);

@@ -439,11 +439,11 @@ void MainWindow::connectNotices() {
                        finished = QStringLiteral("finished"), compared = QStringLiteral("compared"),
                        test = QStringLiteral("test"), continued = QStringLiteral("continued"),
                        replaced = QStringLiteral("replaced"), branch = QStringLiteral("branch");
-  const auto tell = [this](const QString& topic) {
+  const auto noticeOf = [this](const QString& topic) {
     return [this, topic](const QString& sentence) { m_notices->show({topic}, sentence); };
   };
   for (const auto message : {&SessionRecording::failed, &SessionRecording::noted}) {
-    connect(m_recording, message, m_notices, tell(recording));
+    connect(m_recording, message, m_notices, noticeOf(recording));
   }
   connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
   connect(m_recording, &SessionRecording::changed, m_notices, [this] {
@@ -523,7 +523,7 @@ void MainWindow::connectNotices() {
   connect(m_future, &AbandonedFuture::changed, m_notices, [this] {
     if (!m_future->isOn()) m_notices->settle(branch);
   });
-  connect(m_live, &LiveController::errorOccurred, m_notices, tell(live));
+  connect(m_live, &LiveController::errorOccurred, m_notices, noticeOf(live));
   connect(m_live, &LiveController::optionsChanged, m_notices, [this] { m_notices->settle(live); });
   connect(m_live, &LiveController::eventsReceived, m_notices,
           [this](const std::vector<link::MatchEvent>& events) {
@@ -534,12 +534,12 @@ void MainWindow::connectNotices() {
               m_notices->settle(live);
             }
           });
-  connect(m_compared, &ComparedSession::failed, m_notices, tell(compared));
+  connect(m_compared, &ComparedSession::failed, m_notices, noticeOf(compared));
   connect(m_compared, &ComparedSession::changed, m_notices,
           [this] { m_notices->settle(compared); });
-  connect(m_tests, &SituationTests::failed, m_notices, tell(test));
+  connect(m_tests, &SituationTests::failed, m_notices, noticeOf(test));
   connect(m_tests, &SituationTests::saved, m_notices, [this] { m_notices->settle(test); });
-  connect(m_files, &ScenarioFiles::failed, m_notices, tell(scenario));
+  connect(m_files, &ScenarioFiles::failed, m_notices, noticeOf(scenario));
   connect(m_controller, &MatchController::frameReceived, this,
           [this](const FramePtr& frame) { notifyFinished(*frame); });
 }

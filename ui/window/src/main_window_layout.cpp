@@ -33,7 +33,7 @@ const QString layoutKey = QStringLiteral("window/layout");
 const QString untouchedKey = QStringLiteral("window/layoutFollowsSize");
 }  // namespace
 
-// A tab says the name already, and the timeline its times.
+// A tab shows the name already, and the timeline its times.
 void MainWindow::showTitles() {
   // Names of tabs are whole; a row without room for all of them scrolls.
   for (QTabBar* row : findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
@@ -47,9 +47,9 @@ void MainWindow::showTitles() {
     const bool tabs = std::any_of(beside.begin(), beside.end(), [](const QDockWidget* other) {
       return !other->isHidden() && !other->isFloating();
     });
-    const bool says = studioDocks()[i].ownRow || tabs;
+    const bool isNamed = studioDocks()[i].ownRow || tabs;
     auto* title = static_cast<DockTitle*>(dock->titleBarWidget());
-    changed = title->setFolded(!dock->isFloating() && says) || changed;
+    changed = title->setFolded(!dock->isFloating() && isNamed) || changed;
   }
   int needed = 0;
   for (std::size_t i = 0; i < m_docks.size(); ++i) {
@@ -257,9 +257,9 @@ void MainWindow::nameForScreenReaders() {
   centralWidget()->setAccessibleName(QStringLiteral("Field"));
   for (QWidget* each : findChildren<QWidget*>()) {
     const auto* button = qobject_cast<QAbstractButton*>(each);
-    const bool said =
+    const bool hasName =
         !each->accessibleName().isEmpty() || (button != nullptr && !button->text().isEmpty());
-    if (said || each->focusPolicy() == Qt::NoFocus) continue;
+    if (hasName || each->focusPolicy() == Qt::NoFocus) continue;
     QString name = each->toolTip();
     if (const auto* line = qobject_cast<QLineEdit*>(each)) name = line->placeholderText();
     for (const QWidget* at = each; name.isEmpty() && at != nullptr; at = at->parentWidget()) {

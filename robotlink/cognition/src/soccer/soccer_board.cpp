@@ -100,8 +100,8 @@ void SoccerBoard::lookFor(Blackboard& board, bool opponents) const {
   board.write(m_variables.decisionActionVision, opponents ? visionOfOpponents : visionOfBall);
 }
 
-void SoccerBoard::tell(Blackboard& board, const WorldModel& world, Intention intention,
-                       const std::optional<Point>& target) const {
+void SoccerBoard::publish(Blackboard& board, const WorldModel& world, Intention intention,
+                          const std::optional<Point>& target) const {
   const auto toCm = [&world](const Point& p) {
     return cm_frame::localizationFromStudio(world.field(), {world.toStudio(p), 0.0});
   };

@@ -23,8 +23,8 @@ class SoccerBoard {
   void lookFor(Blackboard& board, bool opponents) const;
   /// What team and planning shall know, in DECISION_STATE, LOCALIZATION_BALL_*, LOCALIZATION_OPP*
   /// and DECISION_POSITION_*.
-  void tell(Blackboard& board, const WorldModel& world, Intention intention,
-            const std::optional<Point>& target) const;
+  void publish(Blackboard& board, const WorldModel& world, Intention intention,
+               const std::optional<Point>& target) const;
 
  private:
   RobotVariables m_variables{VariableCatalog::extended()};

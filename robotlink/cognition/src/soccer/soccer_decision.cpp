@@ -35,7 +35,7 @@ class SoccerDecision final : public CognitiveProcess {
     }
     constexpr double lost = 0.4;  // s: a frame that missed the ball is no reason to search
     if (choice.search && m_world.ballAge() > lost) board.write(m_variables.decisionSearchOn, 1);
-    m_board.tell(board, m_world, choice.intention, choice.target);
+    m_board.publish(board, m_world, choice.intention, choice.target);
     board.write(m_variables.decisionWorking, 1);
   }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Writes durations in seconds as text for people. Everything below the screen uses it. A pure
-// function for any thread.
+// Writes durations in seconds as text for people. Used for reports, the command line and the
+// screen. Pure function; any thread.
 
 #include <string>
 

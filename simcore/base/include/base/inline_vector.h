@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A vector of at most N items that lie in it: for the short lists of a cycle, which then allocates
-// nothing, and for values that are copied often. Any thread.
+// A vector with room for N items inside the object, so that it never allocates memory: for short
+// lists that are made in every cycle, and for values that are copied often. One thread at a time.
 
 #include <algorithm>
 #include <array>
@@ -38,13 +38,14 @@ class InlineVector {
   T& back() { return m_items[m_size - 1]; }
   const T& back() const { return m_items[m_size - 1]; }
 
-  /// What does not fit is left out; the caller knows how many there may be.
+  /// Appends an item. A full vector is an error of the caller: debug builds assert, others drop the
+  /// item.
   void push_back(const T& item) {
     assert(!full());
     if (!full()) m_items[m_size++] = item;
   }
   void clear() { m_size = 0; }
-  /// Only to fewer.
+  /// Removes items from the end until `size` are left. Does nothing if there are fewer.
   void shrink(std::size_t size) { m_size = std::min(m_size, size); }
   void erase(const T* item) {
     std::copy(item + 1, static_cast<const T*>(end()), begin() + (item - begin()));

@@ -36,8 +36,8 @@ struct JsonNode {
   const JsonNode* find(std::string_view key) const;
 };
 
-/// A type of its own: a std::pair with the node that holds it cannot be made complete by every
-/// compiler.
+/// A key with its value. Not a std::pair, because some compilers reject a std::pair of the
+/// incomplete type JsonNode.
 struct JsonMember {
   std::string key;
   JsonNode value;

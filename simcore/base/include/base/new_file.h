@@ -17,7 +17,7 @@ namespace pitchboard {
 class NewFile {
  public:
   /// Creates a file. Fails with Conflict if it exists, with SystemError if it cannot be created.
-  /// The same; errors name `shownAs`, the later name of the file.
+  /// Errors name `shownAs` instead of `path` if it is given, for a file that is renamed later.
   static Result<NewFile> create(const std::string& path, const std::string& shownAs = {});
   /// Opens a device or a pipe, which exists already.
   static Result<NewFile> openDevice(const std::string& path);

@@ -27,7 +27,7 @@ class CounterRandom {
 
   /// Returns a uniform number in [0, 1).
   double uniform();
-  /// Returns a normal number. Uses one draw, or none if sigma is 0.
+  /// Returns a normally distributed number. Uses one random number, or none if sigma is 0.
   double normal(double mean, double sigma);
 
  private:

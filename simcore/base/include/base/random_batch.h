@@ -22,7 +22,7 @@ class RandomBatch {
    public:
     /// Returns a uniform number in [0, 1).
     double uniform();
-    /// Returns a normal number. Uses one draw, or none if sigma is 0.
+    /// Returns a normally distributed number. Uses one random number, or none if sigma is 0.
     double normal(double mean, double sigma);
 
    private:
@@ -44,7 +44,7 @@ class RandomBatch {
   std::vector<std::uint32_t> m_high, m_robot;  // of each block: what differs in its counter
   std::vector<double> m_wholes;                // 53 random bits each, as a whole number
   std::vector<double> m_normals;               // their quantiles, right in the middle only
-  std::size_t m_stride = 0;                    // draws of a robot
+  std::size_t m_stride = 0;                    // random numbers of a robot
 };
 
 }  // namespace pitchboard

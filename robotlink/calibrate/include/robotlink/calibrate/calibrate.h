@@ -84,8 +84,9 @@ struct CalibrationOptions {
 /// Called with the progress, 0 to 1; return false to cancel.
 using CalibrationProgress = std::function<bool(double)>;
 
-/// All logs must be of the same robot. Errors: InvalidArgument if there is no log or an option is
-/// out of range, NotFound if nothing could be estimated, Cancelled.
+/// Estimates the model. All logs must be of the same robot. Fails with InvalidArgument if there is
+/// no log or an option is out of range, with NotFound if nothing could be estimated, and with
+/// Conflict if `progress` cancelled it.
 Result<Calibration> calibrate(std::span<const CalibrationLog> logs, const sim::RobotModel& base,
                               const CalibrationOptions& options = {},
                               const CalibrationProgress& progress = {});

@@ -33,9 +33,10 @@ class LockStepSlot;
 struct AdvisorOptions {
   int rollouts = 72;     ///< for each decision
   double horizon = 5.0;  ///< s that each of them plays
-  /// Of one core, when no match waits for it: it plays as many rollouts as fit. 0: `rollouts`.
+  /// The share of one core that it may use when no match waits for it; it then plays as many
+  /// rollouts as fit. 0: it plays `rollouts`.
   double share = 0.0;
-  bool learns = true;  ///< of the opponents, while it plays
+  bool learns = true;  ///< learns about the opponents during the game
   /// File with what it learned in earlier games; empty: none. A missing file is no error.
   std::string memory{};
   bool operator==(const AdvisorOptions&) const = default;

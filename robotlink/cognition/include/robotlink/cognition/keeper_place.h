@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where a keeper stands: for the behaviour itself, and for advisors that watch the opponents'
-// keeper. Metres, radians, turned so that its own goal is at -x. A pure function; any thread.
+// Computes where a goalkeeper should stand. The keeper's behaviour uses it, and so do advisors to
+// predict the opponents' keeper. Metres, radians; turned so that the keeper's own goal is at -x.
+// Pure function; any thread.
 
 #include <base/geometry.h>
 #include <robotlink/cognition/behaviour_parameters.h>
@@ -10,8 +11,8 @@
 
 namespace pitchboard::link {
 
-/// On the line from the ball to the goal, on an arc before it that covers the posts, and aside from
-/// there (BehaviourParameters::keeperLine, keeperArc, keeperAside).
+/// Returns the pose: on the line from the ball to the goal, where it crosses an arc in front of the
+/// posts (BehaviourParameters::keeperLine, keeperArc), shifted sideways by keeperAside.
 Pose keeperPlace(const sim::FieldSpec& field, const BehaviourParameters& numbers,
                  const Point& ball);
 

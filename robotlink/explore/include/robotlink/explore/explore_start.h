@@ -21,7 +21,7 @@ namespace pitchboard::link {
 
 struct ExploreStartOptions {
   /// Uses the true poses and the true ball where the frame has them. Otherwise robots stand where
-  /// they believe to be, and the ball lies where they see it.
+  /// they believe they are, and the ball lies where they see it.
   bool useTruth = false;
   /// Robot models, noise and physics come from this scenario; without it all robots are kid-size
   /// with realistic noise. Must outlive the call.

@@ -39,7 +39,7 @@ class LampMemory {
   /// Reads the flags and returns the states. `time` (s) must not decrease; it stands still while
   /// the match is paused.
   const Lamps& note(const RobotReader& reader, double time);
-  /// Tells that the flag of this process was set at `time`, between two calls of note().
+  /// Records that the flag of this process was set at `time`, between two calls of note().
   void saw(std::size_t lamp, double time);
   /// Forgets all flags, because the next time does not follow the last one.
   void jump() { m_seen = never; }

@@ -46,8 +46,9 @@ Result<void> validate(const std::vector<AttachedBoard>& boards);
 std::vector<std::string> boardNames(const std::vector<AttachedBoard>& boards,
                                     const std::vector<std::string>& taken = {});
 
-/// Returns the link of a robot whose blackboard is read `rate` times a second, or is `gone`.
-telemetry::LinkHealth boardLink(double age, double rate, bool gone);
+/// Returns the link of a robot whose blackboard is read `rate` times a second. `age`: seconds since
+/// the last sample. `detached`: the blackboard no longer exists, which counts as a timeout.
+telemetry::LinkHealth boardLink(double age, double rate, bool detached);
 
 /// A sample of a blackboard, as RowView.
 struct BoardRow {

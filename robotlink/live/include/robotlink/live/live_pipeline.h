@@ -79,8 +79,8 @@ class LivePipeline {
   void addBoards(MatchFrame& frame, AttachedRobots* attached, telemetry::WallTime now);
   void useCatalogs();
   void reportSent(telemetry::WallTime now);
-  void tell(const LiveDatagram& datagram);
-  void tell(const std::vector<MatchEvent>& events);
+  void notify(const LiveDatagram& datagram);
+  void notify(const std::vector<MatchEvent>& events);
   void sendSnapshot(telemetry::WallTime now);
   void noteTeams(const std::vector<Renaming>& renamings);
 

@@ -101,7 +101,7 @@ struct LiveDatagram {
   const Result<telemetry::Pb2Message>* variables = nullptr;
   std::optional<SentBoards::Verdict> variablesVerdict{};  ///< empty if it could not be decoded
 
-  bool isStranger() const { return verdict == Verdict::SenderRefused; }
+  bool isFromRefusedSender() const { return verdict == Verdict::SenderRefused; }
   /// Returns the referee's state; null if this is no such packet.
   const telemetry::RefereeState* state() const {
     return referee && *referee ? std::get_if<telemetry::RefereeState>(&**referee) : nullptr;

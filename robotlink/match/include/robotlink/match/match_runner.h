@@ -59,7 +59,7 @@ class MatchRunner {
   void post(Command command);
   /// The same, and waits until it has run. Do not call it from within a command.
   void execute(const Command& command);
-  /// Waits, too, for a function that changes nothing.
+  /// Runs a function that changes nothing on the runner's thread, and waits for it.
   void read(const std::function<void(const SimulatedMatch&)>& look);
 
   /// Adds an observer, which sees the present moment and every later tick until stopObserving().
@@ -67,10 +67,10 @@ class MatchRunner {
   void observe(const std::shared_ptr<TickObserver>& observer);
   void stopObserving(const std::shared_ptr<TickObserver>& observer);
 
-  /// `tell` is called on the runner's thread when there is a new frame, event or log line, once
-  /// until latest(), takeEvents() or takeLog() is called. Empty: there is no notification, but a
-  /// call may be under way.
-  void setNews(std::function<void()> tell);
+  /// Sets the function that is called on the runner's thread when there is a new frame, event or
+  /// log line. It is called once, and again only after latest(), takeEvents() or takeLog(). An
+  /// empty function turns this off, but a call may still be in progress.
+  void setNews(std::function<void()> notify);
   /// Returns the newest frame, or null if `knownSerial` is the newest.
   std::shared_ptr<const MatchFrame> latest(std::uint64_t knownSerial = 0);
   /// Both return what came since the last call, at most the newest 10 000.

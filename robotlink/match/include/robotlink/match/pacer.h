@@ -29,7 +29,8 @@ class Pacer {
     return m_startTick + static_cast<std::uint64_t>(elapsed * m_ticksPerSecond);
   }
 
-  /// Call it with the tick that was reached when the time for a round is up.
+  /// Drops the backlog if it is longer than mostBacklog. Call it at the end of each round with the
+  /// tick that was reached.
   void forgive(Time now, std::uint64_t tick) {
     const std::uint64_t wanted = target(now);
     const double behind = wanted > tick ? static_cast<double>(wanted - tick) / m_ticksPerSecond : 0;

@@ -56,13 +56,13 @@ class ProcessPace {
   /// Returns the speed of the slowest team program that cannot keep up; empty if all keep up.
   std::optional<double> slowestTeamProgram() const;
   enum class Await {
-    Everybody,   ///< also programs that were just started and have not attached to a blackboard
-    Cooperating  ///< only programs that report the end of each cycle
+    AllPrograms,  ///< also programs that were just started and have not attached to a blackboard
+    Cooperating   ///< only programs that report the end of each cycle
   };
   /// Returns true while the match has to wait for a program to get ready. A cooperating program is
   /// ready once it has reported so; the clocks of programs run at ×1 meanwhile. Call it and
   /// lookAfterProcesses() until it returns false: then all programs are ready, have ended, or were
-  /// given up after their `silent_after` (at least 10 s), which an event reports.
+  /// given up after their `response_timeout` (at least 10 s), which an event reports.
   bool awaitsPrograms(Await whom, Time now);
   /// Returns whether the program, or one that it started, has attached to its robot's blackboard.
   bool hasAttached(const ProcessStatus& program) const;

@@ -94,7 +94,7 @@ class RobotSlots {
   /// Returns null if there is no such robot.
   const sim::RobotModel* model(RobotId id) const;
   /// Returns the time in s after which the robot's programs count as not responding.
-  static double silentAfter(const RobotSlot& slot);
+  static double responseTimeout(const RobotSlot& slot);
   /// Returns whether programs outside this one can write to the blackboard of any robot.
   bool haveTeamPrograms() const;
   /// Returns the robots whose processes were started by somebody else and continue after the match.
@@ -157,7 +157,7 @@ class RobotSlots {
   Result<void> checkShirt(const sim::RobotIdentity& identity) const;
   Result<IntVar> cycleOf(const RobotSlot& slot) const;
   const AdvisorOptions* advisorOf(const RobotSlot& slot) const;
-  bool wants(const RobotSlot& slot, const ProfileProcess& process) const;
+  bool shouldRun(const RobotSlot& slot, const ProfileProcess& process) const;
   Result<void> startMissing(RobotSlot& slot, std::vector<SlotProcess*>& started);
   Result<void> start(RobotSlot& slot, SlotProcess& process);
   Result<void> describeReference(const RobotSlot& slot, SlotProcess& process,

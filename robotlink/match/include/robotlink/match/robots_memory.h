@@ -46,7 +46,7 @@ struct RobotsMemory {
   std::vector<Robot> robots;
   std::array<InProcessTeamChannel, teamColors.size()> channels;
   RefereeRhythm referee;
-  std::size_t bytes = 0;  ///< roughly
+  std::size_t bytes = 0;  ///< approximate size of all of this
 };
 
 /// A stretch of a match as it was played: the state at its beginning, and the robots' commands of

@@ -57,9 +57,9 @@ class ChildProcess {
   /// writes much blocks if nobody reads. Lines are cut at maxLineBytes. After the end, the object
   /// cannot be used any more.
   std::optional<End> poll(std::vector<std::string>& lines);
-  /// Tells this set (epoll) when it has written something and when it has ended, each time once,
-  /// with `id`. False where the system cannot: then poll() it regularly.
-  bool tell(int epoll, std::uint64_t id) const;
+  /// Adds its output and its end to this epoll set, edge-triggered: each event is reported once,
+  /// with `id`. Returns false if the system cannot do it; then call poll() regularly.
+  bool addTo(int epoll, std::uint64_t id) const;
 
  private:
   ChildProcess(Spawned child, UniqueFd keeper, pid_t pid);

@@ -2,8 +2,8 @@
 #pragma once
 
 // The guard of a match: a small process that outlives it. If the match is killed, the guard removes
-// the segments that nobody uses. The match names them over a socket, a packet for each; if the
-// socket ends without "done", the match was killed.
+// its segments that no process uses. The match sends the name of each segment over a socket, one
+// per packet; if the socket is closed without "done", the match was killed.
 
 #include <string>
 #include <string_view>

@@ -17,7 +17,7 @@ namespace pitchboard::link {
 struct ManagementTiming {
   using Seconds = RestartRule::Seconds;
   Seconds startInterval{0.2};  ///< time between the starts of two processes
-  Seconds silentAfter{5.0};
+  Seconds responseTimeout{5.0};
   RestartRule restart;
 };
 

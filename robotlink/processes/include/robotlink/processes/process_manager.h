@@ -12,7 +12,7 @@
 //             may block before its first cycle.
 //   Sleeps    The kernel's count of the process's sleeps has to grow.
 //   Caller    The caller runs the cycles of the process and reports: setResponding().
-//   Nobody    The process is not watched.
+//   None      The process is not watched.
 // A process that somebody else stopped (SIGSTOP) does not respond either. For team programs whose
 // clocks follow the match, the time limit is in match time.
 //
@@ -37,16 +37,16 @@
 namespace pitchboard::link {
 
 struct ManagedProcess {
-  enum class Watch { Nobody, Variable, Sleeps, Caller };
+  enum class Watch { None, Variable, Sleeps, Caller };
   using Seconds = RestartRule::Seconds;
 
   ChildSpec spec;
   RestartRule restart;
   double delay = 0.0;  ///< s to wait after the start of the robot's previous process
-  Watch watch = Watch::Nobody;
+  Watch watch = Watch::None;
   IntVar heartbeat{-1};    ///< for Watch::Variable
   bool clears = false;     ///< the manager clears the heartbeat
-  Seconds silentAfter{5};  ///< without a sign of life, or stopped by somebody
+  Seconds responseTimeout{5};  ///< without a sign of life, or stopped by somebody
   bool watchFile = false;  ///< restart when the file of its program is replaced
   bool ownTime = false;    ///< a team program whose clocks follow setTime()
   /// Called before every start; may change `spec`.
@@ -195,7 +195,7 @@ class ProcessManager {
     ManagedProcess process;
     Blackboard* board = nullptr;
     std::optional<ChildProcess> child;  // while it runs
-    bool tells = false;                 // the child, m_epoll
+    bool isWatched = false;             // child is in m_epoll
     bool hasNews = false;
     bool everStarted = false;
     Time due{};  // of the next start

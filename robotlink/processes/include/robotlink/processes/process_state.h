@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The state of a process of a robot. It has a header of its own, because whoever shows a match
-// needs nothing else of the process manager.
+// The state of a robot's process. It has a header of its own, because code that shows a match needs
+// nothing else from the process manager. Plain value; any thread.
 
 #include <cstdint>
 
@@ -10,7 +10,7 @@ namespace pitchboard::link {
 
 enum class ProcessState : std::uint8_t {
   Waiting,        ///< waits for its first start
-  Running,        ///<
+  Running,        ///< runs and responds
   NotResponding,  ///< runs without a sign of life
   Restarting,     ///< has ended and will be started again
   Ended,          ///< has ended and will not be started again

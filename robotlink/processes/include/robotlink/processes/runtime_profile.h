@@ -53,7 +53,7 @@ struct ProfileProcess {
   std::vector<std::pair<std::string, std::string>> environment;  ///< added to the inherited one
   double delay = 0.0;      ///< s to wait after the start of the previous process
   std::string heartbeat;   ///< variable that the process keeps setting; empty: not watched
-  double silentAfter = 5;  ///< s
+  double responseTimeout = 5;  ///< s
   RestartRule restart;
   int stopSignal = 15;     ///< SIGTERM
   bool watchFile = false;  ///< restart when the file of its program is replaced

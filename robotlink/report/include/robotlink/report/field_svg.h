@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The field with the trajectories of many runs, for reports of experiments, which are made without
-// the studio. Pictures of a moment are painted by the studio (docs/sessions.md).
+// Draws the field with the trajectories of many runs as SVG, for reports of experiments, which do
+// not need the studio. (Pictures of a moment are painted by the studio: docs/sessions.md.) Pure
+// function; any thread.
 
 #include <span>
 #include <string>

@@ -9,7 +9,7 @@
 
 namespace pitchboard::link {
 
-/// Returns a number such as "61.5" or "0", or "—" for nothing.
+/// Returns a number with this many decimals, such as "61.5", or "—" if it is not finite.
 std::string fixed(double value, int decimals);
 /// Escapes text for content and attributes of HTML, XML and SVG.
 std::string escaped(std::string_view text);

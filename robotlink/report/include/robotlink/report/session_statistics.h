@@ -26,20 +26,20 @@ struct RobotSummary {
   std::string ownName;  ///< in its team's setup; may be empty
   RobotOrder order;
   TeamColor team = TeamColor::Blue;
-  double seconds = 0.0;            ///< s for which there are rows
+  double seconds = 0.0;            ///< time for which there are rows, s
   std::optional<double> distance;  ///< m walked (live: of its believed places)
   std::uint32_t kicks = 0;         ///< live: kick actions that were sent
   std::uint32_t falls = 0;
-  double ballSeconds = 0.0;                    ///< with the ball; live: as it saw it itself
+  double ballSeconds = 0.0;  ///< time with the ball, s; live: by what it saw itself
   std::optional<double> errorMedian, error90;  ///< of the belief, cm; needs the truth
-  /// Share of the time in which the process worked, 0 to 1; nothing where rows do not say.
+  /// Share of the time in which the process worked, 0 to 1; empty if the rows do not tell.
   std::array<std::optional<double>, telemetry::processCount> uptime{};
   std::vector<double> errorCurve;  ///< mean belief error, cm, in equal parts of the time; NaN: none
   /// The link of a live robot.
   struct Link {
     double received = 0.0;  ///< share of the time from its first message on, 0 to 1
     std::uint64_t messages = 0;
-    std::optional<double> loss;  ///< 0 to 1, where its messages are numbered
+    std::optional<double> loss;  ///< 0 to 1; empty if its messages have no numbers
     int outages = 0, penalties = 0;
     std::optional<double> leastVolts;
   };
@@ -49,10 +49,10 @@ struct RobotSummary {
 struct TeamSummary {
   TeamColor team = TeamColor::Blue;
   std::string name{};           ///< "RoboFEI"; empty: it has none
-  std::optional<int> number{};  ///< the referee's; nothing without one
-  std::optional<int> score;     ///< at the end; nothing when it is not known
-  std::vector<int> byHalf{};    ///< goals of each half; empty where the first one was not seen
-  int scored = 0;               ///< in this time
+  std::optional<int> number{};  ///< the referee's; empty without a referee
+  std::optional<int> score;     ///< at the end; empty if unknown
+  std::vector<int> byHalf{};    ///< goals of each half; empty if the first half was not seen
+  int scored = 0;               ///< goals in this range
   double ballSeconds = 0.0;
   std::uint32_t kicks = 0, falls = 0;
   double distance = 0.0;          ///< m
@@ -67,10 +67,10 @@ struct SessionStatistics {
   std::vector<TeamSummary> teams;    ///< those that have robots, in the same order
 };
 
-/// Curves have this many parts.
+/// Number of parts of each curve.
 inline constexpr std::size_t statisticsParts = 120;
 
-/// Both visit every row of the range once; for live robots at most 36 000 moments.
+/// Both read every row of the range once; for live robots they use at most 36 000 moments.
 SessionStatistics statisticsOf(const telemetry::SeriesStore& rows, telemetry::TimeRange range);
 SessionStatistics statisticsOf(const telemetry::SessionReader& session, telemetry::TimeRange range);
 

@@ -26,7 +26,8 @@ struct Player {
   Side side = Side::Left;
   link::BehaviourChoice behaviour;
   sim::RobotModel model;
-  /// Other numbers of this behaviour that the player may have; RobotBelief::shares says how likely.
+  /// Other parameters of this behaviour that the player may have. RobotBelief::shares has the
+  /// probability of each.
   std::vector<link::BehaviourParameters> variants;
 };
 
@@ -46,7 +47,8 @@ struct RobotBelief {
   bool absent = false;                           ///< penalised or not in the game
   bool down = false;
   double getsUpIn = 0.0;  ///< s until it stands again; only if `down`
-  /// Probability of each of Player::variants, or empty; what is left to 1 is Player::behaviour.
+  /// Probability of each of Player::variants; empty: all 0. The rest, up to 1, is the probability
+  /// of Player::behaviour.
   std::vector<double> shares;
   double pace = 1.0, paceSigma = 0.0;  ///< its speed as a share of what its model says
 };

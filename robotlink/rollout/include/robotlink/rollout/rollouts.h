@@ -58,9 +58,9 @@ struct PlayOptions {
   /// If true, a goal or a ball that is out does not end a rollout: the ball is put on the centre
   /// mark or 1 m inside the line.
   bool goOn = false;
-  /// The advisor's suggestion to one player, all the time.
+  /// The advisor's suggestion to the player `advised`, for the whole rollout.
   link::Advice advice{};
-  std::size_t advised = 0;  ///< that player
+  std::size_t advised = 0;  ///< index of that player
   double traceEvery = 1.0;  ///< s between two points of a trace
 };
 
@@ -69,7 +69,8 @@ struct TracePoint {
   Point ball;
   int goalsLeft = 0, goalsRight = 0;  ///< since the beginning, as Column::GoalsLeft
 };
-/// Points that a rollout has in a trace: its beginning, and then one every `traceEvery` seconds.
+/// Returns how many points a rollout has in a trace: its beginning, and then one every `traceEvery`
+/// seconds.
 std::size_t tracePoints(const PlayOptions& options);
 
 struct RolloutsOptions {

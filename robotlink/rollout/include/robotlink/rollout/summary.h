@@ -16,7 +16,7 @@ struct Share {
   double value = 0.0, low = 0.0, high = 1.0;
 };
 
-/// Of `hits` in `count` trials.
+/// Returns the share of `hits` in `count` trials.
 Share shareOf(double hits, double count);
 
 struct OutcomeSummary {

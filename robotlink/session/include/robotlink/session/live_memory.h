@@ -13,7 +13,7 @@
 
 namespace pitchboard::link {
 
-/// Makes records of what a watch reports, on the watch's thread.
+/// Makes a record of everything that a watch reports. Called on the watch's thread.
 class LiveRecords : public LiveObserver {
  public:
   void received(const LiveDatagram& datagram) override;
@@ -52,7 +52,7 @@ class RecordMemory : public LiveHistory {
 /// The memory of a live match.
 class LiveMemory : public LiveRecords, public RecordMemory {
  public:
-  /// `rows` receives the rows; null: nobody does.
+  /// `rows` receives the rows; null: rows are not kept.
   explicit LiveMemory(std::shared_ptr<telemetry::RowSink> rows = nullptr,
                       std::size_t bytes = std::size_t{128} << 20)
       : RecordMemory(bytes), m_rows(std::move(rows)) {}

@@ -84,9 +84,7 @@ class MatchRecorder : public TickObserver {
   std::vector<ReceivedDrawing> m_drawings;
 };
 
-/// Saves the last `seconds` from memory into a new session file: rows of the store, checkpoints of
-/// the archive, events and log lines. Times stay those of the source. Fails as
-/// SessionWriter::create() does, and with NotFound if there is no row yet.
+/// What is in memory of a source, for saveRecent().
 struct RecentPast {
   const telemetry::SeriesStore* rows = nullptr;
   const StateArchive* archive = nullptr;  ///< null for a live source
@@ -96,6 +94,9 @@ struct RecentPast {
   std::vector<LogLine> log;
   std::string scenario, catalog, profile;  ///< JSON texts; empty if there is none
 };
+/// Saves the last `seconds` from memory into a new session file: rows of the store, checkpoints of
+/// the archive, events and log lines. Times stay those of the source. Fails as
+/// SessionWriter::create() does, and with NotFound if there is no row yet.
 Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seconds,
                                             const RecentPast& past,
                                             const telemetry::SessionInfo& info,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Samples a simulated match once for all who want its rows: after each tick a row for every robot
-// (its whole blackboard, truth, belief errors) and one for the match. The groups are named like the
-// robots ("B1") and "match"; a robot's attributes identify it: "robot" (number of
-// its blackboard), "team", "number" (on the shirt), "key" (System V, 0: heap), "imu180" (0 or 1),
+// Samples a simulated match once for all receivers of its rows: after each tick a row for every
+// robot (its whole blackboard, truth, belief errors) and one for the match. The groups are named
+// like the robots ("B1") and "match"; a robot's attributes identify it: "robot" (number of its
+// blackboard), "team", "number" (on the shirt), "key" (System V, 0: heap), "imu180" (0 or 1),
 // "behaviour", "radius" (m; 0: the field's), "field_of_view" (degrees), "vision_range" (m). The
 // match's attributes: "physics", "seed", "tick_rate". Columns: docs/plots.md.
 
@@ -66,7 +66,7 @@ class MatchSampler : public TickObserver {
   std::vector<Outlet> m_outlets;
   MatchSamplerOptions m_options;
   std::unique_ptr<BoardColumns> m_board;
-  bool m_advised = false;                      // m_board has what advisors say
+  bool m_advised = false;                      // m_board has the ADVISOR_ variables
   const VariableCatalog* m_catalog = nullptr;  // of which m_board is
   std::vector<telemetry::GroupInfo> m_groups;  // of the match, then of each sampled robot
   std::vector<SampledRobot> m_sampled;         // in the order of the snapshot's robots

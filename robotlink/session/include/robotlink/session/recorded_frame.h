@@ -20,8 +20,8 @@
 
 namespace pitchboard::link {
 
-/// What rows do not contain: it comes from the session's scenario or field, or is the published
-/// field if there is none.
+/// Returns the facts that rows do not contain. They come from the session's scenario or field;
+/// without these, the field is the published one.
 FrameSettings backdropOf(const telemetry::SessionReader& session);
 
 class RecordedFrames {

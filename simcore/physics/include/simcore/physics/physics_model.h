@@ -34,6 +34,7 @@ class PhysicsModel {
 
   /// Initializes `world` for this model: the ball on the centre mark, no robots.
   virtual void reset(WorldState& world) const = 0;
+  /// Returns whether world.physics contains the state of this model.
   virtual bool owns(const WorldState& world) const = 0;
 
   /// First half of a tick: control and motion of all bodies. Fills what control reports, and

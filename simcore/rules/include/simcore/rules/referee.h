@@ -21,7 +21,7 @@ namespace pitchboard::sim {
 
 enum class CallKind : std::uint8_t {
   State,     ///< uses state: the game goes to it
-  KickOff,   ///< uses team: it kicks off next; nobody means a drop ball
+  KickOff,   ///< uses team: it kicks off next; noTeam means a drop ball
   Goal,      ///< uses team and value: +1 adds a goal, −1 takes one back
   SetPlay,   ///< uses team, setPlay and place
   NextStep,  ///< advances the set play by a step, at last to the ball being in play
@@ -31,7 +31,7 @@ enum class CallKind : std::uint8_t {
   Card,      ///< uses robot and value: 0 warning, 1 yellow, 2 red
   NextHalf,  ///< starts the next half; only after FINISHED
   ShootOut,  ///< starts a penalty shoot-out; only after FINISHED
-  Timeout,   ///< uses team: it takes a timeout; nobody means a referee timeout
+  Timeout,   ///< uses team: it takes a timeout; noTeam means a referee timeout
   Stop,      ///< stops play
   GoOn,      ///< resumes play after Stop
   Automatic  ///< uses value: 1 turns the automatic referee on, 0 turns it off
@@ -41,7 +41,7 @@ enum class CallKind : std::uint8_t {
 struct RefereeCall {
   CallKind kind = CallKind::State;
   PlayState state = PlayState::Initial;
-  int team = GameState::nobody;  ///< index of GameState::teams
+  int team = GameState::noTeam;  ///< index of GameState::teams
   RobotId robot{};
   SetPlay setPlay = SetPlay::None;
   PenaltyKind penalty = PenaltyKind::None;
@@ -86,8 +86,8 @@ Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCa
 void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& sweep,
                  Placements& placements, std::vector<Event>& events);
 
-/// Lets the teams defend the opposite goals and tells their robots. Moves nobody. world.game must
-/// exist.
+/// Swaps the goals that the two teams defend, and the directions in which their robots attack.
+/// Robots and ball stay where they are. world.game must exist.
 void swapSides(WorldState& world);
 
 /// Returns whole seconds, rounded up as on a scoreboard.

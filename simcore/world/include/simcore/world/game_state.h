@@ -129,7 +129,7 @@ struct Restart {
   Point place;                   ///< where the ball lies
   int kicker = 0;                ///< id of the robot that took it
   bool passed = true;            ///< a second player has touched the ball, or need not
-  bool onlyTaker = false;        ///< nobody but the kicker has touched the ball since
+  bool onlyTaker = false;        ///< no robot but the kicker has touched the ball since
   /// Returns whether packets show this set play.
   bool isAnnounced() const {
     return step == Step::Placing || step == Step::Preparing || step == Step::Taking;
@@ -158,7 +158,7 @@ struct BallRest {
 };
 
 struct GameState {
-  static constexpr int nobody = -1;  ///< instead of the index of a team
+  static constexpr int noTeam = -1;  ///< instead of the index of a team
   /// Time left until the state ends by itself.
   struct Countdown {
     int ticks = 0;
@@ -167,13 +167,13 @@ struct GameState {
   };
   /// The team that put the ball out, in leagues without set plays.
   struct DropIn {
-    int team = nobody;
+    int team = noTeam;
     int ticks = -1;  ///< since then
     bool operator==(const DropIn&) const = default;
   };
   struct Touch {
     int robot = 0;  ///< id
-    int team = nobody;
+    int team = noTeam;
     int ticks = 0;  ///< since then; 0: the robot touches the ball now
     bool operator==(const Touch&) const = default;
   };
@@ -185,7 +185,7 @@ struct GameState {
   GamePhase phaseBefore = GamePhase::Normal;  ///< phase to return to after a timeout
   int half = 1;
   int firstKickOff = 0;  ///< index of the team that kicked off first
-  int kickOff = 0;       ///< index of the team that kicks off; nobody: drop ball
+  int kickOff = 0;       ///< index of the team that kicks off; noTeam: drop ball
   Restart restart;
   bool stopped = false;
   bool over = false;  ///< after the final whistle
@@ -200,7 +200,7 @@ struct GameState {
   BallRest still;                   ///< for the rule about a ball that does not move
   BallRest near;                    ///< for the rule about a ball held up among robots
   int aloneTicks = 0;               ///< since a robot was near the ball
-  int shooter = nobody;             ///< in a shoot-out: the team whose shot it is
+  int shooter = noTeam;             ///< in a shoot-out: the team whose shot it is
   bool obeyed = false;              ///< only a GameController's packets change the game
   std::vector<RobotWatch> watches;  ///< in the order of the robots
 
@@ -210,7 +210,7 @@ struct GameState {
   }
   // The set play that packets show, and the team that takes it.
   SetPlay setPlay() const { return restart.isAnnounced() ? restart.kind : SetPlay::None; }
-  int setPlayTeam() const { return restart.isAnnounced() ? restart.team : nobody; }
+  int setPlayTeam() const { return restart.isAnnounced() ? restart.team : noTeam; }
   bool ballFree() const { return restart.step == Restart::Step::Free; }
   /// Returns the index of the current half in GameTeam::byHalf; empty in a shoot-out.
   std::optional<std::size_t> period() const {
@@ -220,12 +220,12 @@ struct GameState {
   }
   /// Returns the index of the team that defends the left goal.
   std::size_t leftTeam() const { return swapped ? 1 : 0; }
-  /// Returns the index of the team of this colour, or nobody.
+  /// Returns the index of the team of this colour, or noTeam.
   int teamOf(TeamColor colour) const {
     for (std::size_t i = 0; i < teams.size(); ++i) {
       if (teams[i].colour == colour) return static_cast<int>(i);
     }
-    return nobody;
+    return noTeam;
   }
   /// Returns the player of this colour and shirt; null if it plays in neither team.
   const GamePlayer* player(TeamColor colour, int shirt) const {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Whether a place is one at all, and the nearest that bodies can have: for everything that is put
-// somewhere by hand, by a file or by a belief. Metres, radians. Pure.
+// Checks and corrects poses that come from a user, a file or a belief before a body is put there.
+// Metres, radians. Pure functions; any thread.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,8 @@ inline bool isFinite(const Pose& pose) {
          std::isfinite(pose.yaw);
 }
 
-/// The nearest place at which a body of this radius lies wholly inside the walls.
+/// Returns the position nearest to `point` at which a body of this radius is entirely inside the
+/// walls.
 inline Point insideWalls(const FieldSpec& field, const Point& point, double radius) {
   const double x = field.halfLength() + field.border - radius;
   const double y = field.halfWidth() + field.border - radius;

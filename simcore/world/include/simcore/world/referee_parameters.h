@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one table of what people may set in a referee's rules: files, checks and the tables of
-// docs/referee.md are made from it. As parameters.h. Constant data, for any thread.
+// The table of all numbers and switches that people can set in a referee's rules. Rule files, their
+// checks and the tables of docs/referee.md are made from it; parameters.h explains a row. Constant
+// data; any thread.
 
 #include <array>
 #include <string_view>
@@ -18,7 +19,7 @@ inline constexpr std::array<std::string_view, 3> refereeStyleNames{"humanoid-201
 static_assert(refereeStyleNames.size() == std::size_t(lastOf(RefereeStyle{})) + 1,
               "every RefereeStyle needs its name in refereeStyleNames, and lastOf() the last one");
 
-/// A rule that is judged or not.
+/// A rule that can be turned on and off.
 struct RefereeSwitch {
   const char* key;
   bool RefereeRules::*member;

@@ -70,7 +70,7 @@ struct RobotModel {
   bool fromCamera = false;  ///< distances are straight lines from the lens, else along the ground
                             ///< from the robot's centre
 
-  NoiseParameters noise;  ///< used where the match's noise says NoiseParameters::ofModel
+  NoiseParameters noise;  ///< used if the match sets NoiseParameters::ofModel
   bool operator==(const RobotModel&) const = default;
 };
 
@@ -82,7 +82,8 @@ struct GaitSpeed {
   bool inMotion = false;  ///< the legs move, also in place
 };
 
-/// `action` as in CONTROL_ACTION, `b` as in DECISION_ACTION_B. An unknown action: no motion.
+/// Returns the speed of the gait for `action` (CONTROL_ACTION) with the parameter `b`
+/// (DECISION_ACTION_B); no motion for an unknown action.
 GaitSpeed gaitSpeed(const RobotModel& model, int action, int b);
 
 /// Where a ball lies, as seen from the robot.

@@ -18,7 +18,7 @@ struct RepairReport {
   std::uint64_t bytes = 0;         ///< size of the new file
   double seconds = 0.0;            ///< from the first message to the last
   std::uint64_t lostMessages = 0;  ///< lost messages, as far as the damaged file shows
-  bool lostMore = false;           ///< more messages are lost, but nobody knows how many
+  bool lostMore = false;           ///< more messages are lost; their number is unknown
   bool brokeOff = false;           ///< the file was cut off, so its end may be missing
   bool complete = false;           ///< nothing is missing in the new file
   std::vector<std::string> notes;  ///< sentences: what was wrong or is missing, where and when

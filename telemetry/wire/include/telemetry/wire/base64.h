@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Bytes as text (RFC 4648, the ordinary letters, with padding).
+// Converts bytes to Base64 text (RFC 4648, the standard alphabet, with padding) and back. Pure
+// functions; any thread.
 
 #include <optional>
 #include <string>

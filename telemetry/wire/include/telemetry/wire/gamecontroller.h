@@ -75,7 +75,7 @@ struct RefereeState {
   int firstHalf = 0;   ///< 1 in the first half
   int kickOffRaw = 0;  ///< as sent: a colour in v7 and v8, then a team number
   int secsRemaining = 0;
-  std::optional<int> kickOffTeam;  ///< number of the team; empty for a drop ball or nobody
+  std::optional<int> kickOffTeam;  ///< number of the team; empty if no team kicks off
   std::optional<int> packetNumber, secondaryTime;
   std::optional<int> gameType;  ///< HL and SPL 2017
   std::optional<int> secState;  ///< secondary state, HL

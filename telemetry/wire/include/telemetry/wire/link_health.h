@@ -32,7 +32,7 @@ struct ProcessHeartbeat {
 struct LinkHealth {
   Sender sender;
   bool conflict = false;       ///< another sender uses the same number at the moment
-  std::vector<Sender> others;  ///< senders that say the same at the moment
+  std::vector<Sender> others;  ///< senders that currently send the same messages
   bool timedOut = false;
   Duration age{};                ///< time since the last usable message
   std::uint64_t messages = 0;    ///< usable messages; 0 in a recording, which does not count them

@@ -50,7 +50,8 @@ struct MonitorOptions {
   }
 };
 
-/// This robot need not share its place.
+/// Returns whether this robot has a slot of its own: a number up to ordinaryRobots, and no second
+/// sender.
 constexpr bool hasOwnPlace(const RobotKey& robot) {
   return robot.sender == 0 && robot.number <= MonitorOptions::ordinaryRobots;
 }

@@ -11,7 +11,8 @@
 
 namespace pitchboard::telemetry {
 
-/// With the first eight the message is refused. The others affect one field, or nothing.
+/// A message with one of the first eight errors is refused. The other errors affect a single field,
+/// or nothing.
 enum class TextError : std::uint8_t {
   Empty,          ///< no text at all
   TooLong,        ///< more than 64 KiB

@@ -45,7 +45,7 @@ struct PortStatus {
 
 struct ReceiverStatus {
   std::vector<PortStatus> ports;  ///< in the order of the options
-  std::uint64_t queueDrops = 0;   ///< datagrams that nobody took in time
+  std::uint64_t queueDrops = 0;   ///< datagrams that were not taken in time
   std::uint64_t kernelDrops() const;
   std::uint64_t datagrams() const;
 };

@@ -18,8 +18,8 @@ class InPlaceMessage : public QFrame {
   enum class Tone { Note, Warning, Error };
   explicit InPlaceMessage(QWidget* parent = nullptr);
 
-  void say(Tone tone, const QString& sentence, const QString& button = {},
-           std::function<void()> action = {});
+  void showMessage(Tone tone, const QString& sentence, const QString& button = {},
+                   std::function<void()> action = {});
   void clear();
   QString text() const;
 

@@ -10,7 +10,7 @@
 
 namespace pitchboard::ui {
 
-/// "B1": letter of the team and number on the shirt.
+/// Returns the letter of the team and the number on the shirt: "B1".
 QString robotName(const sim::RobotIdentity& identity);
 QString robotName(const link::RobotFrame& robot);
 /// Returns whether the GROUP/COLUMN `saved` in a file means this variable, even if the robot had

@@ -30,7 +30,7 @@ QString stateText(const ScoreboardState& board, const QFontMetricsF& metrics, do
 
 /// Returns "ROBOFEI – GUESTS, " to put before other text; empty if no team has a name.
 QString teamsText(const link::MatchFrame& frame);
-/// For a live frame, uses the referee's packets.
+/// Makes the state of a frame; for a live frame, from the referee's packets.
 ScoreboardState scoreboardOf(const link::MatchFrame& frame);
 
 }  // namespace pitchboard::ui

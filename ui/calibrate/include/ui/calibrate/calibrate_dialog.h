@@ -34,16 +34,16 @@ class ResidualsView;
 class CalibrateDialog : public QDialog {
   Q_OBJECT
  public:
-  /// `match` outlives it.
+  /// `match` must outlive the dialog.
   CalibrateDialog(MatchController* match, QWidget* parent);
   ~CalibrateDialog() override;  ///< cancels and waits
 
   /// Adds recordings; the robots of the first one can be chosen once it is read.
   void addFiles(const QStringList& paths);
   bool isCalibrating() const { return m_calibrating; }
-  /// Null until there is one, and after another recording was chosen.
+  /// Returns the result; null before the first calibration, and after another recording was chosen.
   std::shared_ptr<const link::Calibration> calibration() const { return m_calibration; }
-  /// Writes the robot model; a sentence in the dialog says how it went.
+  /// Writes the robot model; the dialog shows whether that worked.
   void saveTo(const QString& path);
 
  signals:
@@ -61,10 +61,11 @@ class CalibrateDialog : public QDialog {
               const sim::FieldSpec& field);
   void showValues();
   void showButtons();
-  /// The robots of the match that bear the calibrated robot's name, or its whole team.
+  /// Returns the robots of the match that have the calibrated robot's name, or those of its whole
+  /// team.
   std::vector<RobotId> robotsOfMatch(bool team) const;
   void use(bool team);
-  void say(const QString& sentence, bool bad = false);
+  void showStatus(const QString& sentence, bool bad = false);
 
   MatchController* m_match;
   QListWidget* m_files;

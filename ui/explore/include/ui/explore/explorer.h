@@ -2,8 +2,8 @@
 #pragma once
 
 // Explores the moment that the studio shows, of a simulated, live or recorded match, on a thread of
-// its own: what may follow, and what a chosen robot had best do. It only reads frames; nothing is
-// sent to a robot. UI thread only; owned by the window.
+// its own: what may follow, and which action of a chosen robot is best. It only reads frames;
+// nothing is sent to a robot. UI thread only; owned by the window.
 
 #include <QObject>
 #include <array>
@@ -36,9 +36,9 @@ class Explorer : public QObject {
   Q_OBJECT
  public:
   static constexpr int seconds = 30;
-  static constexpr int firstSecond = 5;  ///< whose heat map is shown at first
+  static constexpr int firstSecond = 5;  ///< the time whose heat map is shown first
 
-  /// Everything outlives the explorer.
+  /// All must outlive the explorer.
   struct Parts {
     SourceSwitch* source = nullptr;
     const MatchController* match = nullptr;
@@ -48,38 +48,38 @@ class Explorer : public QObject {
   /// Cancels, and waits for the thread.
   ~Explorer() override;
 
-  /// Whose actions the next exploration compares; nothing: nobody's.
+  /// Chooses the robot whose actions the next exploration compares; empty: no actions are compared.
   void setRobot(std::optional<RobotKey> robot);
   std::optional<RobotKey> robot() const { return m_robot; }
 
   /// Explores the moment shown, also while looking back. A running exploration is cancelled.
   void start();
-  /// Stops; what was found stays.
+  /// Stops the exploration. The result so far is kept.
   void cancel();
-  /// Stops, and forgets what was found.
+  /// Stops the exploration and forgets its result.
   void clear();
   bool isRunning() const { return m_running != nullptr; }
-  /// 0 to 1.
+  /// Returns the progress of the running exploration, 0 to 1.
   double progress() const { return m_progress; }
-  /// Null before the first exploration and after clear().
+  /// Returns the result so far; null before the first exploration and after clear().
   const ExploredMoment* found() const { return m_found.get(); }
-  /// Why the last exploration found nothing; empty if it did.
+  /// Returns why the last exploration has no result; empty if it has one.
   const QString& problem() const { return m_problem; }
 
-  /// Which time after the moment the field shows, 0 to `seconds`.
+  /// Chooses the time after the moment (0 to `seconds`) whose heat map the field shows.
   void showSecond(int second);
   int second() const { return m_second; }
 
  signals:
-  void changed();  ///< robot, progress, result, problem or second
-  /// What the field shows; null: nothing.
+  void changed();  ///< the robot, progress, result, problem or second
+  /// The field has to show this forecast; null: none.
   void forecastChanged(const pitchboard::ui::ForecastPtr& forecast);
 
  private:
   void take(const std::shared_ptr<std::atomic<bool>>& job, double progress,
             const link::ExploreResult& result);
   void end(const std::shared_ptr<std::atomic<bool>>& job, const QString& problem);
-  void tell();
+  void notify();
 
   Parts m_parts;
   std::optional<RobotKey> m_robot;

@@ -34,7 +34,7 @@ class AttachDialog : public QDialog {
   void choose();
   void chooseCatalog(int index);
   void detach();
-  bool say(const QString& sentence, bool bad);
+  bool showStatus(const QString& sentence, bool bad);
 
   AttachedBoards* m_boards;
   QTableWidget *m_segments, *m_attached;

@@ -83,7 +83,7 @@ class ExportDialog : public QDialog {
   void succeed(const QString& path);
   void fail(const QString& sentence);
   void cancel();
-  void tell(const QString& text, bool error);
+  void showStatus(const QString& text, bool error);
   void setWriting(bool writing);
 
   ExportSource m_source;

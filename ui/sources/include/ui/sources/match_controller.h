@@ -164,7 +164,7 @@ class MatchController : public FrameSource {
   std::shared_ptr<link::MatchRunner> retire();
   void take(Opening& opening);
   void refuse(const QString& sentence);
-  /// Says once in a match which robots do not stop or hurry with it.
+  /// Reports once in a match which programs do not follow its pauses and speed.
   void warnAboutRealTimePrograms();
   QStringList realTimePrograms() const;
   void changeSpeed(double timesRealTime);

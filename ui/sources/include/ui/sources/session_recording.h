@@ -82,12 +82,12 @@ class SessionRecording : public QObject {
   void warnOf(const telemetry::SessionStatus& status);
   void finish(bool matchEnds);
 
-  /// What records a source of one kind.
+  /// The recorder of one kind of source.
   struct Recorder {
     bool live = false;
     std::function<telemetry::SessionStatus()> status;
     std::function<void(const link::MatchEvent&)> append;
-    std::function<void()> detach;          ///< nothing reaches it any more
+    std::function<void()> detach;          ///< after this, it receives nothing more
     std::function<Result<void>()> finish;  ///< any thread, once detached
   };
   Result<Recorder> recordMatch(const QString& path);

@@ -120,7 +120,7 @@ class MainWindow : public QMainWindow {
   void nameForScreenReaders();
   void saveLayout();
   void fitScreen();
-  /// Gives panels the room that is theirs in a window of this size.
+  /// Resizes the panels in proportion to the window.
   void distributeSpace();
   void distributeSpaceLater();
   void notifyFinished(const link::MatchFrame& frame);
@@ -155,12 +155,12 @@ class MainWindow : public QMainWindow {
   Alarms* m_alarms;
   std::unique_ptr<KeyMap> m_keys;
   QByteArray m_savedLayout;
-  QSize m_firstSize;  // when it was not kept from the last time
+  QSize m_firstSize;  // if there is no saved layout
   bool m_wasShown = false;
   bool m_wasActive = false;
   bool m_notifiedFinished = false;
   std::optional<double> m_continuedAt;  // s; processes restarted with what they believed then
-  bool m_followsSize = true;            // nobody has given the panels other sizes
+  bool m_followsSize = true;            // the user has not resized the panels
   int m_neededHeight = 0;               // of the open panels below the field, px of the mock
   std::vector<QDockWidget*> m_docks;    // order of studioDocks()
 };

@@ -9,7 +9,7 @@
 
 #include <base/simd_level.h>
 
-namespace pitchboard::draws {
+namespace pitchboard::random_loops {
 
 /// What all counters of a call have in common.
 struct Key {
@@ -36,4 +36,4 @@ inline double inside(double whole) {
   return (whole + 0.5) * 0x1.0p-53;
 }
 
-}  // namespace pitchboard::draws
+}  // namespace pitchboard::random_loops

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "draw_loops.h"
+#include "random_loops.h"
 
 #include <Random123/philox.h>
 
 #include "normal_quantile.h"
 
-namespace pitchboard::draws {
+namespace pitchboard::random_loops {
 namespace {
 
 /// The upper 53 of 64 bits; conversions from signed words are what processors can do in vectors.
@@ -18,7 +18,7 @@ inline double whole(std::uint32_t upper, std::uint32_t lower) {
 
 // Instructions that every processor of the architecture has.
 namespace baseline {
-#include "draw_loops.inc"
+#include "random_loops.inc"
 }  // namespace baseline
 
 // Longer vectors. No fused multiply-add is used, so that the same operations give the same bits.
@@ -26,13 +26,13 @@ namespace baseline {
 #pragma GCC push_options
 #pragma GCC target("avx2")
 namespace avx2 {
-#include "draw_loops.inc"
+#include "random_loops.inc"
 }  // namespace avx2
 #pragma GCC pop_options
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")
 namespace avx512 {
-#include "draw_loops.inc"
+#include "random_loops.inc"
 }  // namespace avx512
 #pragma GCC pop_options
 #endif
@@ -51,4 +51,4 @@ const Loops& loops() {
   return best;
 }
 
-}  // namespace pitchboard::draws
+}  // namespace pitchboard::random_loops

@@ -83,7 +83,7 @@ ssize_t writev(int fd, const iovec* parts, int count) {
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
-class TestLiveIsSilent : public QObject {
+class TestLiveSendsNothing : public QObject {
   Q_OBJECT
 
   struct Studio : studio_rig::Studio {
@@ -171,5 +171,5 @@ class TestLiveIsSilent : public QObject {
   }
 };
 
-QTEST_MAIN(TestLiveIsSilent)
-#include "tst_live_is_silent.moc"
+QTEST_MAIN(TestLiveSendsNothing)
+#include "tst_live_sends_nothing.moc"
