@@ -2,6 +2,7 @@
 // A person referees a simulated match: buttons, keys, undo, the scoreboard, the log.
 #include <QAbstractItemModelTester>
 #include <QComboBox>
+#include <QLabel>
 #include <QMenu>
 #include <QPushButton>
 #include <QScrollArea>
@@ -202,6 +203,39 @@ class TestRefereePanel : public QObject {
         QVERIFY2(whyRefused(&desk.frame(), *step.call).isEmpty(), qPrintable(step.text));
     }
     QVERIFY(desk.errors.isEmpty());
+  }
+
+  // What is and what comes next first, both teams side by side, the log below.
+  void whatHappensNextStandsFirst() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.reach("PLAYING");
+    const auto place = [&desk](const QWidget* widget) {
+      return QRect(widget->mapTo(desk.dock.get(), QPoint()), widget->size());
+    };
+    const auto* state = desk.dock->findChild<QLabel*>("refereeState");
+    QVERIFY(state->fontMetrics().height() >= 1.5 * desk.dock->fontMetrics().height());
+    const auto offered = nextSteps(*desk.frame().refereedGame);
+    QVERIFY(offered.size() >= 2 && offered.size() <= 3);
+    const auto step = [&] {
+      return desk.dock->findChild<QPushButton*>("referee " + offered[0].text);
+    };
+    QTRY_VERIFY(step() && step()->isVisible());
+    const QRect next = place(step());
+    QVERIFY(place(state).bottom() < next.top());
+    for (const char* what : {"Goal", "Kick-off", "Timeout"}) {
+      const QRect left = place(desk.button(qPrintable(QString::fromUtf8(what) + " left")));
+      const QRect right = place(desk.button(qPrintable(QString::fromUtf8(what) + " right")));
+      QCOMPARE(left.top(), right.top());
+      QVERIFY(left.right() < right.left());
+      QVERIFY(next.bottom() < left.top());
+      // The next steps are larger than everything else.
+      QVERIFY(next.height() > left.height());
+    }
+    const QRect players[] = {place(desk.players(false)), place(desk.players(true))};
+    QCOMPARE(players[0].top(), players[1].top());
+    QVERIFY(players[0].right() < players[1].left());
+    QVERIFY(place(desk.dock->findChild<QTableView*>("refereeLog")).top() > players[0].bottom());
   }
 
   // Docked in a small window, and as high as it stands beside the field.

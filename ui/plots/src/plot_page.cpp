@@ -291,6 +291,13 @@ void PlotPage::align() {
   m_empty->setVisible(empty);
   m_scroll->setVisible(!empty);
   m_ruler->setVisible(overTime);
+  // Beneath an XY plot the clock would be taken for its axis; then it stands above all plots.
+  const bool isAbove = !panes().isEmpty() && !panes().last()->isOverTime();
+  auto* column = static_cast<QVBoxLayout*>(m_stack->layout());
+  if (isAbove != (column->indexOf(m_ruler) < column->indexOf(m_scroll))) {
+    column->removeWidget(m_ruler);
+    column->insertWidget(isAbove ? column->indexOf(m_scroll) : -1, m_ruler);
+  }
   m_aligning = false;
   placeLines();
   m_ruler->update();
