@@ -152,13 +152,13 @@ class TestLive : public QObject {
     const auto rate = [&s] {
       return s.label("statusPace").section(QLatin1Char(' '), 1).section(QLatin1Char('/'), 0, 0);
     };
-    const auto isRead = [&] { return robot.say() && rate().toDouble() > 1.0; };
+    const auto isRead = [&] { return robot.sendMessage() && rate().toDouble() > 1.0; };
     QTRY_VERIFY2(isRead(), qPrintable(s.label("statusPace")));
     Timeline* timeline = s.window.timeline();
     timeline->seek(timeline->available()->begin);
     QVERIFY(timeline->isLookingBack());
     const std::uint64_t before = s.health().messages;
-    const auto goesOn = [&] { return robot.say() && s.health().messages > before + 40; };
+    const auto goesOn = [&] { return robot.sendMessage() && s.health().messages > before + 40; };
     QTRY_VERIFY(goesOn());
     QVERIFY2(isRead(), qPrintable(s.label("statusPace")));
     QVERIFY(timeline->isLookingBack());
