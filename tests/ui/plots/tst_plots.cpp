@@ -2,6 +2,7 @@
 // The plots' dock with real drops, wheels and drags, against values computed here.
 
 #include <QMimeData>
+#include <QPainter>
 #include <QScreen>
 #include <QtTest>
 

@@ -4,6 +4,7 @@
 #include <QAbstractScrollArea>
 #include <QDockWidget>
 #include <QGraphicsView>
+#include <QLabel>
 #include <QTabBar>
 #include <QToolBar>
 #include <QToolButton>

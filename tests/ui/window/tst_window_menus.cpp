@@ -18,6 +18,7 @@
 #include <robotlink/blackboard/match_number.h>
 #include <ui/base/notice_bar.h>
 #include <ui/base/theme.h>
+#include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/timeline.h>
 #include <ui/window/main_window.h>
