@@ -20,7 +20,7 @@ namespace {
 using link::SoccerPlayer;
 using std::numbers::pi;
 
-constexpr int reminders = 9;  // cycles until a mind has looked for opponents
+constexpr int reminders = 9;  // cycles until a player has looked for opponents
 constexpr int talkCycles = 2;
 
 link::SoccerPlayerOptions soccerPlayerOptions(const Setup& setup, const Player& player) {

@@ -270,8 +270,8 @@ void PlotPage::align() {
   if (m_aligning) return;
   m_aligning = true;
   bool overTime = false;
-  // A new width can change the numbers, and with them the wish: what stands there in the end does
-  // not depend on what stood there before.
+  // A new width can change the numbers, and with them the width that they need. The result does not
+  // depend on the width before.
   constexpr int mostPasses = 3;
   for (int pass = 0; pass < mostPasses; ++pass) {
     int left = scaled(this, plainLeft);
