@@ -6,7 +6,7 @@ Of README, ARCHITECTURE, CONVENTIONS and docs/ (or the given files) it checks
   - links to files of this repository, and to headings (#...);
   - paths and file names in `code`: `robotlink/match`, `docs/live.md`, `resources/**/*.json`, `skills.h`;
   - options in `code` and in blocks of commands: a program or a script of ours has to know `--debug-port`;
-  - without files given, that every command of pitchboard-cli is shown by one of them.
+  - without files given, that every command of pitchboard-cli is shown by one of them, and that every page has a picture.
 Prints "file:line: what" for each that is not, and ends with 1. Example: scripts/check_docs.py docs/live.md
 """
 import re
@@ -150,6 +150,12 @@ def commands_without_document():
                 yield f"{name}: no document shows `pitchboard-cli {command}`"
 
 
+def pages_without_picture():
+    for page in sorted(ROOT.glob("docs/*.md")):
+        if "](images/" not in page.read_text(encoding="utf-8"):
+            yield f"{page.relative_to(ROOT)}: no picture (scripts/docs_pictures.sh)"
+
+
 def main():
     if "--help" in sys.argv or "-h" in sys.argv:
         print(__doc__)
@@ -159,7 +165,7 @@ def main():
     options = own_options()
     problems = [problem for document in documents for problem in check(document, options)]
     if not given:
-        problems += commands_without_document()
+        problems += [*commands_without_document(), *pages_without_picture()]
     print("\n".join(problems) if problems else f"{len(documents)} documents name nothing that is not there")
     return 1 if problems else 0
 

@@ -260,6 +260,11 @@ tutorial-lost-ball() {
   shoot tutorial-lost-ball
 }
 cli() { terminal cli "pitchboard-cli simulate --scenario match-3v3 --duration 60"; }
+building() { terminal building "$root/build/release/tests/tests_simcore tst_referee_parameters"; }
+performance() {
+  ninja -C "$root/build/release" bench_match >/dev/null
+  terminal performance "$root/build/release/benchmarks/bench_match 2>/dev/null"
+}
 conformance() { terminal conformance "pitchboard-cli conformance $root/tests/data/traces/i_action_08_B?.json | sed 's,.*/,,'"; }
 file-formats() {
   recording
@@ -304,7 +309,7 @@ END
 }
 
 [ $# -gt 0 ] || set -- studio-dark studio-light scenario referee drawings blackboard behaviours agent rollouts processes live plots replay experiments \
-  advisor explore calibrate learning tutorial-compare tutorial-failing-test tutorial-lost-ball cli conformance file-formats worlds
+  advisor explore calibrate learning tutorial-compare tutorial-failing-test tutorial-lost-ball building cli conformance file-formats performance worlds
 for name in "$@"; do
   "$name"
   convert "$name.png" -colors 200 "png8:$name.8.png"

@@ -3,11 +3,13 @@
 // played in rollouts, and in the match itself, where the robot is told it for three seconds; eight
 // seconds later goals count, or what the position is worth. Prints the table of docs/advisor.md:
 // the gain over what the behaviour does anyway. `advice_gains [situations] [runs] [rollouts] [seed]
-// [1: only what the advisor suggests]`.
+// [1: only what the advisor suggests; 2: kicks and dribbles in every direction, in the match
+// alone]`.
 
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include "../support/rollout_agreement.h"
@@ -103,11 +105,36 @@ double playOn(SimulatedMatch& match, const link::Moment& moment, const Thinking&
   return valueNow(match, who);
 }
 
-const char* wordsOf(AdviceKind kind) {
-  constexpr std::array words{"as usual",       "strong kick",    "weak kick or pass", "dribble",
+const char* nameOf(AdviceKind kind) {
+  constexpr std::array names{"as usual",       "strong kick",    "weak kick or pass", "dribble",
                              "go to the ball", "leave the ball", "stand elsewhere"};
-  return words[static_cast<std::size_t>(kind)];
+  return names[static_cast<std::size_t>(kind)];
 }
+
+/// Mean gains in the even and in the odd continuations, which have different random numbers.
+struct Halves {
+  double first = 0.0, second = 0.0;
+};
+
+Halves gainIn(const std::vector<double>& values, const std::vector<double>& usual) {
+  Halves gain;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    (i % 2 == 0 ? gain.first : gain.second) +=
+        2.0 * (values[i] - usual[i]) / static_cast<double>(values.size());
+  }
+  return gain;
+}
+
+/// The best as one half of the continuations shows; the other half tells what it is worth.
+struct Choice {
+  Halves gain;  // of the behaviour's own choice
+  AdviceKind kind = AdviceKind::None;
+  void take(const Halves& other, AdviceKind its) {
+    if (other.first <= gain.first) return;
+    gain = other;
+    kind = its;
+  }
+};
 
 class Comparison {
  public:
@@ -133,12 +160,7 @@ class Comparison {
       return values;
     };
     const auto whole = [&](std::size_t candidate) {
-      std::vector<double> values;
-      for (int j = 0; j < m_runs; ++j) {
-        moment.state.settings.seed = seed + static_cast<std::uint64_t>(j);
-        values.push_back(playOn(match, moment, who, candidates[candidate]));
-      }
-      return values;
+      return continued(match, moment, who, candidates[candidate], seed);
     };
     const auto meanOf = [](const std::vector<double>& values) {
       double sum = 0.0;
@@ -151,18 +173,48 @@ class Comparison {
     const std::size_t best = result.best;
     ++m_questions;
     if (best == 0 && m_onlySuggested) return;
-    const double usualFast = meanOf(fast(0)), usualWhole = meanOf(whole(0));
+    const double usualFast = meanOf(fast(0));
+    const std::vector<double> usual = whole(0);
+    const double usualWhole = meanOf(usual);
+    Choice possible;
     for (std::size_t i = 1; i < candidates.size(); ++i) {
       if (m_onlySuggested && i != best) continue;
-      const double gain = meanOf(fast(i)) - usualFast, real = meanOf(whole(i)) - usualWhole;
+      const std::vector<double> played = whole(i);
+      const double gain = meanOf(fast(i)) - usualFast, real = meanOf(played) - usualWhole;
+      possible.take(gainIn(played, usual), candidates[i].kind);
       Row* const suggested = i == best ? &m_suggested : nullptr;
       Row* const surely = suggested && result.gainLow > 0.0 ? &m_surely : nullptr;
-      for (Row* row : {&m_rows[wordsOf(candidates[i].kind)], suggested, surely}) {
+      for (Row* row : {&m_rows[nameOf(candidates[i].kind)], suggested, surely}) {
         if (row == nullptr) continue;
         row->rollouts.add(gain);
         row->matches.add(real);
       }
     }
+    add(possible);
+  }
+
+  /// What somebody at the ball could gain who knew how the match goes on.
+  void compareDirections(SimulatedMatch& match, link::Moment moment, const Thinking& who,
+                         const Point& ball, std::uint64_t seed) {
+    const std::vector<double> usual = continued(match, moment, who, {}, seed);
+    Choice best;
+    for (int eighth = -3; eighth <= 4; ++eighth) {
+      const double yaw = eighth * std::numbers::pi / 4.0;
+      const auto tryOne = [&](AdviceKind kind, double metres) {
+        const Advice advice{
+            kind, {{ball.x + metres * std::cos(yaw), ball.y + metres * std::sin(yaw)}, yaw}};
+        const Halves gain = gainIn(continued(match, moment, who, advice, seed), usual);
+        Row& row = m_rows[std::string(nameOf(kind)) + " to " + std::to_string(45 * eighth) + "°"];
+        row.rollouts.add(gain.first);
+        row.matches.add(gain.second);
+        best.take(gain, kind);
+      };
+      tryOne(AdviceKind::StrongKick, 3.0);
+      tryOne(AdviceKind::WeakKick, 1.2);
+      if (std::abs(eighth) <= 2) tryOne(AdviceKind::Dribble, 2.0);
+    }
+    ++m_questions;
+    add(best);
   }
 
   void print() const {
@@ -176,19 +228,37 @@ class Comparison {
     for (const auto& [name, row] : m_rows) print(name.c_str(), row);
     print("what the advisor suggests", m_suggested);
     print("of these, with a gain above 0 at 95 %", m_surely);
+    print("the best in half of the continuations: in these, in the others", m_possible);
+    for (const auto& [name, times] : m_chosen) std::printf("of these, %s: %d\n", name, times);
     std::printf("%d questions\n", m_questions);
   }
 
  private:
+  std::vector<double> continued(SimulatedMatch& match, link::Moment& moment, const Thinking& who,
+                                const Advice& advice, std::uint64_t seed) const {
+    std::vector<double> values;
+    for (int i = 0; i < m_runs; ++i) {
+      moment.state.settings.seed = seed + static_cast<std::uint64_t>(i);
+      values.push_back(playOn(match, moment, who, advice));
+    }
+    return values;
+  }
+  void add(const Choice& choice) {
+    m_possible.rollouts.add(choice.gain.first);
+    m_possible.matches.add(choice.gain.second);
+    ++m_chosen[nameOf(choice.kind)];
+  }
+
   int m_runs, m_many;
   bool m_onlySuggested;
   int m_questions = 0;
   std::map<std::string, Row> m_rows;
-  Row m_suggested, m_surely;
+  Row m_suggested, m_surely, m_possible;
+  std::map<const char*, int> m_chosen;
 };
 
 /// Asks the robots of one match; returns how often.
-int askMatch(std::uint64_t seed, int most, Comparison& comparison) {
+int askMatch(std::uint64_t seed, int most, bool everyDirection, Comparison& comparison) {
   link::Scenario scenario = link::loadScenario("match").value();
   scenario.settings.seed = seed;
   auto match = SimulatedMatch::create(scenario, {}).value();
@@ -219,12 +289,16 @@ int askMatch(std::uint64_t seed, int most, Comparison& comparison) {
                                   who.options.behaviour == "keeper", who.options.parameters};
       const Question question = questionOf(situation, thinker);
       const Candidates candidates = candidatesFor(question, situation, thinker, {});
-      if (candidates.size() < 2) continue;
+      if (candidates.size() < 2 || (everyDirection && question != Question::AtBall)) continue;
       who.asked = now;
       ++asked;
+      const std::uint64_t first = 1000 * (1000 * seed + static_cast<std::uint64_t>(asked));
+      if (everyDirection) {
+        comparison.compareDirections(other, situationOf(match).moment, who, *situation.ball, first);
+        continue;
+      }
       comparison.compare(other, situationOf(match).moment, who, question,
-                         beliefOf(situation, who.opponents, now, who.options), candidates,
-                         1000 * (1000 * seed + static_cast<std::uint64_t>(asked)));
+                         beliefOf(situation, who.opponents, now, who.options), candidates, first);
     }
   }
   return asked;
@@ -235,11 +309,11 @@ int askMatch(std::uint64_t seed, int most, Comparison& comparison) {
 
 int main(int argc, char** argv) {
   const auto number = [&](int i, int usual) { return argc > i ? std::atoi(argv[i]) : usual; };
-  pitchboard::tests::Comparison comparison(number(2, 16), number(3, 36), number(5, 0) != 0);
+  pitchboard::tests::Comparison comparison(number(2, 16), number(3, 36), number(5, 0) == 1);
   int left = number(1, 300);
   for (auto seed = static_cast<std::uint64_t>(number(4, 1000)); left > 0; ++seed) {
-    left -=
-        pitchboard::tests::askMatch(seed, std::min(left, pitchboard::tests::ofMatch), comparison);
+    left -= pitchboard::tests::askMatch(seed, std::min(left, pitchboard::tests::ofMatch),
+                                        number(5, 0) == 2, comparison);
   }
   comparison.print();
 }

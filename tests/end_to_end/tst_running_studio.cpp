@@ -22,10 +22,10 @@ class TestRunningStudio : public QObject {
   Q_OBJECT
 
   /// Programs that share a folder for sockets, each started with the arguments given and no others.
-  struct Desk {
+  struct Desktop {
     QTemporaryDir folder;
     QString runtime = folder.filePath(QStringLiteral("runtime"));
-    Desk() {
+    Desktop() {
       QDir().mkdir(runtime);
       QFile::setPermissions(runtime, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
     }
@@ -56,9 +56,9 @@ class TestRunningStudio : public QObject {
     return QString::fromUtf8(studio.readLine());
   }
   /// Handed over: the program ends, and this studio shows the file.
-  static void verifyShows(const Desk& desk, Studio& studio, const QString& file) {
-    Studio opener(desk.folder);
-    desk.open(opener, file);
+  static void verifyShows(const Desktop& desktop, Studio& studio, const QString& file) {
+    Studio opener(desktop.folder);
+    desktop.open(opener, file);
     QVERIFY(opener.waitForFinished(longWait));
     QCOMPARE(opener.exitStatus(), QProcess::NormalExit);
     QCOMPARE(opener.exitCode(), 0);
@@ -67,21 +67,21 @@ class TestRunningStudio : public QObject {
 
  private slots:
   void aFileGoesToTheStudioThatRuns() {
-    const Desk desk;
-    Studio studio(desk.folder);
-    desk.start(studio, studio.with({QStringLiteral("--cognition"), QStringLiteral("inline")}));
-    QTRY_COMPARE_WITH_TIMEOUT(desk.sockets().size(), 1, longWait);
+    const Desktop desktop;
+    Studio studio(desktop.folder);
+    desktop.start(studio, studio.with({QStringLiteral("--cognition"), QStringLiteral("inline")}));
+    QTRY_COMPARE_WITH_TIMEOUT(desktop.sockets().size(), 1, longWait);
     studio.write("minimize\n");
     QTRY_VERIFY(seen(studio).startsWith(QStringLiteral("minimized")));
-    verifyShows(desk, studio, first);
-    verifyShows(desk, studio, second);
+    verifyShows(desktop, studio, first);
+    verifyShows(desktop, studio, second);
     // None else may speak to it.
     const auto others = QFile::ReadGroup | QFile::WriteGroup | QFile::ReadOther | QFile::WriteOther;
-    QCOMPARE(desk.sockets().first().permissions() & others, QFile::Permissions());
+    QCOMPARE(desktop.sockets().first().permissions() & others, QFile::Permissions());
     studio.terminate();
     QVERIFY(studio.waitForFinished(longWait));
     QCOMPARE(studio.exitCode(), 0);
-    QVERIFY(desk.sockets().isEmpty());
+    QVERIFY(desktop.sockets().isEmpty());
   }
 
   void aStudioOfItsOwnKeepsItsFile_data() {
@@ -92,36 +92,36 @@ class TestRunningStudio : public QObject {
   }
   void aStudioOfItsOwnKeepsItsFile() {
     QFETCH(QStringList, more);
-    const Desk desk;
-    Studio studio(desk.folder), other(desk.folder);
-    desk.open(studio, first);
-    QTRY_COMPARE_WITH_TIMEOUT(desk.sockets().size(), 1, longWait);
-    desk.open(other, second, more);
+    const Desktop desktop;
+    Studio studio(desktop.folder), other(desktop.folder);
+    desktop.open(studio, first);
+    QTRY_COMPARE_WITH_TIMEOUT(desktop.sockets().size(), 1, longWait);
+    desktop.open(other, second, more);
     QTRY_VERIFY_WITH_TIMEOUT(seen(other).startsWith(second), longWait);
     QVERIFY(seen(studio).startsWith(first));
   }
 
   void otherSettingsAreAnotherStudio() {
-    const Desk desk;
-    Studio studio(desk.folder), other(desk.folder);
-    desk.open(studio, first);
-    QTRY_COMPARE_WITH_TIMEOUT(desk.sockets().size(), 1, longWait);
-    desk.start(other, {QStringLiteral("--settings"), desk.settings(QStringLiteral("t.ini")),
-                       sessions + second});
+    const Desktop desktop;
+    Studio studio(desktop.folder), other(desktop.folder);
+    desktop.open(studio, first);
+    QTRY_COMPARE_WITH_TIMEOUT(desktop.sockets().size(), 1, longWait);
+    desktop.start(other, {QStringLiteral("--settings"), desktop.settings(QStringLiteral("t.ini")),
+                          sessions + second});
     QTRY_VERIFY_WITH_TIMEOUT(seen(other).startsWith(second), longWait);
     QVERIFY(seen(studio).startsWith(first));
-    QCOMPARE(desk.sockets().size(), 2);
+    QCOMPARE(desktop.sockets().size(), 2);
   }
 
   void aPictureIsMadeByItsOwnProgram() {
-    const Desk desk;
-    Studio studio(desk.folder), picture(desk.folder);
-    desk.open(studio, first);
-    QTRY_COMPARE_WITH_TIMEOUT(desk.sockets().size(), 1, longWait);
-    const QString file = desk.folder.filePath(QStringLiteral("shot.png"));
-    desk.open(picture, second,
-              {QStringLiteral("--screenshot-to"), file, QStringLiteral("--after"),
-               QStringLiteral("0.1")});
+    const Desktop desktop;
+    Studio studio(desktop.folder), picture(desktop.folder);
+    desktop.open(studio, first);
+    QTRY_COMPARE_WITH_TIMEOUT(desktop.sockets().size(), 1, longWait);
+    const QString file = desktop.folder.filePath(QStringLiteral("shot.png"));
+    desktop.open(picture, second,
+                 {QStringLiteral("--screenshot-to"), file, QStringLiteral("--after"),
+                  QStringLiteral("0.1")});
     QVERIFY(picture.waitForFinished(longWait));
     QCOMPARE(picture.exitCode(), 0);
     QVERIFY(QFile::exists(file));
@@ -129,19 +129,19 @@ class TestRunningStudio : public QObject {
   }
 
   void theSocketOfAKilledStudioIsNoObstacle() {
-    const Desk desk;
+    const Desktop desktop;
     {
-      Studio killed(desk.folder);
-      desk.open(killed, first);
-      QTRY_COMPARE_WITH_TIMEOUT(desk.sockets().size(), 1, longWait);
+      Studio killed(desktop.folder);
+      desktop.open(killed, first);
+      QTRY_COMPARE_WITH_TIMEOUT(desktop.sockets().size(), 1, longWait);
       killed.kill();
       QVERIFY(killed.waitForFinished(longWait));
     }
-    QCOMPARE(desk.sockets().size(), 1);
-    Studio studio(desk.folder);
-    desk.open(studio, first);
+    QCOMPARE(desktop.sockets().size(), 1);
+    Studio studio(desktop.folder);
+    desktop.open(studio, first);
     QTRY_VERIFY_WITH_TIMEOUT(seen(studio).startsWith(first), longWait);
-    verifyShows(desk, studio, second);
+    verifyShows(desktop, studio, second);
   }
 
   void anotherStudioTakesThePlaceOfOneThatEnds_data() {
@@ -151,20 +151,20 @@ class TestRunningStudio : public QObject {
   }
   void anotherStudioTakesThePlaceOfOneThatEnds() {
     QFETCH(int, signal);
-    const Desk desk;
-    Studio studio(desk.folder), other(desk.folder);
-    desk.open(studio, first);
-    QTRY_COMPARE_WITH_TIMEOUT(desk.sockets().size(), 1, longWait);
-    const QDateTime made = desk.sockets().first().lastModified();
+    const Desktop desktop;
+    Studio studio(desktop.folder), other(desktop.folder);
+    desktop.open(studio, first);
+    QTRY_COMPARE_WITH_TIMEOUT(desktop.sockets().size(), 1, longWait);
+    const QDateTime made = desktop.sockets().first().lastModified();
     // Without a file: a studio as always.
-    desk.start(other, other.with({QStringLiteral("--cognition"), QStringLiteral("inline")}));
+    desktop.start(other, other.with({QStringLiteral("--cognition"), QStringLiteral("inline")}));
     QTRY_VERIFY_WITH_TIMEOUT(seen(other).startsWith(QStringLiteral("Pitchboard")), longWait);
-    QCOMPARE(desk.sockets().size(), 1);
+    QCOMPARE(desktop.sockets().size(), 1);
     ::kill(static_cast<pid_t>(studio.processId()), signal);
     QVERIFY(studio.waitForFinished(longWait));
     QTRY_VERIFY_WITH_TIMEOUT(
-        desk.sockets().size() == 1 && desk.sockets().first().lastModified() > made, longWait);
-    verifyShows(desk, other, second);
+        desktop.sockets().size() == 1 && desktop.sockets().first().lastModified() > made, longWait);
+    verifyShows(desktop, other, second);
   }
 };
 

@@ -217,11 +217,11 @@ class TestSeparateMatch : public QObject {
     for (int i = 0; i < tickRate; ++i) match.tick();
     std::vector<MatchEvent> events;
     match.takeEvents(events);
-    const auto silent = std::find_if(events.begin(), events.end(), [](const MatchEvent& event) {
-      return event.kind == MatchEventKind::ProcessNotResponding;
-    });
-    QVERIFY(silent != events.end());
-    QCOMPARE(sentenceOf(*silent),
+    const auto notResponding = std::find_if(
+        events.begin(), events.end(),
+        [](const MatchEvent& event) { return event.kind == MatchEventKind::ProcessNotResponding; });
+    QVERIFY(notResponding != events.end());
+    QCOMPARE(sentenceOf(*notResponding),
              std::string("B1 decision stopped responding: no cycle done for 0.3 s"));
     ::kill(stopped, SIGCONT);
     const auto back = [&] {

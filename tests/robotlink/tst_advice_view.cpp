@@ -85,7 +85,7 @@ class TestAdviceView : public QObject {
   void matchesAndRecordingsShowTheSame() {
     Words words = thinking();
     words["ADVISOR_HEAT01"] = 0xF;
-    const auto told = read(words);
+    const auto direct = read(words);
     MatchOptions options;
     options.cognition = Cognition::Inline;
     const auto runner = MatchRunner::start(loadScenario("one-robot").value(), options, true);
@@ -121,14 +121,14 @@ class TestAdviceView : public QObject {
     QCOMPARE(frame.robots.size(), std::size_t(1));
     for (const auto& advice : {simulated, frame.robots[0].advice}) {
       QVERIFY(advice && advice->isThinking);
-      QCOMPARE(advice->choice, told->choice);
-      QCOMPARE(advice->candidates.size(), told->candidates.size());
-      for (std::size_t i = 0; i < told->candidates.size(); ++i) {
-        QCOMPARE(advice->candidates[i].kind, told->candidates[i].kind);
-        QCOMPARE(advice->candidates[i].isChosen, told->candidates[i].isChosen);
-        QVERIFY(std::abs(advice->candidates[i].value - told->candidates[i].value) < 1e-6);
+      QCOMPARE(advice->choice, direct->choice);
+      QCOMPARE(advice->candidates.size(), direct->candidates.size());
+      for (std::size_t i = 0; i < direct->candidates.size(); ++i) {
+        QCOMPARE(advice->candidates[i].kind, direct->candidates[i].kind);
+        QCOMPARE(advice->candidates[i].isChosen, direct->candidates[i].isChosen);
+        QVERIFY(std::abs(advice->candidates[i].value - direct->candidates[i].value) < 1e-6);
       }
-      QVERIFY(advice->heat && *advice->heat == *told->heat);
+      QVERIFY(advice->heat && *advice->heat == *direct->heat);
     }
   }
 

@@ -102,7 +102,7 @@ struct State {
     board.write(v.visionBallDist, static_cast<float>(100.0 * away));
     board.write(v.visionPanDeg, static_cast<float>(bearing * 180.0 / pi));
   }
-  /// What a team-mate has told.
+  /// What a team-mate has reported.
   void tell(const Point& place, Intention intention) {
     const auto cm = sim::published_frame::localizationFromStudio(field, {place, 0.0});
     const auto write = [this](const char* name, int value) {
@@ -333,27 +333,27 @@ class TestAdvisor : public QObject {
   }
 
   void freshAdviceIsTaken() {
-    State mind;
-    mind.put({{2.0, 0.0}, 0.0});
-    mind.see(0.30, 0.2);
-    QVERIFY(mind.kicks(30));
-    State told;
-    told.put({{2.0, 0.0}, 0.0});
-    told.see(0.30, 0.2);
+    State player;
+    player.put({{2.0, 0.0}, 0.0});
+    player.see(0.30, 0.2);
+    QVERIFY(player.kicks(30));
+    State advised;
+    advised.put({{2.0, 0.0}, 0.0});
+    advised.see(0.30, 0.2);
     for (int i = 0; i < 3; ++i) {
-      told.advise(kick(AdviceKind::Dribble, {4.5, 0.0}));
-      QVERIFY(!told.kicks(10));
+      advised.advise(kick(AdviceKind::Dribble, {4.5, 0.0}));
+      QVERIFY(!advised.kicks(10));
     }
-    QVERIFY(told.kicks(40));  // nobody says it again
+    QVERIFY(advised.kicks(40));  // nobody says it again
   }
 
   void adviceSendsARobotToTheBallOrToAPlace() {
     const auto mindWith = [](const Point& mate, Intention intention) {
-      State mind;
-      mind.see(1.0, 0.0);
-      mind.tell(mate, intention);
-      mind.actions(5);
-      return mind;
+      State player;
+      player.see(1.0, 0.0);
+      player.tell(mate, intention);
+      player.actions(5);
+      return player;
     };
     const Advice leave = kick(AdviceKind::LeaveBall, {1.0, 0.0});
     const Advice go = kick(AdviceKind::GoToBall, {1.0, 0.0});
@@ -400,39 +400,39 @@ class TestAdvisor : public QObject {
     QFETCH(int, choice);
     QFETCH(float, x);
     QFETCH(bool, renewed);
-    State usual, told;
-    for (State* mind : {&usual, &told}) {
-      mind->put({{-1.0, 0.5}, 0.1});
-      mind->see(0.30, 0.1);
+    State usual, advised;
+    for (State* player : {&usual, &advised}) {
+      player->put({{-1.0, 0.5}, 0.1});
+      player->see(0.30, 0.1);
     }
     for (int i = 0; i < 60; ++i) {
       if (i == 0 || renewed) {
-        told.board.write(told.variables.choice, choice);
-        told.board.write(told.variables.x, x);
-        told.board.write(told.variables.y, 300.0F);
-        told.board.write(told.variables.stamp, i == 0 ? 77 : 77 + i);
+        advised.board.write(advised.variables.choice, choice);
+        advised.board.write(advised.variables.x, x);
+        advised.board.write(advised.variables.y, 300.0F);
+        advised.board.write(advised.variables.stamp, i == 0 ? 77 : 77 + i);
       }
-      QCOMPARE(told.actions(1), usual.actions(1));
+      QCOMPARE(advised.actions(1), usual.actions(1));
     }
   }
 
   /// When no match waits for it, it plays what its share of a core allows, and also comes to an
   /// end.
   void itRunsFreely() {
-    State mind;
-    mind.put({{2.5, 0.0}, 0.0});
-    mind.see(0.4, 0.0);
+    State player;
+    player.put({{2.5, 0.0}, 0.0});
+    player.see(0.4, 0.0);
     ProcessOptions options = kidSize();
     options.advisor.share = 0.25;
     const auto advisor = findProcess("advisor")->make(options).value();
     for (int i = 0; i < 30; ++i) {
       // It stands where it is, and stays at the ball.
-      mind.board.write(*words().intVar("DECISION_STATE"), static_cast<int>(Intention::Ball));
-      advisor->step(mind.board, {0.1 * i});
+      player.board.write(*words().intVar("DECISION_STATE"), static_cast<int>(Intention::Ball));
+      advisor->step(player.board, {0.1 * i});
     }
-    QVERIFY(mind.word("ADVISOR_STAMP") >= 2);
-    QVERIFY(mind.word("ADVISOR_ROLLOUTS") >= 12);
-    QVERIFY(mind.word("ADVISOR_CANDIDATES") >= 3);
+    QVERIFY(player.word("ADVISOR_STAMP") >= 2);
+    QVERIFY(player.word("ADVISOR_ROLLOUTS") >= 12);
+    QVERIFY(player.word("ADVISOR_CANDIDATES") >= 3);
   }
 
   /// While a match is played, and back again.

@@ -234,14 +234,14 @@ class TestCalibrate : public QObject {
       store.append(mate, {0.1 * i, {}, row});
     }
     const Scenario scenario = drill(60.0);
-    const auto told = readCalibrationLog(store, scenario.settings.field, "two", "B1");
-    QVERIFY2(told.has_value(), told ? "" : told.error().text().c_str());
+    const auto withAgreement = readCalibrationLog(store, scenario.settings.field, "two", "B1");
+    QVERIFY2(withAgreement.has_value(), withAgreement ? "" : withAgreement.error().text().c_str());
     // The first value may be as old as the blackboard.
-    QCOMPARE(told->sightings.size(), std::size_t(2));
-    QVERIFY(std::abs(told->sightings[0].place.x - (0.9 - 2.01)) < 1e-9);
-    QVERIFY(std::abs(told->sightings[0].place.y - 1.2) < 1e-9);
-    QVERIFY(std::abs(told->sightings[1].place.x - 0.9) < 1e-9);
-    QVERIFY(std::abs(told->sightings[1].place.y - (1.2 + 2.02)) < 1e-9);
+    QCOMPARE(withAgreement->sightings.size(), std::size_t(2));
+    QVERIFY(std::abs(withAgreement->sightings[0].place.x - (0.9 - 2.01)) < 1e-9);
+    QVERIFY(std::abs(withAgreement->sightings[0].place.y - 1.2) < 1e-9);
+    QVERIFY(std::abs(withAgreement->sightings[1].place.x - 0.9) < 1e-9);
+    QVERIFY(std::abs(withAgreement->sightings[1].place.y - (1.2 + 2.02)) < 1e-9);
 
     // A robot that sees no corners and does not know where it is any more, but is seen.
     CalibrationLog log = logOf(scenario);

@@ -56,9 +56,9 @@ void play(SimulatedMatch& match, double seconds) {
 }
 
 /// Packets by version, since the last time.
-std::map<int, int> receivedBy(const TestSocket& ear) {
+std::map<int, int> receivedBy(const TestSocket& socket) {
   std::map<int, int> versions;
-  for (std::string text = ear.take(); !text.empty(); text = ear.take()) {
+  for (std::string text = socket.take(); !text.empty(); text = socket.take()) {
     const auto packet = telemetry::decodeReferee(text);
     if (!packet) qFatal("%s", packet.error().text().c_str());
     ++versions[std::get<telemetry::RefereeState>(*packet).version];
@@ -101,15 +101,15 @@ class TestMatchPackets : public QObject {
   void sentTwiceASecond() {
     QFETCH(int, version);
     QFETCH(int, size);
-    const TestSocket ear(loopbackBroadcast);
-    QVERIFY(ear.good());
-    SimulatedMatch match = sending(version, size, ear.port());
-    (void)receivedBy(ear);  // what was sent before the first tick
+    const TestSocket socket(loopbackBroadcast);
+    QVERIFY(socket.good());
+    SimulatedMatch match = sending(version, size, socket.port());
+    (void)receivedBy(socket);  // what was sent before the first tick
     play(match, 10.0);
     std::map<int, int> wanted{{version, 20}};
     // The controllers of 2014 to 2016 send one of version 7 behind each of theirs.
     if (version == 8 || version == 9) wanted[7] = 20;
-    std::map<int, int> received = receivedBy(ear);
+    std::map<int, int> received = receivedBy(socket);
     for (const auto& [which, count] : wanted) {
       QVERIFY2(std::abs(received[which] - count) <= 1,
                qPrintable(QString::number(received[which])));
@@ -123,16 +123,16 @@ class TestMatchPackets : public QObject {
     QVERIFY(
         match.simulation().call({.kind = sim::CallKind::State, .state = sim::PlayState::Playing}));
     play(match, 20.0);
-    (void)receivedBy(ear);
+    (void)receivedBy(socket);
     QVERIFY(match.simulation().call({.kind = sim::CallKind::Stop}));
     match.tick();
-    QVERIFY(receivedBy(ear)[version] >= 1);
+    QVERIFY(receivedBy(socket)[version] >= 1);
     play(match, 1.1);
-    received = receivedBy(ear);
+    received = receivedBy(socket);
     QVERIFY2(received[version] >= 5 && received[version] <= 8,
              qPrintable(QString::number(received[version])));
     play(match, 5.0);
-    QVERIFY(std::abs(receivedBy(ear)[version] - 10) <= 1);
+    QVERIFY(std::abs(receivedBy(socket)[version] - 10) <= 1);
   }
 
   void teamsOfAnyColourNumberAndShirt_data() {

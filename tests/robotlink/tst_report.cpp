@@ -127,6 +127,7 @@ class TestReport : public QObject {
         std::chrono::sys_days(std::chrono::year{2026} / 7 / 4) + std::chrono::hours(12);
     content.session.program = "pitchboard";
     content.statistics = m_statistics;
+    content.statistics.robots.front().ownName = "Ana <i>";
     const auto event = [](MatchEventKind kind, double time, const char* detail = "") {
       MatchEvent made;
       made.kind = kind;
@@ -157,6 +158,7 @@ class TestReport : public QObject {
     for (const auto& robot : m_statistics.robots) {
       QVERIFY(html.contains('>' + QString::fromStdString(robot.name) + "</span>"));
     }
+    QCOMPARE(html.count("</span> Ana &lt;i&gt;"), 2);  // in each of both tables
     QTemporaryDir folder;
     const std::string path = folder.filePath("report.html").toStdString();
     QVERIFY(writeReport(path, content));

@@ -172,8 +172,8 @@ class TestRuntimeProfile : public QObject {
     QVERIFY(!runtimeChoiceFromText("published-tree:folder"));
     // Its values would belong to nothing, and its text would be another choice.
     for (const char* text : {":folder=/home/a:b", ":", "program=", "program=,folder=/home/robot"}) {
-      const auto nobody = runtimeChoiceFromText(text);
-      QVERIFY2(!nobody && nobody.error().message.find("neither") != std::string::npos, text);
+      const auto noTeam = runtimeChoiceFromText(text);
+      QVERIFY2(!noTeam && noTeam.error().message.find("neither") != std::string::npos, text);
     }
     // Found by fuzz_rules: it was accepted, and did not read back from its own text.
     const QByteArray odd = QByteArray::fromBase64("OiAiAG4Aez3ZOnBhY2tldF9zemUiqP1/AAB0bAo=");

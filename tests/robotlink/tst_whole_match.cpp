@@ -208,17 +208,17 @@ class TestWholeMatch : public QObject {
 
   void itsPacketsArriveOnTheMatchsPort() {
     constexpr std::uint32_t loopbackBroadcast = 0x7fffffff;  // 127.255.255.255
-    const TestSocket ear(loopbackBroadcast);
-    QVERIFY(ear.good());
+    const TestSocket socket(loopbackBroadcast);
+    QVERIFY(socket.good());
     MatchOptions options;
     options.process.particles = 200;
-    options.process.refereePort = ear.port();
+    options.process.refereePort = socket.port();
     options.sendReferee = true;
     auto match = SimulatedMatch::create(shortMatch("humanoid-2014"), options).value();
     for (int i = 0; i < 60 * 12; ++i) match.tick();
     std::map<int, int> versions;
     std::optional<telemetry::RefereeState> last;
-    for (std::string text = ear.take(); !text.empty(); text = ear.take()) {
+    for (std::string text = socket.take(); !text.empty(); text = socket.take()) {
       const auto packet = telemetry::decodeReferee(text);
       QVERIFY(packet);
       const auto& state = std::get<telemetry::RefereeState>(*packet);

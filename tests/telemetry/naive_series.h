@@ -33,10 +33,10 @@ class NaiveSeries {
 
   double value(std::uint32_t column, const NaiveRow& row) const {
     const ColumnInfo& described = info.columns[column];
-    const auto flag = std::ranges::find(info.columns, described.lostBy, &ColumnInfo::name);
-    const bool lost =
-        !described.lostBy.empty() &&
-        word(static_cast<std::uint32_t>(flag - info.columns.begin()), row) == described.lostWhen;
+    const bool lost = std::ranges::any_of(described.lost, [&](const LostWhen& when) {
+      const auto flag = std::ranges::find(info.columns, when.column, &ColumnInfo::name);
+      return word(static_cast<std::uint32_t>(flag - info.columns.begin()), row) == when.value;
+    });
     return lost ? std::numeric_limits<double>::quiet_NaN() : word(column, row);
   }
 

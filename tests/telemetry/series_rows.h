@@ -26,13 +26,11 @@ inline GroupInfo group(const std::string& name = "B1") {
   for (const char* column : {"F_CONSTANT", "F_RARE", "F_NOISE", "F_HOLES"}) {
     info.columns.push_back({column, ColumnType::Float32, "cm", "Floats", ColumnKind::Number, {}});
   }
-  // Not seen while another column, or the column itself, says so.
+  // Not seen while one of two other columns, or the column itself, says so.
   info.columns.push_back({"F_SEEN", ColumnType::Float32, "cm", "Floats", ColumnKind::Number, {}});
-  info.columns.back().lostBy = "RARE";
-  info.columns.back().lostWhen = 1;
+  info.columns.back().lost = {{"RARE", 1}, {"F_RARE", -1}};
   info.columns.push_back({"F_SELF", ColumnType::Float32, "cm", "Floats", ColumnKind::Number, {}});
-  info.columns.back().lostBy = "F_SELF";
-  info.columns.back().lostWhen = -1;
+  info.columns.back().lost = {{"F_SELF", -1}};
   for (const char* column : {"D_NOISE", "D_HOLES", "D_NAN"}) {
     info.columns.push_back({column, ColumnType::Float64, "m", "Doubles", ColumnKind::Number, {}});
   }

@@ -31,8 +31,7 @@ inline GroupInfo robotGroup(const std::string& name, int number) {
             ColumnKind::Number,
             {},
             0.0,
-            "VISION_WORKING",
-            2.0},
+            {{"VISION_WORKING", 2.0}, {"VISION_BALL_DIST", 0.5}}},
            {"TRUTH_X", ColumnType::Float64, "m", "Truth", ColumnKind::Number, {}},
            {"TRUTH_YAW", ColumnType::Float64, "°", "Truth", ColumnKind::Number, {}}},
           {{"robot", std::to_string(number)}, {"team", "blue"}, {"ünïcode", "ä\n\"b\""}}};

@@ -232,6 +232,7 @@ class TestSeriesStore : public QObject {
     for (int i = 0; i < rows; ++i) {
       NaiveRow row = source.at(i);
       row.words[1] = i % 200 < 100 ? 0 : 1;  // RARE: 1 is lost
+      row.words[4] = 0;                      // F_RARE: -1 is lost, too
       stale.push_back(row.words[seen]);
       store.append(id, viewOf(row));
     }
@@ -252,7 +253,7 @@ class TestSeriesStore : public QObject {
     QCOMPARE(view->statistics(seen, {0.0, 199.0}).samples, std::uint64_t{100});
     QVERIFY(std::isnan(view->at(static_cast<std::uint32_t>(info.columns.size()) - 1, 5.0)->value));
     // Said otherwise, the rows so far are another group's.
-    info.columns[seen].lostWhen = 0;
+    info.columns[seen].lost[0].value = 0;
     QVERIFY(store.addGroup(info) != id);
   }
 

@@ -116,6 +116,21 @@ class TestSessionResolution : public QObject {
     QVERIFY(!session::groupFromJson(json("float32")));
   }
 
+  void aFileOf016HasOneConditionForALostValue() {
+    GroupInfo group{"g",
+                    {{"LOST", ColumnType::Int32, "", "", ColumnKind::Flag, {}},
+                     {"A", ColumnType::Float32, "cm", "", ColumnKind::Number, {}}},
+                    {}};
+    group.columns[1].lost = {{"LOST", 1.0}};
+    std::string text = session::groupToJson(group);
+    const std::string now = R"("lost":[{"column":"LOST","value":1.0}])";
+    const auto at = text.find(now);
+    QVERIFY2(at != std::string::npos, text.c_str());
+    QVERIFY(session::groupFromJson(text) == group);
+    text.replace(at, now.size(), R"("lost_by":"LOST","lost_when":1.0)");
+    QVERIFY(session::groupFromJson(text) == group);
+  }
+
   void aFileOfVersionOneHasHeadings() {
     GroupInfo group{"g", {{"A", ColumnType::Float64, "m", "Truth", ColumnKind::Number, {}}}, {}};
     std::string text = session::groupToJson(group);

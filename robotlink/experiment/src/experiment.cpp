@@ -22,10 +22,10 @@ constexpr std::size_t mostFileBytes = 1024 * 1024;
 constexpr std::string_view experimentsFolder = "experiments/", situationsFolder = "situations/";
 
 // No robot has this number, so that no noise of the run shares its draws.
-constexpr int nobody = -1;
+constexpr int noRobot = -1;
 
 double drawn(std::uint64_t seed, std::size_t which, double from, double to) {
-  CounterRandom random(seed, nobody, NoiseStream::Behaviour, which);
+  CounterRandom random(seed, noRobot, NoiseStream::Behaviour, which);
   return from + (to - from) * random.uniform();
 }
 

@@ -135,11 +135,12 @@ Result<std::vector<double>> valuesOf(std::string_view expression, const ResultTa
 std::vector<std::size_t> informativeMetrics(const ExperimentSummary& summary) {
   std::vector<std::size_t> out;
   for (std::size_t m = 0; m < summary.metrics.size(); ++m) {
-    const bool tells = std::ranges::any_of(summary.conditions, [m](const ConditionSummary& one) {
-      const Summary& s = one.metrics[m];
-      return s.moments.count > 0 && (s.least != 0.0 || s.most != 0.0);
-    });
-    if (tells) out.push_back(m);
+    const bool isInformative =
+        std::ranges::any_of(summary.conditions, [m](const ConditionSummary& one) {
+          const Summary& s = one.metrics[m];
+          return s.moments.count > 0 && (s.least != 0.0 || s.most != 0.0);
+        });
+    if (isInformative) out.push_back(m);
   }
   return out;
 }

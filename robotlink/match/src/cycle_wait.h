@@ -19,8 +19,8 @@ class CycleWait {
   CycleWait(const MatchBase& base, RobotSlots& slots, ProcessPace& pace)
       : m_base(base), m_slots(slots), m_pace(pace) {}
 
-  /// After a tick. Returns when everybody who was asked has answered, or has had its `response_timeout`
-  /// of real time: that one is named, and is not asked again until it answers.
+  /// After a tick. Returns when everybody who was asked has answered, or has had its
+  /// `response_timeout` of real time: that one is named, and is not asked again until it answers.
   void run();
   /// Called after another moment was restored: programs have finished only its ticks.
   void jump();

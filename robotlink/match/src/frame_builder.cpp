@@ -17,12 +17,6 @@ using telemetry::FieldMeaning;
 constexpr auto debugInterval = 100ms;
 constexpr auto speedWindow = 1s;
 
-bool communicationRuns(const RobotFrame& robot) {
-  return std::ranges::any_of(robot.processes(), [](const ProcessSummary& one) {
-    return one.name == "communication" && one.state == ProcessState::Running;
-  });
-}
-
 std::optional<double> valueOf(const Variable* variable, const Blackboard& board) {
   if (variable == nullptr) return std::nullopt;
   return variable->type == VariableType::Int
@@ -149,8 +143,6 @@ void FrameBuilder::fillRobot(const SimulatedMatch& match, RobotFrame& out) {
     }
   }
   const RobotReader reader = [&](FieldMeaning meaning) -> std::optional<double> {
-    // Communication sets no flag on its blackboard: its process tells.
-    if (meaning == FieldMeaning::Control) return communicationRuns(out) ? 1.0 : 0.0;
     const auto value = valueOf(m_variables[static_cast<std::size_t>(meaning)], *board);
     return value ? std::optional(meantBy(meaning, *value)) : std::nullopt;
   };

@@ -5,6 +5,8 @@
 #include <array>
 #include <iterator>
 
+#include <robotlink/frame/teams.h>
+
 namespace pitchboard::link {
 namespace {
 

@@ -162,8 +162,9 @@ bool ProcessPace::cooperates(const ProcessStatus& program) const {
 }
 
 void ProcessPace::reportLateCycle(const RobotSlot& slot) {
-  m_events.lateCycle(m_base.simulation.state(), slot.id,
-                     "no cycle finished for " + inSeconds(Seconds(RobotSlots::responseTimeout(slot))));
+  m_events.lateCycle(
+      m_base.simulation.state(), slot.id,
+      "no cycle finished for " + inSeconds(Seconds(RobotSlots::responseTimeout(slot))));
 }
 
 bool ProcessPace::isAwaited(const RobotSlot& slot, SlotProcess& process, Time now) {

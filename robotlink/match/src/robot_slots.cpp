@@ -111,7 +111,8 @@ const sim::RobotModel* RobotSlots::model(RobotId id) const {
 
 double RobotSlots::responseTimeout(const RobotSlot& slot) {
   double most = slot.processes.empty() ? ProfileProcess().responseTimeout : 0.0;
-  for (const auto& process : slot.processes) most = std::max(most, process->profile.responseTimeout);
+  for (const auto& process : slot.processes)
+    most = std::max(most, process->profile.responseTimeout);
   return most;
 }
 

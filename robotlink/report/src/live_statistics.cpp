@@ -96,6 +96,7 @@ class Walk {
     if (isNew) out.link = RobotSummary::Link{};  // clang 14 refuses emplace() here
     // Colours may come late, with the referee.
     out.name = seen.name;
+    out.ownName = seen.ownName;
     out.team = seen.identity.team;
     out.link->messages = link.messages;
     out.link->loss = link.loss;

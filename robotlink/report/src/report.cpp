@@ -63,7 +63,8 @@ std::string teamFacts(const TeamSummary& team) {
 }
 
 std::string badge(const RobotSummary& robot) {
-  return "<span class=\"badge " + teamClass(robot.team) + "\">" + escaped(robot.name) + "</span>";
+  return "<span class=\"badge " + teamClass(robot.team) + "\">" + escaped(robot.name) + "</span>" +
+         (robot.ownName.empty() ? "" : " " + escaped(robot.ownName));
 }
 
 std::string head(const ReportContent& c) {

@@ -173,6 +173,7 @@ void RowStatistics::add(telemetry::GroupId id, const telemetry::GroupInfo& group
     if (attributeNumber(group, "robot") != 0 && findSlot(group, {"TRUE_X"}).present()) {
       robot = &m_robots[group.name];
       robot->out.name = group.name;
+      robot->out.ownName = attribute(group, "name");
       robot->out.team = teamOf(group);
       const RobotKey key{static_cast<int>(teamOf(group)) + 1, attributeNumber(group, "number"), 0};
       robot->out.order = telemetry::orderOf(group).value_or(RobotOrder{true, key});

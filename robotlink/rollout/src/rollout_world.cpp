@@ -11,6 +11,7 @@
 #include <base/random.h>
 #include <base/repeatable_math.h>
 #include <base/try.h>
+#include <simcore/world/gait_step.h>
 #include <simcore/world/published_frame.h>
 
 namespace pitchboard::rollout {
@@ -19,7 +20,7 @@ namespace {
 using link::SoccerPlayer;
 using std::numbers::pi;
 
-constexpr int reminders = 9;  // cycles until a mind has looked for opponents
+constexpr int reminders = 9;  // cycles until a player has looked for opponents
 constexpr int talkCycles = 2;
 
 link::SoccerPlayerOptions soccerPlayerOptions(const Setup& setup, const Player& player) {

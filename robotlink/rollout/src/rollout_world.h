@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One sampled world of a rollout: bodies, ball and minds, stepped a cycle of 0.1 s at a time. All
+// One sampled world of a rollout: bodies, ball and players, stepped a cycle of 0.1 s at a time. All
 // of its memory is made by create(). Metres, radians, seconds, the studio's frame; one thread. Its
 // functions stand in files by subject: percepts, motion, rules, and all the rest.
 

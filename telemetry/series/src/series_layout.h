@@ -2,7 +2,7 @@
 #pragma once
 
 // Where the values of a group's columns stand in a row, and the sizes everything is cut into.
-// A column with holes that another column tells of (ColumnInfo::lostBy) is kept twice: as it came,
+// A column with holes that other columns tell of (ColumnInfo::lost) is kept twice: as it came,
 // for whole rows, and behind all columns with the holes in it, for everything that reads one
 // column. Private to the library. Immutable once made.
 
@@ -31,13 +31,21 @@ struct Slot {
 
 /// A column of which a row can say that nothing was seen. Words are numbered as in a row.
 struct Losable {
-  std::uint32_t column = 0, word = 0;  ///< the column and its word
-  std::uint32_t flag = 0;              ///< the word that tells
-  std::uint32_t lost = 0;              ///< bits of that word where nothing was seen
+  struct Flag {
+    std::uint32_t word = 0;  ///< the word that tells
+    std::uint32_t lost = 0;  ///< its bits where nothing was seen
+  };
+  std::uint32_t column = 0;  ///< and its word: both have the same number
+  std::vector<Flag> flags;   ///< at least one
 
+  bool isLost(std::span<const std::uint32_t> row) const {
+    return std::ranges::any_of(flags, [row](const Flag& flag) {
+      return flag.word < row.size() && row[flag.word] == flag.lost;
+    });
+  }
   /// The column's word, or NaN.
   std::uint32_t shown(std::span<const std::uint32_t> row) const {
-    return row[flag] == lost ? std::bit_cast<std::uint32_t>(hole) : row[word];
+    return isLost(row) ? std::bit_cast<std::uint32_t>(hole) : row[column];
   }
   static constexpr float hole = std::numeric_limits<float>::quiet_NaN();
 };
@@ -50,15 +58,19 @@ inline std::vector<Losable> losableColumns(const GroupInfo& group) {
   std::vector<Losable> all;
   for (std::uint32_t c = 0; c < count; ++c) {
     const ColumnInfo& column = group.columns[c];
-    if (column.lostBy.empty() || column.type != ColumnType::Float32) continue;
-    const auto flag = static_cast<std::uint32_t>(
-        std::ranges::find(group.columns, column.lostBy, &ColumnInfo::name) - group.columns.begin());
-    if (flag >= count) continue;
-    const bool isInt = group.columns[flag].type == ColumnType::Int32;
-    all.push_back({c, c, flag,
-                   isInt ? static_cast<std::uint32_t>(static_cast<std::int32_t>(
-                               std::clamp(column.lostWhen, -2147483648.0, 2147483647.0)))
-                         : std::bit_cast<std::uint32_t>(static_cast<float>(column.lostWhen))});
+    if (column.type != ColumnType::Float32) continue;
+    Losable one{c, {}};
+    for (const LostWhen& when : column.lost) {
+      const auto word = static_cast<std::uint32_t>(
+          std::ranges::find(group.columns, when.column, &ColumnInfo::name) - group.columns.begin());
+      if (word >= count) continue;
+      const bool isInt = group.columns[word].type == ColumnType::Int32;
+      one.flags.push_back(
+          {word, isInt ? static_cast<std::uint32_t>(static_cast<std::int32_t>(
+                             std::clamp(when.value, -2147483648.0, 2147483647.0)))
+                       : std::bit_cast<std::uint32_t>(static_cast<float>(when.value))});
+    }
+    if (!one.flags.empty()) all.push_back(std::move(one));
   }
   return all;
 }

@@ -76,8 +76,7 @@ bool continues(const std::vector<ColumnInfo>& before, const std::vector<ColumnIn
   for (std::size_t i = 0; i < now.size(); ++i) {
     const bool same = i < before.size()
                           ? now[i].name == before[i].name && now[i].type == before[i].type &&
-                                now[i].lostBy == before[i].lostBy &&
-                                now[i].lostWhen == before[i].lostWhen
+                                now[i].lost == before[i].lost
                           : now[i].type == ColumnType::Float64;
     if (!same) return false;
   }

@@ -54,7 +54,7 @@ std::size_t GroupSummary::bytes() const {
 SummaryBuilder::SummaryBuilder(const GroupInfo& group) {
   for (const ColumnInfo& column : group.columns) m_types.push_back(column.type);
   for (const series::Losable& one : series::losableColumns(group)) {
-    m_losable.push_back({one.column, one.flag, one.lost});
+    for (const auto& [word, lost] : one.flags) m_losable.push_back({one.column, word, lost});
   }
   m_now.assign(m_types.size(), {unset, unset, unset});
   m_part.columns.resize(m_types.size());

@@ -174,9 +174,8 @@ std::string groupToJson(const GroupInfo& group) {
       json["kind"] = kindNames[static_cast<std::size_t>(column.kind)];
     }
     if (isSingle(column)) json["resolution"] = column.resolution;
-    if (!column.lostBy.empty()) {
-      json["lost_by"] = column.lostBy;
-      json["lost_when"] = column.lostWhen;
+    for (const LostWhen& when : column.lost) {
+      json["lost"].push_back({{"column", when.column}, {"value", when.value}});
     }
     for (const auto& [code, label] : column.labels) json["labels"][std::to_string(code)] = label;
     columns.push_back(std::move(json));
@@ -217,8 +216,14 @@ std::optional<GroupInfo> groupFromJson(std::string_view text_) {
       if (!isSingle(column)) return std::nullopt;
     }
     column.unit = text(entry, "unit");
-    column.lostBy = text(entry, "lost_by");
-    column.lostWhen = number(entry, "lost_when").value_or(0.0);
+    if (const auto lost = entry.find("lost"); lost != entry.end() && lost->is_array()) {
+      for (const Json& when : *lost) {
+        if (!when.is_object()) return std::nullopt;
+        column.lost.push_back({text(when, "column"), number(when, "value").value_or(0.0)});
+      }
+    } else if (entry.contains("lost_by")) {  // version 0.16 and earlier: one condition
+      column.lost.push_back({text(entry, "lost_by"), number(entry, "lost_when").value_or(0.0)});
+    }
     // Files of version 0.1 call it "heading".
     column.category = text(entry, entry.contains("category") ? "category" : "heading");
     const auto isIt = [&column](const MeaningInfo& known) {

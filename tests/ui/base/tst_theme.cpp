@@ -112,6 +112,7 @@ class TestTheme : public QObject {
     };
     QCOMPARE(shown("walk forward, f…"), QStringLiteral("walk forward…"));
     QVERIFY(shown("walk forwa…").startsWith(QStringLiteral("walk for")));
+    QCOMPARE(shown("walk forward,…"), QStringLiteral("walk forward…"));
   }
 
   void switches() {

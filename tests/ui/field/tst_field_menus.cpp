@@ -3,8 +3,10 @@
 
 #include <QAction>
 #include <QDoubleSpinBox>
+#include <QHelpEvent>
 #include <QSignalSpy>
 #include <QTest>
+#include <QToolTip>
 #include <QUndoStack>
 
 #include <cmath>
@@ -206,6 +208,26 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
     QTest::keyClick(speed, Qt::Key_Return);
     QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ballVelocity.y - 1.5) < 1e-6);
     QVERIFY(std::abs(m_controller->frame()->snapshot.ball.y - before.y) < 1e-6);
+  }
+
+  // As a robot's: the hand says that it can be dragged, a double click opens its numbers.
+  void theBallAnswersTheMouse() {
+    const Point ball = m_controller->frame()->snapshot.ball;
+    const QPoint place = at(ball);
+    moveTo(place, Qt::NoButton);
+    QCOMPARE(m_canvas->viewport()->cursor().shape(), Qt::OpenHandCursor);
+    QHelpEvent help(QEvent::ToolTip, place, m_canvas->viewport()->mapToGlobal(place));
+    QCoreApplication::sendEvent(m_canvas->viewport(), &help);
+    QVERIFY2(QToolTip::text().startsWith(QStringLiteral("Ball")), qPrintable(QToolTip::text()));
+    QVERIFY(QToolTip::text().contains(QStringLiteral("m/s")));
+    QToolTip::hideText();
+    QTest::mouseDClick(m_canvas->viewport(), Qt::LeftButton, {}, place);
+    auto* x = m_view->findChild<QDoubleSpinBox*>("x");
+    QVERIFY(x && m_view->findChild<QDoubleSpinBox*>("speed"));
+    x->setValue(1.25);
+    QTest::keyClick(x, Qt::Key_Return);
+    QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.x - 1.25) < 1e-6);
+    QCOMPARE(m_controller->edits()->undoStack()->count(), 1);
   }
 
   void ballEditorTakesACommaAndIsUndone() {

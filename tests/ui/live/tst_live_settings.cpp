@@ -219,6 +219,11 @@ class TestLiveSettings : public QObject {
     const auto found = segments->findItems(QString::number(key), Qt::MatchExactly);
     QCOMPARE(found.size(), 1);
     QCOMPARE(segments->item(found[0]->row(), 1)->text(), QStringLiteral("2048 bytes"));
+    // The form says from the start what the list has.
+    const int first = segments->currentRow();
+    QVERIFY(first >= 0);
+    QCOMPARE(dialog.findChild<QSpinBox*>(QStringLiteral("attachKey"))->value(),
+             segments->item(first, 0)->text().toInt());
     QVERIFY(!segments->item(found[0]->row(), 2)->text().isEmpty());
     segments->selectRow(found[0]->row());
     QCOMPARE(dialog.findChild<QSpinBox*>(QStringLiteral("attachKey"))->value(), key);

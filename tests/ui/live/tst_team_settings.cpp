@@ -39,6 +39,9 @@ class TestTeamSettings : public QObject {
   void teamsAreEditedUsedAndKept() {
     Dialog d;
     QVERIFY(!d.box<QLineEdit>("teamName")->isEnabled());
+    // An empty list says what it is for.
+    const auto* hint = d.box<QLabel>("noTeams");
+    QVERIFY(!hint->isHidden() && hint->text().contains(QStringLiteral("Add a team")));
     const auto click = [&d](const char* name) {
       d.box<QToolButton>(name)->click();  // its page may lie behind another one
     };
@@ -55,6 +58,7 @@ class TestTeamSettings : public QObject {
     click("addTeam");
     auto* list = d.box<QListWidget>("teams");
     QCOMPARE(list->count(), 2);
+    QVERIFY(hint->isHidden());
     QCOMPARE(list->item(0)->text(), QStringLiteral("Guests"));
     QCOMPARE(d.box<QLineEdit>("teamName")->text(), QString());
     QVERIFY2(d.dialog->apply(), qPrintable(d.problem()));

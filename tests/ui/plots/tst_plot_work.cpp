@@ -22,6 +22,7 @@
 #include "../support/menu_entry.h"
 #include "../support/mouse_wheel.h"
 #include "chart_pane.h"
+#include "curve_dialog.h"
 #include "marks_model.h"
 #include "marks_panel.h"
 #include "plot_export.h"

@@ -2,6 +2,7 @@
 // The plots' dock with real drops, wheels and drags, against values computed here.
 
 #include <QMimeData>
+#include <QPainter>
 #include <QScreen>
 #include <QtTest>
 
@@ -206,8 +207,7 @@ class TestPlots : public QObject {
     info.name = "B1";
     info.columns.push_back({"VISION_LOST", telemetry::ColumnType::Int32, "", "", {}, {}});
     info.columns.push_back({"VISION_BALL_DIST", telemetry::ColumnType::Float32, "cm", "", {}, {}});
-    info.columns[1].lostBy = "VISION_LOST";
-    info.columns[1].lostWhen = 1;
+    info.columns[1].lost = {{"VISION_LOST", 1}};
     const auto group = bench.source.store->addGroup(info);
     for (int i = 0; i <= 600; ++i) {  // lost from 4 s to 6 s and again from 9 s on
       const double time = i / 60.0;

@@ -14,6 +14,7 @@
 #include "plot_page.h"
 #include "plot_rig.h"
 #include "plot_source.h"
+#include "time_ruler.h"
 #include "value_chart.h"
 #include "xy_pane.h"
 
@@ -115,6 +116,38 @@ class TestXyPlots : public QObject {
     QTRY_COMPARE(xy->titles(), (std::pair{QStringLiteral("DIST"), QStringLiteral("ANGLE")}));
     // They are whole: the plot is high enough for them.
     QVERIFY(xy->surface()->height() >= 150);
+  }
+
+  // Beneath an XY plot the clock was taken for its axis.
+  void theClockStandsBelowWhatItMeasures_data() {
+    QTest::addColumn<bool>("xyFirst");
+    QTest::newRow("the XY plot is the last") << false;
+    QTest::newRow("the XY plot is the first") << true;
+  }
+  void theClockStandsBelowWhatItMeasures() {
+    QFETCH(bool, xyFirst);
+    Bench b;
+    b.dock->resize(1000, 400);
+    PaneSpec chart, xy;
+    chart.curves << variableCurve(QStringLiteral("B1/DIST"));
+    xy.kind = PaneKind::Xy;
+    xy.curves << variableCurve(QStringLiteral("B1/DIST"));
+    xy.curves[0].inputs << QStringLiteral("B1/ANGLE");
+    QList<PaneSpec> both{chart, xy};
+    if (xyFirst) both.swapItemsAt(0, 1);
+    b.dock->setLayoutSpec({{PageSpec{QStringLiteral("one"), both}}, 0});
+    const auto* ruler = b.dock->currentPage()->findChild<TimeRuler*>();
+    const auto top = [&b](const QWidget* widget) {
+      return widget->mapTo(b.dock.get(), QPoint()).y();
+    };
+    const auto* page = b.dock->currentPage();
+    QTRY_VERIFY(ruler->isVisible() && ruler->height() > 0);
+    const PlotPane* last = page->panes().last();
+    QTRY_COMPARE(top(ruler) < top(page->panes().first()), !xyFirst);
+    QTRY_COMPARE(top(ruler) >= top(last) + last->height(), xyFirst);
+    // Alone, an XY plot has no clock.
+    b.dock->setLayoutSpec({{PageSpec{QStringLiteral("one"), {xy}}}, 0});
+    QTRY_VERIFY(!b.dock->currentPage()->findChild<TimeRuler*>()->isVisible());
   }
 
   void anXyPlotHasEqualScales() {

@@ -23,8 +23,8 @@ namespace referee_rig {
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
-struct Desk {
-  Desk() : controller(link::MatchOptions{}) {
+struct RefereeRig {
+  RefereeRig() : controller(link::MatchOptions{}) {
     QObject::connect(&controller, &MatchController::errorOccurred, &controller,
                      [this](const QString& sentence) { errors << sentence; });
     link::Scenario scenario = link::loadScenario("match").value();

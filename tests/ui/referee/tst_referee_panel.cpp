@@ -2,6 +2,7 @@
 // A person referees a simulated match: buttons, keys, undo, the scoreboard, the log.
 #include <QAbstractItemModelTester>
 #include <QComboBox>
+#include <QLabel>
 #include <QMenu>
 #include <QPushButton>
 #include <QScrollArea>
@@ -26,7 +27,7 @@ namespace tst_referee_panel {
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
-using referee_rig::Desk;
+using referee_rig::RefereeRig;
 
 namespace {
 
@@ -56,37 +57,37 @@ class TestRefereePanel : public QObject {
   Q_OBJECT
  private slots:
   void statesByButtonsAndUndo() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    desk.reach("PLAYING");
-    desk.undo()->undo();
-    QTRY_COMPARE(desk.state(), QString("SET"));
-    desk.undo()->redo();
-    QTRY_COMPARE(desk.state(), QString("PLAYING"));
-    QVERIFY(desk.errors.isEmpty());
-    auto* log = desk.dock->findChild<QTableView*>("refereeLog");
-    desk.controller.stepOnce();
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.reach("PLAYING");
+    rig.undo()->undo();
+    QTRY_COMPARE(rig.state(), QString("SET"));
+    rig.undo()->redo();
+    QTRY_COMPARE(rig.state(), QString("PLAYING"));
+    QVERIFY(rig.errors.isEmpty());
+    auto* log = rig.dock->findChild<QTableView*>("refereeLog");
+    rig.controller.stepOnce();
     QTRY_VERIFY(log->model()->rowCount() > 0);
     const QAbstractItemModel* lines = log->model();
     QTRY_VERIFY(lines->index(lines->rowCount() - 1, 1).data().toString().contains("PLAYING"));
   }
 
   void aRefusedCallIsNoStep() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    desk.reach("PLAYING");
-    QTRY_COMPARE(desk.undo()->count(), 3);
-    callReferee(desk.controller.edits(),
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.reach("PLAYING");
+    QTRY_COMPARE(rig.undo()->count(), 3);
+    callReferee(rig.controller.edits(),
                 {.kind = sim::CallKind::State, .state = sim::PlayState::Set}, "SET");
-    QTRY_COMPARE(desk.errors.size(), 1);
-    QVERIFY2(desk.errors[0].contains("from PLAYING to SET"), qPrintable(desk.errors[0]));
-    QCOMPARE(desk.state(), QString("PLAYING"));
-    QCOMPARE(desk.undo()->count(), 3);
+    QTRY_COMPARE(rig.errors.size(), 1);
+    QVERIFY2(rig.errors[0].contains("from PLAYING to SET"), qPrintable(rig.errors[0]));
+    QCOMPARE(rig.state(), QString("PLAYING"));
+    QCOMPARE(rig.undo()->count(), 3);
     // One of several that is refused: nobody is penalised, and there is no step.
-    callReferee(desk.controller.edits(), {.kind = sim::CallKind::Pardon},
-                {desk.frame().robots[0].slot(), desk.frame().robots[1].slot()}, "pardon");
-    QTRY_COMPARE(desk.errors.size(), 2);
-    QCOMPARE(desk.undo()->count(), 3);
+    callReferee(rig.controller.edits(), {.kind = sim::CallKind::Pardon},
+                {rig.frame().robots[0].slot(), rig.frame().robots[1].slot()}, "pardon");
+    QTRY_COMPARE(rig.errors.size(), 2);
+    QCOMPARE(rig.undo()->count(), 3);
   }
 
   // Gone from the timeline and the panel's log; a redo brings it back.
@@ -97,37 +98,37 @@ class TestRefereePanel : public QObject {
   }
   void anUndoneGoalIsGone() {
     QFETCH(bool, played);
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    desk.reach("PLAYING");
-    desk.controller.stepOnce();
-    const auto count = [&desk](link::MatchEventKind kind) {
-      return std::ranges::count(desk.timeline.events()->events(), kind, &link::MatchEvent::kind);
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.reach("PLAYING");
+    rig.controller.stepOnce();
+    const auto count = [&rig](link::MatchEventKind kind) {
+      return std::ranges::count(rig.timeline.events()->events(), kind, &link::MatchEvent::kind);
     };
     QTRY_COMPARE(count(link::MatchEventKind::GameState), 3);
-    desk.press("Goal left");
-    QTRY_COMPARE(desk.state(), QString("READY"));
-    QTRY_COMPARE(desk.undo()->count(), 4);
+    rig.press("Goal left");
+    QTRY_COMPARE(rig.state(), QString("READY"));
+    QTRY_COMPARE(rig.undo()->count(), 4);
     // It is told at once, and once.
     QTRY_COMPARE(count(link::MatchEventKind::Goal), 1);
-    const auto step = [&desk] {
-      const std::uint64_t tick = desk.frame().snapshot.tick;
-      desk.controller.stepOnce();
-      QTRY_COMPARE(desk.frame().snapshot.tick, tick + 1);
-      desk.controller.settle();
+    const auto step = [&rig] {
+      const std::uint64_t tick = rig.frame().snapshot.tick;
+      rig.controller.stepOnce();
+      QTRY_COMPARE(rig.frame().snapshot.tick, tick + 1);
+      rig.controller.settle();
     };
     if (played) step();
     QCOMPARE(count(link::MatchEventKind::Goal), 1);
     QCOMPARE(count(link::MatchEventKind::GameState), 4);
-    desk.undo()->undo();
-    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    rig.undo()->undo();
+    QTRY_COMPARE(rig.state(), QString("PLAYING"));
     QTRY_COMPARE(count(link::MatchEventKind::Goal), 0);
     if (played) step();
     QCOMPARE(count(link::MatchEventKind::Goal), 0);
     QCOMPARE(count(link::MatchEventKind::GameState), 3);
     QCOMPARE(count(link::MatchEventKind::Undone), 0);
-    desk.undo()->redo();
-    QTRY_COMPARE(desk.state(), QString("READY"));
+    rig.undo()->redo();
+    QTRY_COMPARE(rig.state(), QString("READY"));
     QTRY_COMPARE(count(link::MatchEventKind::Goal), 1);
     step();
     QCOMPARE(count(link::MatchEventKind::Goal), 1);
@@ -149,12 +150,12 @@ class TestRefereePanel : public QObject {
   void onlyLegalCallsCanBePressed() {
     QFETCH(int, steps);
     QFETCH(QString, state);
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
     using sim::CallKind;
     using sim::PlayState;
-    const auto call = [&desk](const sim::RefereeCall& made) {
-      callReferee(desk.controller.edits(), made, "call");
+    const auto call = [&rig](const sim::RefereeCall& made) {
+      callReferee(rig.controller.edits(), made, "call");
     };
     if (steps == 7) call({.kind = CallKind::Timeout, .team = 0});
     const PlayState states[] = {PlayState::Ready, PlayState::Set, PlayState::Playing};
@@ -166,14 +167,14 @@ class TestRefereePanel : public QObject {
       call({.kind = CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::CornerKick});
     }
     if (steps == 6) call({.kind = CallKind::State, .state = PlayState::Finished});
-    QTRY_COMPARE(desk.state(), state);
-    desk.controller.settle();
-    desk.choose(1);
-    QTRY_VERIFY(desk.button("Penalise")->isEnabled());
+    QTRY_COMPARE(rig.state(), state);
+    rig.controller.settle();
+    rig.choose(1);
+    QTRY_VERIFY(rig.button("Penalise")->isEnabled());
     QTest::qWait(150);  // the panel looks ten times a second
-    const auto is = [&desk](const char* name, const sim::RefereeCall& made) {
-      const QString why = whyRefused(&desk.frame(), made);
-      QPushButton* one = desk.button(name);
+    const auto is = [&rig](const char* name, const sim::RefereeCall& made) {
+      const QString why = whyRefused(&rig.frame(), made);
+      QPushButton* one = rig.button(name);
       QVERIFY2(one, name);
       QVERIFY2(one->isEnabled() == why.isEmpty(), name);
       QVERIFY2(!one->toolTip().isEmpty(), name);
@@ -189,19 +190,52 @@ class TestRefereePanel : public QObject {
       is(qPrintable("Timeout " + at), {.kind = CallKind::Timeout, .team = team});
     }
     is("Give", {.kind = CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::DirectFreeKick});
-    const RobotId robot = desk.frame().robots[1].slot();
+    const RobotId robot = rig.frame().robots[1].slot();
     is("Penalise",
        {.kind = CallKind::Penalise, .robot = robot, .penalty = sim::PenaltyKind::Incapable});
     is("Pardon", {.kind = CallKind::Pardon, .robot = robot});
-    const auto offered = nextSteps(*desk.frame().refereedGame);
+    const auto offered = nextSteps(*rig.frame().refereedGame);
     QVERIFY(!offered.empty() && offered.size() <= 3);
     for (const NextStep& step : offered) {
-      QPushButton* one = desk.dock->findChild<QPushButton*>("referee " + step.text);
+      QPushButton* one = rig.dock->findChild<QPushButton*>("referee " + step.text);
       QVERIFY2(one && one->isVisible() && one->isEnabled(), qPrintable(step.text));
       if (step.call)
-        QVERIFY2(whyRefused(&desk.frame(), *step.call).isEmpty(), qPrintable(step.text));
+        QVERIFY2(whyRefused(&rig.frame(), *step.call).isEmpty(), qPrintable(step.text));
     }
-    QVERIFY(desk.errors.isEmpty());
+    QVERIFY(rig.errors.isEmpty());
+  }
+
+  // What is and what comes next first, both teams side by side, the log below.
+  void whatHappensNextStandsFirst() {
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.reach("PLAYING");
+    const auto place = [&rig](const QWidget* widget) {
+      return QRect(widget->mapTo(rig.dock.get(), QPoint()), widget->size());
+    };
+    const auto* state = rig.dock->findChild<QLabel*>("refereeState");
+    QVERIFY(state->fontMetrics().height() >= 1.5 * rig.dock->fontMetrics().height());
+    const auto offered = nextSteps(*rig.frame().refereedGame);
+    QVERIFY(offered.size() >= 2 && offered.size() <= 3);
+    const auto step = [&] {
+      return rig.dock->findChild<QPushButton*>("referee " + offered[0].text);
+    };
+    QTRY_VERIFY(step() && step()->isVisible());
+    const QRect next = place(step());
+    QVERIFY(place(state).bottom() < next.top());
+    for (const char* what : {"Goal", "Kick-off", "Timeout"}) {
+      const QRect left = place(rig.button(qPrintable(QString::fromUtf8(what) + " left")));
+      const QRect right = place(rig.button(qPrintable(QString::fromUtf8(what) + " right")));
+      QCOMPARE(left.top(), right.top());
+      QVERIFY(left.right() < right.left());
+      QVERIFY(next.bottom() < left.top());
+      // The next steps are larger than everything else.
+      QVERIFY(next.height() > left.height());
+    }
+    const QRect players[] = {place(rig.players(false)), place(rig.players(true))};
+    QCOMPARE(players[0].top(), players[1].top());
+    QVERIFY(players[0].right() < players[1].left());
+    QVERIFY(place(rig.dock->findChild<QTableView*>("refereeLog")).top() > players[0].bottom());
   }
 
   // Docked in a small window, and as high as it stands beside the field.
@@ -213,32 +247,31 @@ class TestRefereePanel : public QObject {
   }
   void noWordIsCut() {
     QFETCH(QSize, size);
-    Desk desk;
-    desk.dock->resize(scaled(desk.dock.get(), size.width()),
-                      scaled(desk.dock.get(), size.height()));
-    desk.reach("PLAYING");
-    for (const auto* button : desk.dock->findChildren<QPushButton*>()) {
+    RefereeRig rig;
+    rig.dock->resize(scaled(rig.dock.get(), size.width()), scaled(rig.dock.get(), size.height()));
+    rig.reach("PLAYING");
+    for (const auto* button : rig.dock->findChildren<QPushButton*>()) {
       if (!button->isVisible()) continue;
       const int words = button->fontMetrics().horizontalAdvance(button->text());
       QVERIFY2(button->width() >= words + 6, qPrintable(button->text()));
     }
-    for (const auto* box : desk.dock->findChildren<QComboBox*>()) {
+    for (const auto* box : rig.dock->findChildren<QComboBox*>()) {
       if (!box->isVisible()) continue;
       const int words = box->fontMetrics().horizontalAdvance(box->currentText());
       QVERIFY2(box->width() >= words + scaled(box, 22), qPrintable(box->currentText()));
     }
     for (const bool right : {false, true}) {
-      const QTableView* players = desk.players(right);
+      const QTableView* players = rig.players(right);
       const QFontMetrics metrics(players->font());
       QVERIFY(players->columnWidth(RefereeModel::State) >=
               metrics.horizontalAdvance(QStringLiteral("plays")) + 6);
     }
     // The log is there without scrolling.
-    const auto* log = desk.dock->findChild<QTableView*>("refereeLog");
+    const auto* log = rig.dock->findChild<QTableView*>("refereeLog");
     QVERIFY(log && log->viewport()->visibleRegion().boundingRect().height() >= scaled(log, 72));
     // Nothing reaches beyond the panel, which does not scroll sideways.
-    const auto* panel = qobject_cast<QScrollArea*>(desk.dock.get());
-    auto* fold = desk.dock->findChild<QToolButton*>("refereeFold");
+    const auto* panel = qobject_cast<QScrollArea*>(rig.dock.get());
+    auto* fold = rig.dock->findChild<QToolButton*>("refereeFold");
     if (!fold->isChecked()) fold->click();
     const int wide = panel->widget()->minimumSizeHint().width();
     QVERIFY2(wide <= std::max(panel->viewport()->width(), scaled(panel, 280)),
@@ -246,25 +279,25 @@ class TestRefereePanel : public QObject {
   }
 
   void aGoalAndTheScoreboard() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    desk.reach("PLAYING");
-    desk.controller.edits()->moveBall({}, {2.0, 1.0});
-    desk.press("Goal left");
-    QTRY_COMPARE(desk.state(), QString("READY"));
-    QTRY_COMPARE(scoreboardOf(desk.frame()).left, 1);
-    QCOMPARE(desk.frame().snapshot.ball, (Point{0, 0}));
-    QTRY_COMPARE(desk.undo()->count(), 5);
-    desk.undo()->undo();
-    QTRY_COMPARE(scoreboardOf(desk.frame()).left, 0);
-    QTRY_COMPARE(desk.frame().snapshot.ball, (Point{2.0, 1.0}));
-    QCOMPARE(desk.state(), QString("PLAYING"));
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.reach("PLAYING");
+    rig.controller.edits()->moveBall({}, {2.0, 1.0});
+    rig.press("Goal left");
+    QTRY_COMPARE(rig.state(), QString("READY"));
+    QTRY_COMPARE(scoreboardOf(rig.frame()).left, 1);
+    QCOMPARE(rig.frame().snapshot.ball, (Point{0, 0}));
+    QTRY_COMPARE(rig.undo()->count(), 5);
+    rig.undo()->undo();
+    QTRY_COMPARE(scoreboardOf(rig.frame()).left, 0);
+    QTRY_COMPARE(rig.frame().snapshot.ball, (Point{2.0, 1.0}));
+    QCOMPARE(rig.state(), QString("PLAYING"));
   }
 
   void theScoreboardShowsGoalsByHalf() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    link::MatchFrame frame = desk.frame();
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    link::MatchFrame frame = rig.frame();
     QVERIFY(!scoreboardOf(frame).tip.contains("By half"));
     const auto later = std::make_shared<link::RefereedGame>(*frame.refereedGame);
     later->game.half = 2;
@@ -275,123 +308,123 @@ class TestRefereePanel : public QObject {
   }
 
   void aPenaltyOfAChosenRobot() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    desk.choose(1);
-    desk.press("Penalise");
-    QTRY_COMPARE(desk.shown(1), QString("pickup 30 s"));
-    QCOMPARE(scoreboardOf(desk.frame()).penalties, QString("B2 30"));
-    QTRY_COMPARE(desk.undo()->count(), 1);
-    desk.undo()->undo();
-    QTRY_COMPARE(desk.shown(1), QString("plays"));
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.choose(1);
+    rig.press("Penalise");
+    QTRY_COMPARE(rig.shown(1), QString("pickup 30 s"));
+    QCOMPARE(scoreboardOf(rig.frame()).penalties, QString("B2 30"));
+    QTRY_COMPARE(rig.undo()->count(), 1);
+    rig.undo()->undo();
+    QTRY_COMPARE(rig.shown(1), QString("plays"));
   }
 
   void cardsAndSubstitutes() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    const auto show = [&desk](const char* card) {
-      auto* menu = desk.dock->findChild<QPushButton*>("refereeCard");
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    const auto show = [&rig](const char* card) {
+      auto* menu = rig.dock->findChild<QPushButton*>("refereeCard");
       QTRY_VERIFY(menu->isEnabled());
       for (QAction* action : menu->menu()->actions()) {
         if (action->text() == card) action->trigger();
       }
     };
-    desk.choose(2);
+    rig.choose(2);
     show("Warning");
-    QTRY_COMPARE(desk.shown(2), QString("plays · warning"));
+    QTRY_COMPARE(rig.shown(2), QString("plays · warning"));
     show("Yellow card");
-    QTRY_COMPARE(desk.shown(2), QString("plays · warning, yellow"));
+    QTRY_COMPARE(rig.shown(2), QString("plays · warning, yellow"));
     show("Red card");
-    QTRY_COMPARE(desk.shown(2), QString("sent off · warning, yellow, red"));
-    QTRY_COMPARE(desk.undo()->count(), 3);
-    desk.undo()->undo();
-    QTRY_COMPARE(desk.shown(2), QString("plays · warning, yellow"));
+    QTRY_COMPARE(rig.shown(2), QString("sent off · warning, yellow, red"));
+    QTRY_COMPARE(rig.undo()->count(), 3);
+    rig.undo()->undo();
+    QTRY_COMPARE(rig.shown(2), QString("plays · warning, yellow"));
     // Two at once are one step.
-    const int before = desk.undo()->index();
-    desk.players()->clearSelection();
-    desk.choose(0);
-    desk.choose(1, true);
-    desk.press("Take off");
-    QTRY_VERIFY2(desk.shown(0) == "substitute", qPrintable(desk.errors.join('\n')));
-    QTRY_COMPARE(desk.shown(1, RefereeModel::State, true), QString("substitute"));
-    QTRY_COMPARE(desk.undo()->index(), before + 1);
-    QCOMPARE(desk.shown(2), QString("plays · warning, yellow"));
-    desk.press("Pardon");
-    QTRY_COMPARE(desk.shown(0), QString("plays"));
-    QTRY_COMPARE(desk.shown(1, RefereeModel::State, true), QString("plays"));
-    QVERIFY(desk.errors.isEmpty());
+    const int before = rig.undo()->index();
+    rig.players()->clearSelection();
+    rig.choose(0);
+    rig.choose(1, true);
+    rig.press("Take off");
+    QTRY_VERIFY2(rig.shown(0) == "substitute", qPrintable(rig.errors.join('\n')));
+    QTRY_COMPARE(rig.shown(1, RefereeModel::State, true), QString("substitute"));
+    QTRY_COMPARE(rig.undo()->index(), before + 1);
+    QCOMPARE(rig.shown(2), QString("plays · warning, yellow"));
+    rig.press("Pardon");
+    QTRY_COMPARE(rig.shown(0), QString("plays"));
+    QTRY_COMPARE(rig.shown(1, RefereeModel::State, true), QString("plays"));
+    QVERIFY(rig.errors.isEmpty());
   }
 
   // Every call that has a key, by its key, in the order of a match.
   void everyStateByItsKey() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    desk.dock->activateWindow();
-    QVERIFY(QTest::qWaitForWindowActive(desk.dock.get()));
-    const auto press = [&desk](Qt::Key key) {
-      QTest::keyClick(desk.dock.get(), key, Qt::ControlModifier | Qt::AltModifier);
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.dock->activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(rig.dock.get()));
+    const auto press = [&rig](Qt::Key key) {
+      QTest::keyClick(rig.dock.get(), key, Qt::ControlModifier | Qt::AltModifier);
     };
-    const auto hasText = [&desk](const char* setPlay) {
-      return desk.frame().referee->setPlay == setPlay;
+    const auto hasText = [&rig](const char* setPlay) {
+      return rig.frame().referee->setPlay == setPlay;
     };
     press(Qt::Key_3);  // blue kicks off
     press(Qt::Key_R);
-    QTRY_COMPARE(desk.state(), QString("READY"));
+    QTRY_COMPARE(rig.state(), QString("READY"));
     press(Qt::Key_S);
-    QTRY_COMPARE(desk.state(), QString("SET"));
+    QTRY_COMPARE(rig.state(), QString("SET"));
     press(Qt::Key_P);
-    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    QTRY_COMPARE(rig.state(), QString("PLAYING"));
     press(Qt::Key_X);
-    QTRY_VERIFY(desk.frame().referee->stopped);
+    QTRY_VERIFY(rig.frame().referee->stopped);
     press(Qt::Key_G);
-    QTRY_VERIFY(!desk.frame().referee->stopped);
+    QTRY_VERIFY(!rig.frame().referee->stopped);
     press(Qt::Key_K);
     QTRY_VERIFY(hasText("direct free kick"));
     for (int step = 0; step < 3; ++step) press(Qt::Key_N);
     QTRY_VERIFY(hasText(""));
     press(Qt::Key_D);
-    QTRY_COMPARE(desk.state(), QString("READY"));
+    QTRY_COMPARE(rig.state(), QString("READY"));
     press(Qt::Key_S);
     press(Qt::Key_P);
-    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    QTRY_COMPARE(rig.state(), QString("PLAYING"));
     press(Qt::Key_2);
-    QTRY_COMPARE(desk.frame().snapshot.score.right, 1);
+    QTRY_COMPARE(rig.frame().snapshot.score.right, 1);
     press(Qt::Key_S);
     press(Qt::Key_P);
-    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    QTRY_COMPARE(rig.state(), QString("PLAYING"));
     press(Qt::Key_F);
-    QTRY_COMPARE(desk.state(), QString("FINISHED"));
+    QTRY_COMPARE(rig.state(), QString("FINISHED"));
     press(Qt::Key_I);
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    QVERIFY(!desk.frame().referee->firstHalf);
-    QVERIFY2(desk.errors.isEmpty(), qPrintable(desk.errors.join('\n')));
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    QVERIFY(!rig.frame().referee->firstHalf);
+    QVERIFY2(rig.errors.isEmpty(), qPrintable(rig.errors.join('\n')));
   }
 
   // What was shown is shown again when a person looks back, and from a recording.
   void thePastShowsTheScoreboard() {
     QTemporaryDir folder;
     const std::string path = folder.filePath("refereed.mcap").toStdString();
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
     const auto recorder =
-        link::MatchRecorder::create(path, desk.controller.scenario(), desk.controller.catalog(),
-                                    desk.controller.memory()->sampler(), {})
+        link::MatchRecorder::create(path, rig.controller.scenario(), rig.controller.catalog(),
+                                    rig.controller.memory()->sampler(), {})
             .value();
-    desk.controller.observe(recorder);
-    desk.reach("PLAYING");
-    desk.choose(1);
-    desk.press("Penalise");
-    desk.press("Goal right");
-    QTRY_COMPARE(desk.frame().snapshot.score.right, 1);
-    desk.controller.stepOnce();
-    QTRY_VERIFY(desk.frame().snapshot.tick > 0);
-    const FramePtr now = desk.controller.frame();
+    rig.controller.observe(recorder);
+    rig.reach("PLAYING");
+    rig.choose(1);
+    rig.press("Penalise");
+    rig.press("Goal right");
+    QTRY_COMPARE(rig.frame().snapshot.score.right, 1);
+    rig.controller.stepOnce();
+    QTRY_VERIFY(rig.frame().snapshot.tick > 0);
+    const FramePtr now = rig.controller.frame();
     FramePtr past;
-    QTRY_VERIFY((past = desk.controller.frameAt(now->snapshot.time)));
+    QTRY_VERIFY((past = rig.controller.frameAt(now->snapshot.time)));
     sameScoreboard(*now, *past);
     if (QTest::currentTestFailed()) return;
 
-    desk.controller.stopObserving(recorder);
+    rig.controller.stopObserving(recorder);
     QVERIFY(recorder->finish());
     ReplayController replay;
     QSignalSpy opened(&replay, &ReplayController::opened);
@@ -403,26 +436,26 @@ class TestRefereePanel : public QObject {
   }
 
   void theLogEndsAtTheMomentShown() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    desk.press("READY");
-    QTRY_COMPARE(desk.state(), QString("READY"));
-    desk.controller.runTo(60);
-    QTRY_COMPARE(desk.frame().snapshot.tick, std::uint64_t(60));
-    desk.press("SET");
-    QTRY_COMPARE(desk.state(), QString("SET"));
-    desk.controller.runTo(120);
-    QTRY_COMPARE(desk.frame().snapshot.tick, std::uint64_t(120));
-    auto* log = desk.dock->findChild<QTableView*>("refereeLog")->model();
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.press("READY");
+    QTRY_COMPARE(rig.state(), QString("READY"));
+    rig.controller.runTo(60);
+    QTRY_COMPARE(rig.frame().snapshot.tick, std::uint64_t(60));
+    rig.press("SET");
+    QTRY_COMPARE(rig.state(), QString("SET"));
+    rig.controller.runTo(120);
+    QTRY_COMPARE(rig.frame().snapshot.tick, std::uint64_t(120));
+    auto* log = rig.dock->findChild<QTableView*>("refereeLog")->model();
     const QAbstractItemModelTester tester(log,
                                           QAbstractItemModelTester::FailureReportingMode::QtTest);
     QTRY_COMPARE(log->rowCount(), 2);
-    desk.timeline.seek(0.5);
+    rig.timeline.seek(0.5);
     QCOMPARE(log->rowCount(), 1);
-    desk.timeline.seek(1.5);
+    rig.timeline.seek(1.5);
     QCOMPARE(log->rowCount(), 2);
-    desk.timeline.seek(0.5);
-    desk.timeline.goLive();
+    rig.timeline.seek(0.5);
+    rig.timeline.goLive();
     QCOMPARE(log->rowCount(), 2);
   }
 };

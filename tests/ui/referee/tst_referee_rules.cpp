@@ -18,111 +18,111 @@ namespace tst_referee_rules {
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
-using referee_rig::Desk;
+using referee_rig::RefereeRig;
 
 class TestRefereeRules : public QObject {
   Q_OBJECT
  private slots:
   void theBallIsPlacedByTheReferee() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    desk.openFold();
-    auto* x = desk.dock->findChild<QDoubleSpinBox*>("refereeBallX");
-    auto* y = desk.dock->findChild<QDoubleSpinBox*>("refereeBallY");
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.openFold();
+    auto* x = rig.dock->findChild<QDoubleSpinBox*>("refereeBallX");
+    auto* y = rig.dock->findChild<QDoubleSpinBox*>("refereeBallY");
     x->selectAll();
     QTest::keyClicks(x, "1,5");  // a comma is understood
     y->selectAll();
     QTest::keyClicks(y, "-2");
-    desk.press("Place");
-    QTRY_COMPARE(desk.frame().snapshot.ball, (Point{1.5, -2.0}));
-    desk.press("To centre");
-    QTRY_COMPARE(desk.frame().snapshot.ball, (Point{0, 0}));
-    desk.controller.edits()->undoStack()->undo();
-    QTRY_COMPARE(desk.frame().snapshot.ball, (Point{1.5, -2.0}));
+    rig.press("Place");
+    QTRY_COMPARE(rig.frame().snapshot.ball, (Point{1.5, -2.0}));
+    rig.press("To centre");
+    QTRY_COMPARE(rig.frame().snapshot.ball, (Point{0, 0}));
+    rig.controller.edits()->undoStack()->undo();
+    QTRY_COMPARE(rig.frame().snapshot.ball, (Point{1.5, -2.0}));
   }
 
   void aFormationComesWithItsSetPlay() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    desk.reach("PLAYING");
-    desk.openFold();
-    auto* formation = desk.dock->findChild<QComboBox*>("refereeFormation");
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.reach("PLAYING");
+    rig.openFold();
+    auto* formation = rig.dock->findChild<QComboBox*>("refereeFormation");
     formation->setCurrentIndex(formation->findText("Corner kick"));
-    auto* with = desk.dock->findChild<QCheckBox*>("refereeAsSetPlay");
+    auto* with = rig.dock->findChild<QCheckBox*>("refereeAsSetPlay");
     QTest::mouseClick(with, Qt::LeftButton, {}, QPoint(8, with->height() / 2));
     QVERIFY(with->isChecked());
-    QTRY_COMPARE(desk.undo()->count(), 3);
-    const int before = desk.undo()->count();
-    for (QPushButton* load : desk.dock->findChildren<QPushButton*>()) {
+    QTRY_COMPARE(rig.undo()->count(), 3);
+    const int before = rig.undo()->count();
+    for (QPushButton* load : rig.dock->findChildren<QPushButton*>()) {
       if (load->text() == "Right attacks") QTest::mouseClick(load, Qt::LeftButton);
     }
-    QTRY_COMPARE(desk.frame().referee->setPlay, std::string("corner kick"));
-    QCOMPARE(desk.frame().referee->performingTeam, desk.frame().referee->teams[1].number);
-    QTRY_COMPARE(desk.undo()->count(), before + 1);
-    desk.undo()->undo();
-    QTRY_COMPARE(desk.frame().referee->setPlay, std::string());
-    QVERIFY(desk.errors.isEmpty());
+    QTRY_COMPARE(rig.frame().referee->setPlay, std::string("corner kick"));
+    QCOMPARE(rig.frame().referee->performingTeam, rig.frame().referee->teams[1].number);
+    QTRY_COMPARE(rig.undo()->count(), before + 1);
+    rig.undo()->undo();
+    QTRY_COMPARE(rig.frame().referee->setPlay, std::string());
+    QVERIFY(rig.errors.isEmpty());
   }
 
   void formationsAreOneStep() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    const auto before = desk.frame().robots;
-    desk.openFold();
-    auto* formation = desk.dock->findChild<QComboBox*>("refereeFormation");
-    auto loads = desk.dock->findChildren<QPushButton*>();
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    const auto before = rig.frame().robots;
+    rig.openFold();
+    auto* formation = rig.dock->findChild<QComboBox*>("refereeFormation");
+    auto loads = rig.dock->findChildren<QPushButton*>();
     for (int i = 0; i < formation->count(); ++i) {
       formation->setCurrentIndex(i);
       for (QPushButton* load : loads) {
         if (load->text() == "Left attacks") QTest::mouseClick(load, Qt::LeftButton);
       }
-      QTRY_COMPARE(desk.undo()->count(), 1);
-      QTRY_VERIFY(desk.frame().robots[1].pose != before[1].pose);
-      for (const link::RobotFrame& a : desk.frame().robots) {
-        for (const link::RobotFrame& b : desk.frame().robots) {
+      QTRY_COMPARE(rig.undo()->count(), 1);
+      QTRY_VERIFY(rig.frame().robots[1].pose != before[1].pose);
+      for (const link::RobotFrame& a : rig.frame().robots) {
+        for (const link::RobotFrame& b : rig.frame().robots) {
           if (a.key == b.key) continue;
           QVERIFY2(distance(a.pose.position, b.pose.position) > 0.27,
                    qPrintable(formation->currentText()));
         }
-        QVERIFY(distance(a.pose.position, desk.frame().snapshot.ball) > 0.2);
+        QVERIFY(distance(a.pose.position, rig.frame().snapshot.ball) > 0.2);
       }
-      desk.controller.edits()->undoStack()->undo();
-      QTRY_COMPARE(desk.frame().robots[1].pose, before[1].pose);
-      desk.controller.edits()->undoStack()->clear();
+      rig.controller.edits()->undoStack()->undo();
+      QTRY_COMPARE(rig.frame().robots[1].pose, before[1].pose);
+      rig.controller.edits()->undoStack()->clear();
     }
   }
 
   void whoIsPenalisedIsLeftOutOfAFormation() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    desk.openFold();
-    desk.choose(1);
-    desk.press("Penalise");
-    QTRY_VERIFY(desk.frame().robots[1].penalty.has_value());
-    const auto before = desk.frame().robots;
-    auto* hasText = desk.dock->findChild<QLabel*>("refereeStaysOff");
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.openFold();
+    rig.choose(1);
+    rig.press("Penalise");
+    QTRY_VERIFY(rig.frame().robots[1].penalty.has_value());
+    const auto before = rig.frame().robots;
+    auto* hasText = rig.dock->findChild<QLabel*>("refereeStaysOff");
     QTRY_COMPARE(hasText->text(), QString("B2 is penalised and stays off the field."));
-    for (QPushButton* load : desk.dock->findChildren<QPushButton*>()) {
+    for (QPushButton* load : rig.dock->findChildren<QPushButton*>()) {
       if (load->text() == "Left attacks") QTest::mouseClick(load, Qt::LeftButton);
     }
-    QTRY_VERIFY(desk.frame().robots[2].pose != before[2].pose);
-    QCOMPARE(desk.frame().robots[1].pose, before[1].pose);
+    QTRY_VERIFY(rig.frame().robots[2].pose != before[2].pose);
+    QCOMPARE(rig.frame().robots[1].pose, before[1].pose);
   }
 
   void rulesCanBeChosen() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    auto* rules = desk.dock->findChild<QComboBox*>("refereeRules");
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    auto* rules = rig.dock->findChild<QComboBox*>("refereeRules");
     QTRY_COMPARE(rules->currentData().toString(), QString("humanoid-2021"));
     rules->setCurrentIndex(0);
     emit rules->activated(0);
-    QTRY_VERIFY(!desk.frame().referee);
-    QTRY_VERIFY(!desk.button("READY")->isVisible());
+    QTRY_VERIFY(!rig.frame().referee);
+    QTRY_VERIFY(!rig.button("READY")->isVisible());
     QVERIFY(rules->isVisible());  // without a referee the fold is open
     rules->setCurrentIndex(3);
     emit rules->activated(3);
-    QTRY_VERIFY(desk.frame().referee.has_value());
-    QTRY_COMPARE(desk.frame().refereeRules, std::string("humanoid-soccer-2026"));
+    QTRY_VERIFY(rig.frame().referee.has_value());
+    QTRY_COMPARE(rig.frame().refereeRules, std::string("humanoid-soccer-2026"));
   }
 
   void otherRulesAreUndone_data() {
@@ -132,69 +132,69 @@ class TestRefereeRules : public QObject {
   }
   void otherRulesAreUndone() {
     QFETCH(int, rules);
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    desk.reach("PLAYING");
-    desk.press("Goal right");
-    QTRY_COMPARE(desk.state(), QString("READY"));
-    desk.press("SET");
-    desk.press("PLAYING");
-    QTRY_COMPARE(desk.state(), QString("PLAYING"));
-    QTRY_COMPARE(scoreboardOf(desk.frame()).right, 1);
-    desk.choose(0);
-    desk.press("Penalise");
-    QTRY_VERIFY(desk.frame().robots[0].penalty.has_value());
-    desk.controller.runTo(90);
-    QTRY_COMPARE(desk.frame().snapshot.tick, std::uint64_t(90));
-    const std::uint64_t hash = desk.controller.stateHash();
-    const link::MatchFrame before = desk.frame();
-    QUndoStack* stack = desk.controller.edits()->undoStack();
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.reach("PLAYING");
+    rig.press("Goal right");
+    QTRY_COMPARE(rig.state(), QString("READY"));
+    rig.press("SET");
+    rig.press("PLAYING");
+    QTRY_COMPARE(rig.state(), QString("PLAYING"));
+    QTRY_COMPARE(scoreboardOf(rig.frame()).right, 1);
+    rig.choose(0);
+    rig.press("Penalise");
+    QTRY_VERIFY(rig.frame().robots[0].penalty.has_value());
+    rig.controller.runTo(90);
+    QTRY_COMPARE(rig.frame().snapshot.tick, std::uint64_t(90));
+    const std::uint64_t hash = rig.controller.stateHash();
+    const link::MatchFrame before = rig.frame();
+    QUndoStack* stack = rig.controller.edits()->undoStack();
     const int steps = stack->count();
 
-    auto* box = desk.dock->findChild<QComboBox*>("refereeRules");
+    auto* box = rig.dock->findChild<QComboBox*>("refereeRules");
     const std::string name = box->itemData(rules).toString().toStdString();
     box->setCurrentIndex(rules);
     emit box->activated(rules);
-    QTRY_COMPARE(desk.frame().refereeRules, rules == 0 ? std::string() : name);
-    if (rules != 0) QCOMPARE(scoreboardOf(desk.frame()).right, 0);
+    QTRY_COMPARE(rig.frame().refereeRules, rules == 0 ? std::string() : name);
+    if (rules != 0) QCOMPARE(scoreboardOf(rig.frame()).right, 0);
     QTRY_COMPARE(stack->count(), steps + 1);
-    const auto reported = [&desk] {
-      return std::ranges::count_if(desk.timeline.events()->events(), [](const auto& event) {
+    const auto reported = [&rig] {
+      return std::ranges::count_if(rig.timeline.events()->events(), [](const auto& event) {
         return event.kind == link::MatchEventKind::SettingChanged && event.detail == "rules";
       });
     };
     QTRY_COMPARE(reported(), 1);
     stack->undo();
     QTRY_COMPARE(reported(), 0);
-    QTRY_COMPARE(desk.frame().refereeRules, std::string("humanoid-2021"));
-    QCOMPARE(desk.controller.stateHash(), hash);
-    QCOMPARE(scoreboardOf(desk.frame()).clock, scoreboardOf(before).clock);
-    QCOMPARE(scoreboardOf(desk.frame()).penalties, scoreboardOf(before).penalties);
+    QTRY_COMPARE(rig.frame().refereeRules, std::string("humanoid-2021"));
+    QCOMPARE(rig.controller.stateHash(), hash);
+    QCOMPARE(scoreboardOf(rig.frame()).clock, scoreboardOf(before).clock);
+    QCOMPARE(scoreboardOf(rig.frame()).penalties, scoreboardOf(before).penalties);
     stack->redo();
-    QTRY_COMPARE(desk.frame().refereeRules, rules == 0 ? std::string() : name);
+    QTRY_COMPARE(rig.frame().refereeRules, rules == 0 ? std::string() : name);
     stack->undo();
-    QTRY_COMPARE(desk.controller.stateHash(), hash);
+    QTRY_COMPARE(rig.controller.stateHash(), hash);
     // What was done before it can still be undone.
     stack->undo();
-    QTRY_VERIFY(!desk.frame().robots[0].penalty.has_value());
-    QVERIFY(desk.errors.isEmpty());
+    QTRY_VERIFY(!rig.frame().robots[0].penalty.has_value());
+    QVERIFY(rig.errors.isEmpty());
   }
 
   void whoCallsIsUndone() {
-    Desk desk;
-    QTRY_COMPARE(desk.state(), QString("INITIAL"));
-    auto* automatic = desk.dock->findChild<QCheckBox*>("refereeAutomatic");
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    auto* automatic = rig.dock->findChild<QCheckBox*>("refereeAutomatic");
     QVERIFY(!automatic->isChecked());
     QTRY_VERIFY(automatic->isEnabled());
     automatic->click();
-    QTRY_VERIFY(desk.frame().refereedGame->rules.automatic);
-    QTRY_COMPARE(desk.undo()->count(), 1);
-    const auto& events = desk.timeline.events()->events();
+    QTRY_VERIFY(rig.frame().refereedGame->rules.automatic);
+    QTRY_COMPARE(rig.undo()->count(), 1);
+    const auto& events = rig.timeline.events()->events();
     QTRY_COMPARE(
         std::ranges::count(events, link::MatchEventKind::SettingChanged, &link::MatchEvent::kind),
         1);
-    desk.undo()->undo();
-    QTRY_VERIFY(!desk.frame().refereedGame->rules.automatic);
+    rig.undo()->undo();
+    QTRY_VERIFY(!rig.frame().refereedGame->rules.automatic);
     QTRY_VERIFY(!automatic->isChecked());
   }
 };

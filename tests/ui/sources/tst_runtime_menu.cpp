@@ -166,17 +166,17 @@ class TestRuntimeMenu : public QObject {
       }
       return robots;
     };
-    const std::vector<int> blue{1, 2, 3}, nobody;
-    QCOMPARE(advised(), nobody);
+    const std::vector<int> blue{1, 2, 3}, none;
+    QCOMPARE(advised(), none);
     choose(controller, 2, QStringLiteral("Advisor"), &addTeamMenu);
     QTRY_COMPARE_WITH_TIMEOUT(advised(), blue, 30'000);
     QVERIFY(controller.edits()->isAdvised(TeamColor::Blue));
     controller.edits()->undoStack()->undo();
-    QTRY_COMPARE_WITH_TIMEOUT(advised(), nobody, 30'000);
+    QTRY_COMPARE_WITH_TIMEOUT(advised(), none, 30'000);
     controller.edits()->undoStack()->redo();
     QTRY_COMPARE_WITH_TIMEOUT(advised(), blue, 30'000);
     choose(controller, 3, QStringLiteral("Advisor"), &addTeamMenu);
-    QTRY_COMPARE_WITH_TIMEOUT(advised(), nobody, 30'000);
+    QTRY_COMPARE_WITH_TIMEOUT(advised(), none, 30'000);
     QVERIFY(!controller.edits()->isAdvised(TeamColor::Blue));
   }
 };

@@ -9,10 +9,12 @@
 #include <QToolButton>
 #include <QtTest>
 #include <cmath>
+#include <set>
 
 #include <ui/field/field_view.h>
 #include <ui/sources/match_edits.h>
 
+#include "plot_pane.h"
 #include "scenario_chooser.h"
 #include "window_rig.h"
 
@@ -57,6 +59,38 @@ class TestFirstMinute : public QObject {
     QVERIFY2(farthest > 0.05, qPrintable(QString::number(farthest)));
     // Nobody was in the wrong place at the whistle.
     QVERIFY(s.window.findChild<QLabel*>("penaltyStrip")->text().isEmpty());
+  }
+
+  // Whatever is opened: within five seconds there is a curve that is not level.
+  void theFirstPlotMovesWithinFiveSeconds_data() {
+    QTest::addColumn<QString>("scenario");
+    for (const char* name : {"kick-off", "match", "match-3v3", "match-11v11", "one-robot",
+                             "published-match-3v3", "scenario-1", "scenario-2"}) {
+      QTest::newRow(name) << QString::fromUtf8(name);
+    }
+  }
+  void theFirstPlotMovesWithinFiveSeconds() {
+    QFETCH(QString, scenario);
+    Studio s;
+    s.open(qPrintable(scenario), true);
+    const double rate = s.controller.frame()->settings->tickRate;
+    const auto tick = static_cast<std::uint64_t>(5 * rate);
+    s.controller.runTo(tick);
+    QTRY_VERIFY(s.controller.frame()->snapshot.tick == tick);
+    const auto* plots = s.window.findChild<PlotsDock*>();
+    const auto different = [plots] {
+      std::set<double> values;
+      for (const Curve& curve : plots->currentPage()->panes()[0]->curves()) {
+        if (!curve.view()) continue;
+        std::vector<telemetry::Sample> samples;
+        curve.view().group->samples(curve.view().column, {0.0, 5.0}, samples);
+        for (const telemetry::Sample& sample : samples) {
+          if (std::isfinite(sample.value)) values.insert(sample.value);
+        }
+      }
+      return values.size();
+    };
+    QTRY_VERIFY2(different() > 3, qPrintable(QString::number(different())));
   }
 
   void theLineLeavesAfterTheFirstAction_data() {

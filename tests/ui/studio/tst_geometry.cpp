@@ -4,6 +4,7 @@
 #include <QAbstractScrollArea>
 #include <QDockWidget>
 #include <QGraphicsView>
+#include <QLabel>
 #include <QTabBar>
 #include <QToolBar>
 #include <QToolButton>
@@ -54,6 +55,73 @@ class TestGeometry : public QObject {
     QCOMPARE(s.window.size(), size);
     // Wider than the panels beside it together.
     QVERIFY2(canvas->width() >= 0.45 * size.width(), qPrintable(QString::number(canvas->width())));
+  }
+
+  // Wherever a person drops a panel, by hand.
+  void aDroppedPanelLeavesTheFieldItsShare_data() {
+    QTest::addColumn<QString>("panel");
+    QTest::addColumn<Qt::Edge>("edge");
+    for (const char* panel : {"variables", "robots"}) {
+      QTest::addRow("%s, top", panel) << QString(panel) << Qt::TopEdge;
+      QTest::addRow("%s, bottom", panel) << QString(panel) << Qt::BottomEdge;
+    }
+  }
+  void aDroppedPanelLeavesTheFieldItsShare() {
+    QFETCH(QString, panel);
+    QFETCH(Qt::Edge, edge);
+    Studio s({1280, 800});
+    s.play();
+    const auto* canvas = s.window.field()->findChild<QAbstractScrollArea*>();
+    const auto share = [&] { return double(canvas->height()) / s.window.height(); };
+    QTRY_VERIFY(share() >= 0.55);
+    auto* dock = s.window.findChild<QDockWidget*>(panel);
+    s.window.setAnimated(false);  // a panel that still glides cannot be grabbed
+    QWidget* title = dock->titleBarWidget();
+    const QPoint grip(30, title->height() / 2);
+    const int y = edge == Qt::TopEdge ? s.window.centralWidget()->y() + 3
+                                      : s.find<QDockWidget>("timeline")->y() - 3;
+    const QPoint to = s.window.mapToGlobal(QPoint(s.window.width() / 2, y));
+    QTest::mousePress(title, Qt::LeftButton, {}, grip);
+    const QPoint from = title->mapToGlobal(grip);
+    bool floated = false;
+    for (const double part : {0.1, 0.4, 0.8, 1.0, 1.0}) {
+      const QPoint at = from + ((to - from) * part);
+      QMouseEvent move(QEvent::MouseMove, title->mapFromGlobal(at), at, Qt::NoButton,
+                       Qt::LeftButton, {});
+      QApplication::sendEvent(title, &move);
+      QCoreApplication::processEvents();
+      floated = floated || dock->window() != &s.window;
+    }
+    QTest::mouseRelease(title, Qt::LeftButton, {}, title->mapFromGlobal(to));
+    QVERIFY(floated);
+    if (edge == Qt::BottomEdge) QTRY_VERIFY(dock->window() == &s.window);
+    for (int i = 0; i < 10; ++i) QCoreApplication::processEvents();
+    QTRY_VERIFY(s.window.dockWidgetArea(dock) != Qt::TopDockWidgetArea);
+    QVERIFY(dock->isVisible());
+    QTRY_VERIFY2(share() >= 0.55, qPrintable(QString::number(share())));
+    QCOMPARE(s.window.size(), QSize(1280, 800));
+  }
+
+  void theFieldIsFittedWhenAPanelFloats() {
+    Studio s({1000, 900});  // narrow: the width decides how large the field is
+    s.play();
+    const auto* canvas = s.window.field()->findChild<QGraphicsView*>();
+    const sim::FieldSpec field = s.controller.frame()->settings->field;
+    const auto scale = [canvas] { return canvas->transform().m11(); };
+    const auto isWhole = [&] {
+      const QPoint corner = canvas->mapFromScene(-field.halfLength(), -field.halfWidth());
+      const QPoint other = canvas->mapFromScene(field.halfLength(), field.halfWidth());
+      return canvas->viewport()->rect().contains(QRect(corner, other).normalized());
+    };
+    QTRY_VERIFY(isWhole());
+    for (const char* panel : {"robots", "variables"}) {
+      const double before = scale();
+      s.find<QDockWidget>(panel)->setFloating(true);
+      QTRY_VERIFY2(scale() > 1.1 * before && isWhole(), panel);
+    }
+    const double large = scale();
+    s.find<QDockWidget>("variables")->setFloating(false);
+    QTRY_VERIFY(scale() < large && isWhole());
   }
 
   void robotsAreAtLeast18Pixels_data() {

@@ -18,6 +18,7 @@
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/timeline.h>
 #include <ui/window/main_window.h>
 
 #include "../support/robot_keys.h"
@@ -141,6 +142,26 @@ class TestLive : public QObject {
     std::sort(milliseconds.begin(), milliseconds.end());
     qInfo("datagram to paint: median %.1f ms, longest %.1f ms", milliseconds[15],
           milliseconds.back());
+  }
+
+  // What arrives now does not stop because somebody looks at what arrived before.
+  void ratesGoOnWhileThePastIsShown() {
+    Studio s;
+    s.goLive();
+    const Robot robot(s.options, 1);
+    const auto rate = [&s] {
+      return s.label("statusPace").section(QLatin1Char(' '), 1).section(QLatin1Char('/'), 0, 0);
+    };
+    const auto isRead = [&] { return robot.sendMessage() && rate().toDouble() > 1.0; };
+    QTRY_VERIFY2(isRead(), qPrintable(s.label("statusPace")));
+    Timeline* timeline = s.window.timeline();
+    timeline->seek(timeline->available()->begin);
+    QVERIFY(timeline->isLookingBack());
+    const std::uint64_t before = s.health().messages;
+    const auto goesOn = [&] { return robot.sendMessage() && s.health().messages > before + 40; };
+    QTRY_VERIFY(goesOn());
+    QVERIFY2(isRead(), qPrintable(s.label("statusPace")));
+    QVERIFY(timeline->isLookingBack());
   }
 
   void nothingCanBeMovedInLive() {

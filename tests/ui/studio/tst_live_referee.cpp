@@ -124,6 +124,23 @@ class TestLiveReferee : public QObject {
     QTRY_COMPARE(chooser->currentData().toInt(), team);
   }
 
+  // A second sender of a penalised number is no second penalty.
+  void everyPenaltyIsShownOnce() {
+    link::MatchFrame frame;
+    frame.origin = link::FrameOrigin::Live;
+    frame.referee.emplace();
+    for (const int sender : {0, 1}) {
+      link::RobotFrame robot;
+      robot.identity.team = TeamColor::Blue;
+      robot.identity.number = 3;
+      robot.key = {1, 3, sender};
+      robot.name = "B3";
+      robot.penalty = link::Penalty{"pickup", 20};
+      frame.robots.push_back(robot);
+    }
+    QCOMPARE(scoreboardOf(frame).penalties, QStringLiteral("B3 20"));
+  }
+
   void aGoalIsAnEvent() {
     const link::LiveOptions options = live_rig::options();
     LiveController live;

@@ -87,7 +87,7 @@ struct Studio : live_studio::Studio {
     Names names;
     for (const link::RobotFrame& robot : live()->frame()->robots) {
       const QString head = hoverText(*live()->frame(), robot.key).section(QLatin1Char('\n'), 0, 0);
-      names.insert(head);
+      names.insert(head.section(QLatin1Char(' '), 0, robot.ownName.empty() ? -1 : 0));
     }
     return names;
   }
@@ -292,7 +292,8 @@ class TestRenamedRobots : public QObject {
     if (!our.isEmpty()) QVERIFY(link::chooseOurTeam(chosen, our.toStdString()));
     if (setups) {
       for (const QString& file :
-           {write("blue.json", R"({"number": 12, "colour": "blue", "senders": ["127.0.0.2"]})"),
+           {write("blue.json", R"({"number": 12, "colour": "blue", "senders": ["127.0.0.2"],
+                "robots": {"3": "Ana"}})"),
             write("red.json", R"({"number": 7, "colour": "red", "senders": ["127.0.0.3"]})")}) {
         more << QStringLiteral("--team") << file;
         chosen.team.teams.push_back(telemetry::loadTeamSetup(file.toStdString()).value());
@@ -416,6 +417,7 @@ class TestRenamedRobots : public QObject {
       if (!inReport.contains(name)) inReport << name;
     }
     QCOMPARE(inReport, names);
+    QCOMPARE(page.contains(QStringLiteral("B3</span> Ana<")), setups);
     for (const QString& name : names) {
       const QByteArray rows = run({"export", file, "--to", "csv-long", "--robots", name});
       QVERIFY2(rows.contains("," + name.toUtf8() + ",LOCALIZATION_X,"), rows.left(300));

@@ -97,6 +97,15 @@ class TestSessions : public QObject {
     QCOMPARE(past->snapshot.tick, std::uint64_t(120));
     QCOMPARE(past->robots.size(), std::size_t(6));
     QVERIFY(!(past->robots[0].pose.position == now->robots[0].pose.position));
+    // The same moment looks the same from later on: lamps, too.
+    const FramePtr same = s.controller.frameAt(now->snapshot.time);
+    QVERIFY(same);
+    for (std::size_t i = 0; i < now->robots.size(); ++i) {
+      for (std::size_t lamp = 0; lamp < telemetry::processCount; ++lamp) {
+        QCOMPARE(same->robots[i].lamps[lamp].state, now->robots[i].lamps[lamp].state);
+        QCOMPARE(now->robots[i].lamps[lamp].state, telemetry::HeartbeatState::Working);
+      }
+    }
     auto* sign = s.window.findChild<QWidget*>(QStringLiteral("lookingBack"));
     QVERIFY(sign->isVisible());
     // The buttons of the tool bar play the past; the match stays where it is.

@@ -22,6 +22,7 @@
 #include <ui/robots/robots_dock.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
 #include <ui/sources/timeline.h>
 #include <ui/window/main_window.h>
@@ -30,6 +31,7 @@
 #include "../support/menu_entry.h"
 #include "../support/robot_keys.h"
 #include "field_scene.h"
+#include "log_model.h"
 #include "menu_actions.h"
 #include "plot_page.h"
 #include "scoreboard.h"
@@ -202,6 +204,51 @@ class TestWindowMatch : public QObject {
     QVERIFY(!s.window.findChild<LinkedTime*>()->moment());
     QTRY_COMPARE(card(), cardNow);
     QTRY_VERIFY(status().contains(QStringLiteral("tick 300")));
+  }
+
+  // Edits while the match stands still are no rows of another second.
+  void editsInAPauseAreNoRate() {
+    Studio s(m_settings.get());
+    s.controller.open(link::loadScenario("match-3v3").value(), true);
+    s.controller.runTo(300);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 300);
+    auto* variables = s.window.findChild<VariablesModel*>();
+    const auto rate = [variables] {
+      variables->refreshAll();
+      return variables->find(QStringLiteral("B1"))
+          .siblingAtColumn(VariablesModel::Value)
+          .data()
+          .toString();
+    };
+    QTRY_COMPARE(rate(), QStringLiteral("60"));
+    for (int i = 1; i <= 60; ++i) {
+      s.controller.edits()->moveBall({}, {0.01 * i, 1.0});
+      s.controller.settle();
+    }
+    QTRY_VERIFY(std::abs(s.controller.frame()->snapshot.ball.x - 0.6) < 1e-9);
+    QVERIFY2(rate() == QStringLiteral("60"), qPrintable(rate()));
+  }
+
+  void aRestartIsADividerInTheLog() {
+    Studio s(m_settings.get());
+    s.controller.open(link::loadScenario("match").value(), true);
+    s.controller.runTo(660);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 660);
+    const auto* log = s.window.findChild<LogModel*>(QStringLiteral("logModel"));
+    const auto dividers = [log] {
+      QStringList found;
+      for (int row = 0; row < log->rowCount(); ++row) {
+        if (!log->index(row, LogModel::Time).data().toString().isEmpty()) continue;
+        found << log->index(row, LogModel::Text).data().toString();
+      }
+      return found;
+    };
+    QTRY_VERIFY(log->rowCount() > 0);
+    QVERIFY(dividers().isEmpty());
+    s.window.findChild<QAction*>(QStringLiteral("restart"))->trigger();
+    QTRY_COMPARE(dividers().size(), 1);
+    QVERIFY2(dividers().front().startsWith(QStringLiteral("Match")),
+             qPrintable(dividers().front()));
   }
 
   void hiddenLayersAndDrawingsAreRemembered() {

@@ -205,6 +205,27 @@ class TestEventList : public QObject {
     QCOMPARE(wide[0].label, QStringLiteral("PLAYING"));
   }
 
+  /// What ends a match stands at the right edge of the timeline of its recording.
+  void theLastLabelStandsWhereItHasRoom() {
+    const QFontMetrics font{QFont()};
+    const TimeAxis axis{{0, 20}, 0, 800};
+    const auto lastOf = [&](double time, double before) {
+      EventList list;
+      list.add(at(before, MatchEventKind::GameState, "PLAYING"));
+      list.add(at(time, MatchEventKind::GameState, "FINISHED"));
+      return layOutMarks(list.events(), axis, {10, 8}, font).back();
+    };
+    for (const double time : {20.0, 19.9, 19.0}) {
+      const EventMark mark = lastOf(time, 2.0);
+      QCOMPARE(mark.label, QStringLiteral("FINISHED"));
+      QVERIFY(mark.labelLeft);
+    }
+    QVERIFY(!lastOf(15.0, 2.0).labelLeft);
+    QCOMPARE(lastOf(15.0, 2.0).label, QStringLiteral("FINISHED"));
+    // Not over the label before it.
+    QVERIFY(!lastOf(20.0, 18.5).labelLeft);
+  }
+
   void manyMarksShareThePlacesThereAre() {
     EventList list;
     std::vector<MatchEvent> many;

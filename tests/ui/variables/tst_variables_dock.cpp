@@ -2,7 +2,10 @@
 // The list of variables: what it shows, how it is filtered, folded, gone through and remembered.
 #include <QAbstractItemModelTester>
 #include <QClipboard>
+#include <QKeySequence>
 #include <QMimeData>
+#include <cmath>
+#include <limits>
 #include <set>
 
 #include <ui/sources/match_memory.h>
@@ -113,6 +116,29 @@ class TestVariablesDock : public QObject {
     std::uint32_t samples = 0;
     for (const auto& bucket : spark) samples += bucket.samples;
     QCOMPARE(samples, 601U);
+  }
+
+  void whatIsMissingIsADash() {
+    Bench bench;
+    auto store = std::make_shared<telemetry::SeriesStore>();
+    const auto b1 = store->addGroup(robotGroup("B1", 1));
+    const float noFloat = std::numeric_limits<float>::quiet_NaN();
+    for (const double time : {0.0, 1.0}) append(*store, b1, time, 0, 0, noFloat, std::nan(""));
+    bench.hand.take(store, SourceKind::Simulate);
+    bench.view->openAll();
+    const QString place = QStringLiteral("B1/TRUE_X");
+    for (const QString& name : {ballDistance, place}) {
+      QTRY_COMPARE(bench.text(name, VariablesModel::Value), QStringLiteral("–"));
+      for (int column = 0; column < bench.model->columnCount(); ++column) {
+        QVERIFY(!bench.text(name, column).contains(QStringLiteral("nan"), Qt::CaseInsensitive));
+      }
+      bench.choose(name);
+      const QString tip = bench.at(name).data(Qt::ToolTipRole).toString();
+      QVERIFY2(!tip.contains(QStringLiteral("nan"), Qt::CaseInsensitive), qPrintable(tip));
+      QTest::keySequence(bench.view, QKeySequence::Copy);
+      QVERIFY(
+          !QApplication::clipboard()->text().contains(QStringLiteral("nan"), Qt::CaseInsensitive));
+    }
   }
 
   // In a narrow panel the curve leaves first, then the heading that the name repeats.

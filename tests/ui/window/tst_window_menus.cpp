@@ -7,6 +7,7 @@
 #include <QLineEdit>
 #include <QListView>
 #include <QMenuBar>
+#include <QPushButton>
 #include <QSettings>
 #include <QSpinBox>
 #include <QTemporaryDir>
@@ -17,6 +18,7 @@
 #include <robotlink/blackboard/match_number.h>
 #include <ui/base/notice_bar.h>
 #include <ui/base/theme.h>
+#include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/timeline.h>
 #include <ui/window/main_window.h>
@@ -215,6 +217,15 @@ class TestWindowMenus : public QObject {
     s.window.showSource(SourceKind::Live);
     QTRY_VERIFY(!rules->isVisible());
     QVERIFY2(state->text().startsWith("Waiting for the referee"), qPrintable(state->text()));
+    // It has controls in Simulate only.
+    for (const SourceKind kind : {SourceKind::Live, SourceKind::Replay}) {
+      s.window.showSource(kind);
+      QVERIFY(dock->isVisible());
+      QTRY_VERIFY(!rules->isVisible());
+      for (const auto* button : dock->widget()->findChildren<QPushButton*>()) {
+        QVERIFY2(!button->isVisible() || !button->isEnabled(), qPrintable(button->text()));
+      }
+    }
     s.window.showSource(SourceKind::Simulate);
     QTRY_COMPARE(state->text(),
                  QStringLiteral("This match has no referee. Choose rules below to get one."));

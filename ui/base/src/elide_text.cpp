@@ -44,13 +44,14 @@ QList<Part> partsOf(const QString& text) {
   return parts;
 }
 
-/// Shortens words to a width; a remainder of one or two letters is left out.
+/// Shortens words to a width; a remainder of one or two letters is left out, and a comma or dot
+/// before the ellipsis.
 QString shortened(const QFontMetricsF& metrics, const QString& words, double width) {
   constexpr qsizetype scrap = 2;  // letters
   QString shown = metrics.elidedText(words, Qt::ElideRight, width);
+  if (shown == words || shown.isEmpty()) return shown;
   const qsizetype space = shown.lastIndexOf(QLatin1Char(' '));
-  if (shown == words || space <= 0 || shown.size() - space - 2 > scrap) return shown;
-  shown.truncate(space);
+  shown.truncate(space > 0 && shown.size() - space - 2 <= scrap ? space : shown.size() - 1);
   while (!shown.isEmpty() && !shown.back().isLetterOrNumber()) shown.chop(1);
   return shown + QChar(0x2026);
 }

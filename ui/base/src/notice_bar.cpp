@@ -135,7 +135,7 @@ void NoticeBar::floatOver(QWidget* host) {
 
 bool NoticeBar::event(QEvent* event) {
   const bool done = QFrame::event(event);
-  // A button's wish is known only when its style is.
+  // A button's size hint is known only when its style is.
   if (event->type() == QEvent::LayoutRequest) {
     arrange(width());
     place();

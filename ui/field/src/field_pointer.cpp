@@ -262,7 +262,9 @@ void FieldPointer::finish() {
 
 void FieldPointer::doubleClick(const QPointF& at) {
   const FieldHit hit = m_scene->hit(at);
-  if (hit.kind != FieldHit::Kind::Robot || m_tool != FieldTool::Select) return;
+  if (m_tool != FieldTool::Select) return;
+  if (hit.kind == FieldHit::Kind::Ball && canEdit()) emit ballRequested();
+  if (hit.kind != FieldHit::Kind::Robot) return;
   m_scene->select({hit.robot});
   if (canEdit()) emit poseRequested(hit.robot);
 }

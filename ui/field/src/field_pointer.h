@@ -45,6 +45,7 @@ class FieldPointer : public QObject {
  signals:
   void toolChanged(pitchboard::ui::FieldTool tool);
   void poseRequested(pitchboard::RobotKey id);
+  void ballRequested();
 
  private:
   enum class Drag { None, Robots, Turn, Ball, Kick, Band, Ruler };

@@ -76,7 +76,8 @@ std::vector<DrawnAction> drawnCandidates(const link::RobotFrame& robot,
     action.width = one.isChosen ? 4.0 : 2.0;
     action.opacity = one.isChosen ? 1.0 : 0.45;
   }
-  std::ranges::stable_partition(drawn, [](const DrawnAction& one) { return one.opacity < 1.0; });
+  std::stable_partition(drawn.begin(), drawn.end(),
+                        [](const DrawnAction& one) { return one.opacity < 1.0; });
   return drawn;
 }
 

@@ -190,6 +190,7 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
   setFocusProxy(d->canvas);
   d->canvas->setHoverText([this](const QPointF& metres) {
     const FieldHit hit = d->scene->hit(metres);
+    if (hit.kind == FieldHit::Kind::Ball) return ballHoverText(*d->scene->frame());
     const bool isRobot = hit.kind == FieldHit::Kind::Robot || hit.kind == FieldHit::Kind::Handle;
     return isRobot ? hoverText(*d->scene->frame(), hit.robot) : QString();
   });
@@ -198,6 +199,7 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
           [this](QPoint at, QPointF metres) { d->openMenu(at, metres); });
   connect(d->scene, &FieldScene::selectionChangedTo, this, &FieldView::selectionChanged);
   connect(d->scene, &FieldScene::followedChanged, this, &FieldView::followedChanged);
+  connect(d->pointer, &FieldPointer::ballRequested, this, [this] { d->openBallEditor(); });
   connect(d->pointer, &FieldPointer::poseRequested, this,
           [this](RobotKey id) { d->openPoseEditor(id); });
   if (!source) return;

@@ -92,4 +92,10 @@ QString hoverText(const link::MatchFrame& frame, RobotKey id) {
   return lines.join(QLatin1Char('\n'));
 }
 
+QString ballHoverText(const link::MatchFrame& frame) {
+  const auto& velocity = frame.snapshot.ballVelocity;
+  return QStringLiteral("Ball\nAt %1\nSpeed: %2 m/s")
+      .arg(placeText(frame.snapshot.ball), fieldNumber(std::hypot(velocity.x, velocity.y), 2));
+}
+
 }  // namespace pitchboard::ui

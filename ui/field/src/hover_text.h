@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the field says of a robot when the mouse rests on it. Pure function.
+// What the field says of a robot or the ball when the mouse rests on it. Pure functions.
 
 #include <QString>
 
@@ -16,5 +16,7 @@ namespace pitchboard::ui {
 /// Lines of plain text: name, behaviour, action, target, how far its belief is off, what is wrong.
 /// Empty for a robot that is not in the frame.
 QString hoverText(const link::MatchFrame& frame, RobotKey id);
+/// Position (m) and speed (m/s) of the true ball, which the frame must know.
+QString ballHoverText(const link::MatchFrame& frame);
 
 }  // namespace pitchboard::ui

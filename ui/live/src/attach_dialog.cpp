@@ -12,6 +12,8 @@
 #include <QTableWidget>
 #include <QTimer>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
 
 #include <robotlink/blackboard/segments.h>
 #include <ui/base/dialog_size.h>
@@ -175,6 +177,14 @@ void AttachDialog::listSegments() {
               info.blackboardSized ? QStringLiteral("fits the published map")
                                    : QStringLiteral("needs its own catalog")});
     m_segments->item(row, 0)->setData(Qt::UserRole, info.key);
+  }
+  // At first the form means the first segment that it can attach as it stands.
+  if (!std::exchange(m_wasListed, true)) {
+    const auto first = std::ranges::find(segments, true, &link::SegmentInfo::blackboardSized);
+    if (first != segments.end()) {
+      m_segments->selectRow(static_cast<int>(first - segments.begin()));
+      m_key->setValue(first->key);
+    }
   }
   const bool isNote = m_message->property("note").toBool();
   if (segments.empty() && m_message->text().isEmpty()) {

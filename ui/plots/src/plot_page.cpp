@@ -270,8 +270,8 @@ void PlotPage::align() {
   if (m_aligning) return;
   m_aligning = true;
   bool overTime = false;
-  // A new width can change the numbers, and with them the wish: what stands there in the end does
-  // not depend on what stood there before.
+  // A new width can change the numbers, and with them the width that they need. The result does not
+  // depend on the width before.
   constexpr int mostPasses = 3;
   for (int pass = 0; pass < mostPasses; ++pass) {
     int left = scaled(this, plainLeft);
@@ -291,6 +291,13 @@ void PlotPage::align() {
   m_empty->setVisible(empty);
   m_scroll->setVisible(!empty);
   m_ruler->setVisible(overTime);
+  // Beneath an XY plot the clock would be taken for its axis; then it stands above all plots.
+  const bool isAbove = !panes().isEmpty() && !panes().last()->isOverTime();
+  auto* column = static_cast<QVBoxLayout*>(m_stack->layout());
+  if (isAbove != (column->indexOf(m_ruler) < column->indexOf(m_scroll))) {
+    column->removeWidget(m_ruler);
+    column->insertWidget(isAbove ? column->indexOf(m_scroll) : -1, m_ruler);
+  }
   m_aligning = false;
   placeLines();
   m_ruler->update();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rules_fold.h"
 
+#include <QAbstractItemView>
 #include <QAction>
 #include <QPushButton>
 #include <QVBoxLayout>

@@ -197,7 +197,8 @@ QString ageText(double milliseconds) {
 }  // namespace
 
 QString CardState::process(std::size_t lamp) const {
-  return lamp == 0 && live ? QStringLiteral("control") : QLatin1String(processes[lamp]);
+  const auto name = QString::fromUtf8(telemetry::processNames[lamp]);
+  return name == QStringLiteral("IMU") ? name : name.toLower();
 }
 
 QString subtitleOf(const link::RobotFrame& robot) {

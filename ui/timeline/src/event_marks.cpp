@@ -185,7 +185,23 @@ std::vector<EventMark> layOutMarks(const std::deque<link::MatchEvent>& events, c
     const int room = static_cast<int>(stop - kept[i].x - sizes.labelGap);
     constexpr int longest = 160;
     constexpr int shortest = 5;  // characters: less of a longer text says nothing
-    const QString shown = elideText(font, predicate, std::min(room, longest));
+    const int wanted = std::min(font.horizontalAdvance(predicate), longest);
+    // At the right edge there may be room on the other side only.
+    if (i + 1 == kept.size() && wanted > room) {
+      double begin = axis.left;
+      if (i > 0) {
+        const EventMark& neighbour = kept[i - 1];
+        begin = neighbour.x + sizes.spacing * 0.6;
+        if (!neighbour.label.isEmpty())
+          begin += sizes.labelGap + font.horizontalAdvance(neighbour.label);
+      }
+      if (wanted <= kept[i].x - sizes.labelGap - begin) {
+        kept[i].label = elideText(font, predicate, wanted + 1);
+        kept[i].labelLeft = true;
+        break;
+      }
+    }
+    const QString shown = elideText(font, predicate, std::min(room, wanted + 1));
     if (room > 0 && (shown == predicate || shown.size() >= shortest)) kept[i].label = shown;
   }
   return kept;

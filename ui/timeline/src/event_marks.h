@@ -21,6 +21,7 @@ struct EventMark {
   int first = 0, last = 0;  ///< rows of the events that it stands for (closed)
   int merged = 1;           ///< how many of those have a mark
   QString label;            ///< elided to its room; empty without room
+  bool labelLeft = false;   ///< the label stands left of the mark
 };
 
 struct MarkSizes {

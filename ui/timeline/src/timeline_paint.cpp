@@ -162,8 +162,14 @@ void TimelineStrip::paintMarks(QPainter& painter) {
       drawMark(painter, shape, {mark.x, centre}, size);
       if (mark.label.isEmpty()) continue;
       painter.setPen(theme().secondaryText);
-      drawTextLine(painter, QRectF(mark.x + gap, centre - size, width(), 2 * size),
-                   Qt::AlignLeft | Qt::AlignVCenter, mark.label);
+      const QRectF line(mark.x, centre - size, width(), 2 * size);
+      if (mark.labelLeft) {
+        drawTextLine(painter, line.translated(-gap - width(), 0), Qt::AlignRight | Qt::AlignVCenter,
+                     mark.label);
+      } else {
+        drawTextLine(painter, line.translated(gap, 0), Qt::AlignLeft | Qt::AlignVCenter,
+                     mark.label);
+      }
     }
     painter.setOpacity(1.0);
   };

@@ -58,6 +58,7 @@ QString valueText(const ColumnInfo& column, double value) {
 }
 
 QString exactText(const ColumnInfo& column, double value) {
+  if (!std::isfinite(value)) return valueText(column, value);
   switch (column.type) {
     case ColumnType::Int32:
       return QString::number(value, 'f', 0);

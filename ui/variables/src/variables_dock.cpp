@@ -59,6 +59,7 @@ class VariablesDock : public QWidget {
     column->setSpacing(0);
     column->addLayout(makeTools());
     column->addWidget(m_message);
+    m_view->setMinimumHeight(scaled(this, 38));  // below the field it leaves room for that
     column->addWidget(m_view, 1);
     column->addWidget(m_empty, 1);
     connect(m_view->header(), &QHeaderView::sortIndicatorChanged, this, [this] {

@@ -102,7 +102,9 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
     return m_source->kind() == SourceKind::Simulate && !m_timeline->isLookingBack();
   });
   setWindowTitle(QStringLiteral("Pitchboard"));
-  setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
+  // A title drags its own panel: of a group of tabs Qt neither asks where it may be dropped nor
+  // says where it was.
+  setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   setContextMenuPolicy(Qt::PreventContextMenu);
 
@@ -364,12 +366,20 @@ void MainWindow::makeDocks() {
     dock->setObjectName(QLatin1String(info.id));
     dock->setWidget(info.make(parts, dock));
     dock->setTitleBarWidget(new DockTitle(dock));
+    // Above the field it would take the height that the field needs.
+    dock->setAllowedAreas(Qt::LeftDockWidgetArea | Qt::RightDockWidgetArea |
+                          Qt::BottomDockWidgetArea);
     m_docks.push_back(dock);
     for (const auto changed : {&QDockWidget::visibilityChanged, &QDockWidget::topLevelChanged}) {
       connect(dock, changed, this, &MainWindow::showTitles, Qt::QueuedConnection);
     }
-    connect(dock, &QDockWidget::dockLocationChanged, this, &MainWindow::showTitles,
-            Qt::QueuedConnection);
+    connect(
+        dock, &QDockWidget::dockLocationChanged, this,
+        [this] {
+          showTitles();
+          distributeSpaceLater();
+        },
+        Qt::QueuedConnection);
     // A panel that is closed does not keep the keys.
     connect(dock, &QDockWidget::visibilityChanged, m_field, [this, dock](bool visible) {
       const QWidget* focus = focusWidget();

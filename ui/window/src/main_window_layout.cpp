@@ -57,9 +57,12 @@ void MainWindow::showTitles() {
       needed = std::max(needed, studioDocks()[i].height);
   }
   changed = std::exchange(m_neededHeight, needed) != needed || changed;
-  // A title that comes or goes gives its height to the panel beside it, or takes it from there. The
-  // panels report their least sizes after the layout has been activated.
-  if (!changed) return;
+  // A title that comes or goes gives its height to the panel beside it, or takes it from there.
+  if (changed) distributeSpaceLater();
+}
+
+// Panels report their least sizes after the layout has been activated.
+void MainWindow::distributeSpaceLater() {
   QTimer::singleShot(0, this, [this] {
     if (m_followsSize && !m_fieldOnly->isOn()) distributeSpace();
   });
@@ -83,6 +86,11 @@ void MainWindow::restoreLayout() {
   const QByteArray saved = m_settings->value(layoutKey).toByteArray();
   if (!saved.isEmpty() && restoreState(saved, layoutVersion)) {
     m_followsSize = m_settings->value(untouchedKey, false).toBool();
+    // Layouts of earlier versions may have panels above the field.
+    for (std::size_t i = 0; i < m_docks.size(); ++i) {
+      if (dockWidgetArea(m_docks[i]) == Qt::TopDockWidgetArea)
+        addDockWidget(studioDocks()[i].area, m_docks[i]);
+    }
   } else if (!saved.isEmpty()) {
     resetLayout();
     m_notices->show(
@@ -135,21 +143,33 @@ void MainWindow::distributeSpace() {
   // At most two fifths of the window.
   extents.bottom =
       std::max(extents.bottom, std::min(m_neededHeight, qRound(height() * 0.4 / unit)));
-  const std::pair<Qt::DockWidgetArea, int> areas[] = {{Qt::LeftDockWidgetArea, extents.left},
-                                                      {Qt::RightDockWidgetArea, extents.right},
-                                                      {Qt::BottomDockWidgetArea, extents.bottom}};
-  for (const auto& [area, extent] : areas) {
+  const auto docksIn = [this](Qt::DockWidgetArea area) {
+    QList<QDockWidget*> there;
     for (std::size_t i = 0; i < m_docks.size(); ++i) {
       QDockWidget* dock = m_docks[i];
-      if (studioDocks()[i].ownRow || dockWidgetArea(dock) != area || dock->isFloating() ||
-          dock->isHidden()) {
-        continue;
-      }
-      // Tabs of one place have one size.
-      resizeDocks({dock}, {scaled(this, extent)},
-                  area == Qt::BottomDockWidgetArea ? Qt::Vertical : Qt::Horizontal);
-      break;
+      if (!studioDocks()[i].ownRow && dockWidgetArea(dock) == area && !dock->isFloating() &&
+          !dock->isHidden())
+        there << dock;
     }
+    return there;
+  };
+  // Tabs of one place have one size.
+  for (const auto& [area, extent] : {std::pair(Qt::LeftDockWidgetArea, extents.left),
+                                     std::pair(Qt::RightDockWidgetArea, extents.right)}) {
+    if (const auto docks = docksIn(area); !docks.isEmpty())
+      resizeDocks({docks.first()}, {scaled(this, extent)}, Qt::Horizontal);
+  }
+  // Panels that were dropped below each other share the height.
+  QList<QDockWidget*> rows;
+  for (QDockWidget* dock : docksIn(Qt::BottomDockWidgetArea)) {
+    const QList<QDockWidget*> tabs = tabifiedDockWidgets(dock);
+    const bool isNew = std::ranges::none_of(
+        rows, [&](QDockWidget* row) { return tabs.contains(row) || row->y() == dock->y(); });
+    if (isNew) rows << dock;
+  }
+  if (!rows.isEmpty()) {
+    const int each = scaled(this, extents.bottom) / static_cast<int>(rows.size());
+    resizeDocks(rows, QList<int>(rows.size(), each), Qt::Vertical);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <QActionGroup>
 #include <QComboBox>
+#include <QEvent>
 #include <QLayout>
 #include <QMenu>
 #include <QPainter>

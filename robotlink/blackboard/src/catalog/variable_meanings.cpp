@@ -131,7 +131,7 @@ std::string_view VariableMeanings::description(std::string_view name) const {
 }
 
 void VariableMeanings::describe(telemetry::ColumnInfo& column) const {
-  bool category = false, unit = false, kind = false, lost = false;
+  bool category = false, unit = false, kind = false;
   for (const Rule& rule : m_rules) {
     if (!fits(rule.name, column.name)) continue;
     if (rule.category && !category) {
@@ -147,23 +147,20 @@ void VariableMeanings::describe(telemetry::ColumnInfo& column) const {
       column.labels = rule.labels;
       kind = true;
     }
-    if (rule.lostBy && !lost) {
-      column.lostBy = lostByOf(*rule.lostBy, rule.name, column.name);
-      column.lostWhen = rule.lostWhen;
-      lost = true;
+    if (rule.lostBy) {
+      column.lost.push_back({lostByOf(*rule.lostBy, rule.name, column.name), rule.lostWhen});
     }
   }
 }
 
 void VariableMeanings::describeLost(telemetry::GroupInfo& group) const {
-  const auto isGiven = [](const telemetry::ColumnInfo& column) { return !column.lostBy.empty(); };
+  const auto isGiven = [](const telemetry::ColumnInfo& column) { return !column.lost.empty(); };
   if (std::ranges::any_of(group.columns, isGiven)) return;
   for (telemetry::ColumnInfo& column : group.columns) {
     telemetry::ColumnInfo known;
     known.name = column.name;
     describe(known);
-    column.lostBy = known.lostBy;
-    column.lostWhen = known.lostWhen;
+    column.lost = std::move(known.lost);
   }
 }
 

@@ -252,10 +252,10 @@ Pose Supporter::kickOff(const WorldModel& world) {
   for (const auto& mate : world.mates()) {
     if (mate && mate->intention == Intention::Support) robots.push_back(mate->position);
   }
-  // Of a large team three tell what they do; of the others only the places are known.
-  constexpr std::size_t tells = mostTeamMates;
+  // Three of a large team report what they do; of the others only the places are known.
+  constexpr std::size_t reported = mostTeamMates;
   const auto supporters = static_cast<std::ptrdiff_t>(robots.size()) - 1;
-  if (world.matePlaces().size() > tells) {
+  if (world.matePlaces().size() > reported) {
     robots.shrink(1);
     for (const Point& place : world.matePlaces()) robots.push_back(place);
   }

@@ -34,7 +34,7 @@ class Behaviour {
   /// What it tells its team on the way there.
   virtual Intention atKickOff() const { return Intention::Walk; }
 
-  /// A copy with all that it has in mind.
+  /// A copy with all that it remembers.
   virtual std::unique_ptr<Behaviour> clone() const = 0;
 
   /// Referee and falls first, then play().

@@ -23,9 +23,10 @@ class VariableMeanings {
   /// Reads rules from a text. Fails with ParseError and "source:line: path".
   static Result<VariableMeanings> parse(std::string_view text, std::string_view source);
 
-  /// Fills category, unit, kind, labels and lostBy of a column that has a name.
+  /// Fills category, unit, kind, labels and `lost` of a column that has a name: the first rule that
+  /// fits decides each of them, but every rule that fits adds its condition to `lost`.
   void describe(telemetry::ColumnInfo& column) const;
-  /// Fills `lostBy` of a group from a session whose file does not say which variables can hold an
+  /// Fills `lost` of a group from a session whose file does not say which variables can hold an
   /// old value, as this program would record it. Does nothing if any column says it already.
   void describeLost(telemetry::GroupInfo& group) const;
   /// Returns the value of this variable that means "not seen", or nothing if every value counts.
@@ -41,7 +42,7 @@ class VariableMeanings {
     std::optional<telemetry::ColumnKind> kind;
     std::map<std::int32_t, std::string> labels;
     std::optional<double> absent;
-    std::optional<std::string> lostBy;  // telemetry::ColumnInfo
+    std::optional<std::string> lostBy;  // telemetry::LostWhen
     double lostWhen = 1.0;
   };
   std::vector<Rule> m_rules;

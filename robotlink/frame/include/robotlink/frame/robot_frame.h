@@ -66,7 +66,7 @@ struct RobotView {
   std::optional<int> decided;                 ///< DECISION_ACTION_A
   std::shared_ptr<const AdviceView> advice;   ///< of its advisor; null if it has none
   std::optional<telemetry::Battery> battery;  ///< nothing if it sends no voltage
-  /// Communication (of a simulated robot) or control, vision, localization, decision, IMU.
+  /// In the order of telemetry::processNames.
   std::array<telemetry::ProcessHeartbeat, telemetry::processCount> lamps{};
   std::optional<telemetry::LinkHealth> link;  ///< of a live or attached robot
   std::optional<Penalty> penalty;             ///< from the referee

@@ -17,6 +17,7 @@
 #include <telemetry/pb2/pb2.h>
 #include <telemetry/wire/datagram.h>
 #include <telemetry/wire/link_health.h>
+#include <telemetry/wire/team_monitor.h>
 
 namespace pitchboard::link {
 

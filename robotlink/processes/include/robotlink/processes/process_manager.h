@@ -44,11 +44,11 @@ struct ManagedProcess {
   RestartRule restart;
   double delay = 0.0;  ///< s to wait after the start of the robot's previous process
   Watch watch = Watch::None;
-  IntVar heartbeat{-1};    ///< for Watch::Variable
-  bool clears = false;     ///< the manager clears the heartbeat
+  IntVar heartbeat{-1};        ///< for Watch::Variable
+  bool clears = false;         ///< the manager clears the heartbeat
   Seconds responseTimeout{5};  ///< without a sign of life, or stopped by somebody
-  bool watchFile = false;  ///< restart when the file of its program is replaced
-  bool ownTime = false;    ///< a team program whose clocks follow setTime()
+  bool watchFile = false;      ///< restart when the file of its program is replaced
+  bool ownTime = false;        ///< a team program whose clocks follow setTime()
   /// Called before every start; may change `spec`.
   std::function<Result<void>(ChildSpec&)> prepare{};
 };

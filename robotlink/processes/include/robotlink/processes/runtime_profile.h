@@ -51,8 +51,8 @@ struct ProfileProcess {
   std::vector<std::string> command;  ///< program and arguments; ${robot} and the like are expanded
   std::string directory;             ///< working directory; empty: that of the starting program
   std::vector<std::pair<std::string, std::string>> environment;  ///< added to the inherited one
-  double delay = 0.0;      ///< s to wait after the start of the previous process
-  std::string heartbeat;   ///< variable that the process keeps setting; empty: not watched
+  double delay = 0.0;          ///< s to wait after the start of the previous process
+  std::string heartbeat;       ///< variable that the process keeps setting; empty: not watched
   double responseTimeout = 5;  ///< s
   RestartRule restart;
   int stopSignal = 15;     ///< SIGTERM

@@ -22,7 +22,8 @@ namespace pitchboard::link {
 inline constexpr double ballReach = 0.5;
 
 struct RobotSummary {
-  std::string name;  ///< of its group: "B1"
+  std::string name;     ///< of its group: "B1"
+  std::string ownName;  ///< in its team's setup; may be empty
   RobotOrder order;
   TeamColor team = TeamColor::Blue;
   double seconds = 0.0;            ///< time for which there are rows, s

@@ -66,7 +66,7 @@ class GroupView {
   /// Returns the last sample at or before `time`.
   virtual std::optional<Sample> at(std::uint32_t column, double time) const = 0;
   /// Reads the whole row at or before `time`, exactly as it was appended. This includes old values
-  /// of columns that were not seen (ColumnInfo::lostBy), which are NaN in all other calls. Returns
+  /// of columns that were not seen (ColumnInfo::lost), which are NaN in all other calls. Returns
   /// false if there is no such row.
   virtual bool rowAt(double time, double& rowTime, std::vector<std::uint32_t>& words,
                      std::vector<double>& values) const = 0;

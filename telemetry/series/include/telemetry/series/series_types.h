@@ -27,6 +27,13 @@ enum class ColumnKind : std::uint8_t {
   Text          ///< `labels` has each text that occurred
 };
 
+/// A condition on another column of the same group, or on the column itself.
+struct LostWhen {
+  std::string column;  ///< a 32-bit column
+  double value = 0.0;  ///< nothing is seen while the column has this value
+  bool operator==(const LostWhen&) const = default;
+};
+
 struct ColumnInfo {
   std::string name;  ///< "VISION_BALL_DIST"; unique in its group
   ColumnType type = ColumnType::Float64;
@@ -37,12 +44,10 @@ struct ColumnInfo {
   /// For a Float64 column: a power of two to which session files round its values, which are then
   /// stored in single precision. 0 keeps every bit.
   double resolution = 0.0;
-  /// For a Float32 column: the 32-bit column of the same group (possibly this one) that says with
-  /// the value `lostWhen` that this value is old. Views then show a gap, while rows keep the value.
-  /// For example, VISION_BALL_DIST is old while VISION_LOST is 1. Empty if the value is always
-  /// current.
-  std::string lostBy = {};
-  double lostWhen = 0.0;
+  /// For a Float32 column: when its value is old or was never set. If any of these holds, views
+  /// show a gap, while rows keep the value. For example, VISION_BALL_DIST is old while VISION_LOST
+  /// is 1, and was never set while it is 0. Empty if the value is always current.
+  std::vector<LostWhen> lost = {};
   bool operator==(const ColumnInfo&) const = default;
 };
 

@@ -43,6 +43,7 @@ class AttachDialog : public QDialog {
   NumberBox* m_rate;
   QPushButton *m_attach, *m_detach;
   QLabel* m_message;
+  bool m_wasListed = false;
 };
 
 /// Opens the dialog, or raises it if it is already open.

@@ -36,8 +36,6 @@ struct CardValue {
 struct CardState {
   static constexpr int lampCount = 5;
   static constexpr std::array<char, lampCount> letters{'C', 'V', 'L', 'D', 'I'};
-  static constexpr std::array<const char*, lampCount> processes{"communication", "vision",
-                                                                "localization", "decision", "IMU"};
 
   RobotKey id;
   TeamColor team = TeamColor::Blue;

@@ -122,6 +122,7 @@ class MainWindow : public QMainWindow {
   void fitScreen();
   /// Resizes the panels in proportion to the window.
   void distributeSpace();
+  void distributeSpaceLater();
   void notifyFinished(const link::MatchFrame& frame);
   void askForSpeed(const QStringList& programs, double wanted);
 
