@@ -94,7 +94,7 @@ class TestCooperation : public QObject {
                             "--duration", "2",         "--key-base",  QString::number(m_base)};
     const ProgramRun played = runProgram("pitchboard-cli", QStringList{"simulate"} + match);
     QVERIFY2(played.exitCode == 0, played.err.constData());
-    QCOMPARE(played.out.contains("  Repeatable no: a program decided"), !cooperates);
+    QCOMPARE(played.out.contains("  Repeatable no: the match did not wait"), !cooperates);
     const ProgramRun recorded =
         runProgram("pitchboard-cli",
                    QStringList{"record"} + match +
