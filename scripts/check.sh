@@ -95,7 +95,8 @@ tidy_these() {
   local autogen
   mapfile -t autogen < <(ninja -C build/tidy -t targets all | sed -n 's/^\([A-Za-z_]*_autogen\): phony$/\1/p' | grep -v '^tst_')
   quietly ninja -C build/tidy "${autogen[@]}"
-  printf '%s\n' "$@" | xargs -P "$(nproc)" -n 4 clang-tidy -p build/tidy --quiet --warnings-as-errors='*' 2> \
+  printf '%s\n' "$@" | xargs -P "$(nproc)" -n 4 clang-tidy -p build/tidy --quiet --warnings-as-errors='*' \
+    --extra-arg=-Wno-unknown-warning-option 2> \
     >(grep -vE '^[0-9]+ warnings? (generated|treated)' >&2)
 }
 
