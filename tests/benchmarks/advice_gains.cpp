@@ -54,7 +54,7 @@ struct Mean {
 };
 
 struct Row {
-  Mean rollouts, matches;
+  Mean first, second;  // the two columns of its table
 };
 
 Point turned(const Point& place, bool attacksLeft) {
@@ -186,8 +186,8 @@ class Comparison {
       Row* const surely = suggested && result.gainLow > 0.0 ? &m_surely : nullptr;
       for (Row* row : {&m_rows[nameOf(candidates[i].kind)], suggested, surely}) {
         if (row == nullptr) continue;
-        row->rollouts.add(gain);
-        row->matches.add(real);
+        row->first.add(gain);
+        row->second.add(real);
       }
     }
     add(possible);
@@ -204,9 +204,9 @@ class Comparison {
         const Advice advice{
             kind, {{ball.x + metres * std::cos(yaw), ball.y + metres * std::sin(yaw)}, yaw}};
         const Halves gain = gainIn(continued(match, moment, who, advice, seed), usual);
-        Row& row = m_rows[std::string(nameOf(kind)) + " to " + std::to_string(45 * eighth) + "°"];
-        row.rollouts.add(gain.first);
-        row.matches.add(gain.second);
+        Row& row = m_halves[std::string(nameOf(kind)) + " to " + std::to_string(45 * eighth) + "°"];
+        row.first.add(gain.first);
+        row.second.add(gain.second);
         best.take(gain, kind);
       };
       tryOne(AdviceKind::StrongKick, 3.0);
@@ -218,17 +218,20 @@ class Comparison {
   }
 
   void print() const {
-    std::printf("| candidate | times | gain in rollouts | gain in whole matches |\n");
     const auto print = [](const char* name, const Row& row) {
-      if (row.matches.count == 0) return;
-      std::printf("| %s | %d | %+.3f ± %.3f | %+.3f ± %.3f |\n", name, row.matches.count,
-                  row.rollouts.mean(), row.rollouts.error(), row.matches.mean(),
-                  row.matches.error());
+      if (row.second.count == 0) return;
+      std::printf("| %s | %d | %+.3f ± %.3f | %+.3f ± %.3f |\n", name, row.second.count,
+                  row.first.mean(), row.first.error(), row.second.mean(), row.second.error());
     };
-    for (const auto& [name, row] : m_rows) print(name.c_str(), row);
-    print("what the advisor suggests", m_suggested);
-    print("of these, with a gain above 0 at 95 %", m_surely);
-    print("the best in half of the continuations: in these, in the others", m_possible);
+    if (!m_rows.empty()) {
+      std::printf("| candidate | times | gain in rollouts | gain in whole matches |\n");
+      for (const auto& [name, row] : m_rows) print(name.c_str(), row);
+      print("what the advisor suggests", m_suggested);
+      print("of these, with a gain above 0 at 95 %", m_surely);
+    }
+    std::printf("| candidate | times | gain in half of the continuations | gain in the others |\n");
+    for (const auto& [name, row] : m_halves) print(name.c_str(), row);
+    print("the best in half of the continuations", m_possible);
     for (const auto& [name, times] : m_chosen) std::printf("of these, %s: %d\n", name, times);
     std::printf("%d questions\n", m_questions);
   }
@@ -244,15 +247,15 @@ class Comparison {
     return values;
   }
   void add(const Choice& choice) {
-    m_possible.rollouts.add(choice.gain.first);
-    m_possible.matches.add(choice.gain.second);
+    m_possible.first.add(choice.gain.first);
+    m_possible.second.add(choice.gain.second);
     ++m_chosen[nameOf(choice.kind)];
   }
 
   int m_runs, m_many;
   bool m_onlySuggested;
   int m_questions = 0;
-  std::map<std::string, Row> m_rows;
+  std::map<std::string, Row> m_rows, m_halves;
   Row m_suggested, m_surely, m_possible;
   std::map<const char*, int> m_chosen;
 };
