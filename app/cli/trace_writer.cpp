@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include <base/angles.h>
+#include <base/byte_sizes.h>
 #include <base/try.h>
 
 namespace pitchboard::cli {
@@ -18,7 +19,7 @@ void append(std::string& line, T value) {
   line.append(text.data(), end.ptr);
 }
 
-constexpr std::size_t mostWaiting = 64 * 1024;  // bytes
+constexpr std::size_t mostWaiting = 64 * kibibyte;  // bytes
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 #include <unistd.h>
 #include <cctype>
 #include <cstdio>
+#include <exception>
 
 #include <app/command_line.h>
 #include <base/try.h>
@@ -129,7 +130,7 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace
 }  // namespace pitchboard::robot
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   // Those that a ProcessManager starts for itself.
   const std::string_view command = argc > 1 ? argv[1] : "";
   if (command == pitchboard::link::guardCommand) {
@@ -142,4 +143,7 @@ int main(int argc, char** argv) {
   }
   pitchboard::robot::holdEndSignals();
   return pitchboard::robot::parseAndRun(argc, argv);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "error: %s\n", error.what());
+  return pitchboard::shared::exitRefused;
 }

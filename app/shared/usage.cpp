@@ -259,7 +259,7 @@ void addHelp(CLI::App& app) {
 }
 
 std::string problemText(const CLI::App& app, const CLI::ParseError& error) {
-  const std::string message = error.what();
+  std::string message = error.what();
   const std::vector<std::string> unexpected = app.remaining(true);
   const bool isMissing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   if (!unexpected.empty() && (isMissing || dynamic_cast<const CLI::ExtrasError*>(&error))) {
@@ -355,7 +355,7 @@ std::string completionScript(const CLI::App& app, std::string_view shell) {
   if (shell != "bash" && shell != "zsh") return {};
   std::string commands, values, names;
   addCompletions(app, commands, values, names);
-  const std::string program = app.get_name();
+  const std::string& program = app.get_name();
   std::string function = "_" + program;
   std::ranges::replace(function, '-', '_');
   const bool bash = shell == "bash";

@@ -31,7 +31,7 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->capture_default_str()
       ->check(CLI::IsMember({"separate", "inline", "none"}))
       // The name up to version 0.14.
-      ->transform([](std::string text) { return text == "external" ? "separate" : text; });
+      ->transform([](const std::string& text) { return text == "external" ? "separate" : text; });
   app.add_option("--speed", a.speed, "Speed, 0.01 to 1000 times real time, or max")
       ->type_name("X|max")
       ->capture_default_str();

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <base/byte_sizes.h>
 #include <base/lined_json.h>
 #include <base/read_file.h>
 #include <base/try.h>
@@ -10,7 +11,7 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr std::size_t mostOpponentBytes = 16 * 1024;
+constexpr std::size_t mostOpponentBytes = 16 * kibibyte;
 constexpr int mostInFile = 65535;
 
 template <std::size_t N>

@@ -271,7 +271,7 @@ Result<CalibrationLog> readLog(const Rows& rows, const sim::FieldSpec& field,
           number = attributeNumber(group, "robot");
           return;
         }
-        if (attribute(group, "team") == "") return;
+        if (attribute(group, "team").empty()) return;
         if (std::ranges::find(present, group.name) == present.end()) present.push_back(group.name);
         if (number <= 0 || attribute(group, "team") != team) return;
         mates.try_emplace(id, group, number).first->second.read(group, row, log);

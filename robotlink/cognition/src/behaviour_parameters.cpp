@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <robotlink/cognition/behaviour_parameters.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ constexpr std::array<std::string_view, 6> formerKeys{
     "leaves_ball",          "takes_ball",     "supporter_leaves_ball",
     "supporter_takes_ball", "support_behind", "support_beside"};
 
-constexpr std::size_t mostParameterBytes = 64 * 1024;
+constexpr std::size_t mostParameterBytes = 64 * kibibyte;
 
 /// Any of the numbers.
 BehaviourParameters readNumbers(const JsonNode& node, JsonReport& report, const std::string& path) {

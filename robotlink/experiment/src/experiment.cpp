@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <robotlink/experiment/experiment.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr std::size_t mostFileBytes = 1024 * 1024;
+constexpr std::size_t mostFileBytes = mebibyte;
 constexpr std::string_view experimentsFolder = "experiments/", situationsFolder = "situations/";
 
 // No robot has this number, so that no noise of the run shares its draws.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <robotlink/experiment/experiment_folder.h>
 
 #include <fcntl.h>
@@ -24,8 +25,8 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr std::size_t mostExperimentBytes = 4 * 1024 * 1024;
-constexpr std::size_t mostTimesBytes = 256 * 1024 * 1024;
+constexpr std::size_t mostExperimentBytes = 4 * mebibyte;
+constexpr std::size_t mostTimesBytes = 256 * mebibyte;
 constexpr std::string_view timesHead = "run,times_real_time\n";
 
 std::string inFolder(const std::string& folder, const char* file) {

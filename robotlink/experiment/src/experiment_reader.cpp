@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include <base/angles.h>
+#include <base/byte_sizes.h>
 #include <base/read_file.h>
 #include <base/short_name.h>
 #include <resources/resources.h>
@@ -16,7 +17,7 @@ namespace {
 
 constexpr int experimentVersion = 1;
 constexpr int mostRuns = 1'000'000;
-constexpr std::size_t mostConditions = 1000, mostEntries = 1000, mostScenarioBytes = 1024 * 1024;
+constexpr std::size_t mostConditions = 1000, mostEntries = 1000, mostScenarioBytes = mebibyte;
 constexpr double fastestMatch = 1000.0;  // times real time, of a team's own programs
 constexpr double longestRun = 1e6;       // s
 constexpr double fieldReach = 200.0;     // m; a place outside the walls is moved inside

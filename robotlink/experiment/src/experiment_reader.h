@@ -11,6 +11,7 @@
 namespace pitchboard::link {
 
 /// What conditions are made of.
+// NOLINTNEXTLINE(bugprone-exception-escape): an empty Json allocates nothing.
 struct ConditionParts {
   Json scenario;
   StopConditions stop;  ///< of the scenario

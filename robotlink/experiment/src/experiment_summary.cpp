@@ -88,7 +88,7 @@ ExperimentSummary summarize(const Experiment& experiment, const ResultTable& tab
         difference.paired =
             pairedDifference(table.conditions[c].columns[m], table.conditions[0].columns[m]);
       }
-      out.differences.push_back(std::move(difference));
+      out.differences.push_back(difference);
     }
   }
   for (std::size_t f = 0; f < experiment.given.size(); ++f) {

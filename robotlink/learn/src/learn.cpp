@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <robotlink/learn/learn.h>
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace {
 
 using JournalJson = nlohmann::ordered_json;
 
-constexpr std::size_t mostJournalBytes = 256 * 1024 * 1024;
+constexpr std::size_t mostJournalBytes = 256 * mebibyte;
 constexpr std::size_t shortestFolderNumber = 3;
 constexpr auto lookAtOtherShards = std::chrono::seconds(1);
 
@@ -223,11 +224,12 @@ class Learner {
       auto into = TRY(ExperimentFolder::begin(
           (std::filesystem::path(folder) / shardName(m_settings)).string(), e, true));
       std::size_t done = 0;
-      TRY(playRuns(e, mine, m_settings.jobs, m_settings.play, [&](PlayedRun one) -> Result<void> {
-        ++done;
-        showProgress(what + ": " + std::to_string(done + e.allRuns() - missing.size()) + all);
-        return into.add(one.result, one.timesRealTime);
-      }));
+      TRY(playRuns(
+          e, mine, m_settings.jobs, m_settings.play, [&](const PlayedRun& one) -> Result<void> {
+            ++done;
+            showProgress(what + ": " + std::to_string(done + e.allRuns() - missing.size()) + all);
+            return into.add(one.result, one.timesRealTime);
+          }));
     }
     while (true) {
       table = TRY(resultsIn(folder, e));

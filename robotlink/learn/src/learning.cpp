@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <robotlink/learn/learning.h>
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace {
 
 using LearnJson = nlohmann::ordered_json;
 
-constexpr std::size_t mostLearnBytes = 1024 * 1024;
+constexpr std::size_t mostLearnBytes = mebibyte;
 constexpr std::size_t mostPopulation = 100;
 constexpr int mostMatches = 100'000, mostGenerations = 10'000;
 /// Range of a number for which the file gives none, as factors of its start.

@@ -278,7 +278,7 @@ Result<void> RobotSlots::setAdvisor(TeamColor team, const std::optional<AdvisorO
   } else {
     advisors.erase(team);
   }
-  const auto done = changeAll([&]() -> Result<void> {
+  auto done = changeAll([&]() -> Result<void> {
     for (const auto& slot : m_slots) {
       if (identityOf(slot->id).team != team) continue;
       std::erase_if(slot->processes,
@@ -313,12 +313,13 @@ Result<void> RobotSlots::setModel(RobotId id, const sim::RobotModel& model) {
 }
 
 Result<void> RobotSlots::restartWithMatchTime() {
-  using Clock = ProfileProcess::Clock;
   return changeAll([&]() -> Result<void> {
     for (const auto& slot : m_slots) {
-      std::erase_if(slot->processes,
-                    [](const auto& process) { return process->profile.clock == Clock::Real; });
-      for (ProfileProcess& process : slot->runtime.processes) process.clock = Clock::Match;
+      std::erase_if(slot->processes, [](const auto& process) {
+        return process->profile.clock == ProfileProcess::Clock::Real;
+      });
+      for (ProfileProcess& process : slot->runtime.processes)
+        process.clock = ProfileProcess::Clock::Match;
     }
     return {};
   });

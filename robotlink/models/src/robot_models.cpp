@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <robotlink/models/robot_models.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::size_t longestName = 64;
 constexpr std::size_t longestText = 2000;
-constexpr std::size_t mostFileBytes = 64 * 1024;
+constexpr std::size_t mostFileBytes = 64 * kibibyte;
 
 /// In the order in which people see them.
 const std::vector<std::string_view>& modelNames() {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <robotlink/processes/child_process.h>
 
 #include <sys/epoll.h>
@@ -20,8 +21,8 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr std::size_t bytesPerPoll = 256 * 1024;  // a child that floods must not hold poll() up
-constexpr std::size_t bytesAtEnd = 1024 * 1024;   // a full pipe holds less
+constexpr std::size_t bytesPerPoll = 256 * kibibyte;  // a child that floods must not hold poll() up
+constexpr std::size_t bytesAtEnd = mebibyte;          // a full pipe holds less
 
 // Never in the middle of a UTF-8 character.
 std::string_view cut(std::string_view text, std::size_t limit) {

@@ -181,7 +181,7 @@ Result<void> ProcessManager::step(Time now) {
     if (entry.isWatched && !entry.hasNews && now - entry.sampled < sampleInterval) continue;
     if (const auto end = poll(entry)) ended(entry, now, end->failed, end->detail, false);
   }
-  const Result<void> started = startDue(now);
+  Result<void> started = startDue(now);
   for (Entry& entry : m_entries) {
     if (entry.child) watch(entry, now);
     if (entry.child && now - entry.sampled >= sampleInterval) {
@@ -208,7 +208,7 @@ std::optional<ChildProcess::End> ProcessManager::poll(Entry& entry) {
   entry.hasNews = false;
   if (!entry.child) return {};
   std::vector<std::string> lines;
-  const auto end = entry.child->poll(lines);
+  auto end = entry.child->poll(lines);
   if (end) entry.child.reset();
   if (!lines.empty()) changed();
   for (std::string& line : lines) {

@@ -8,12 +8,13 @@
 #include <sstream>
 #include <system_error>
 
+#include <base/byte_sizes.h>
 #include <base/read_file.h>
 
 namespace pitchboard::link {
 namespace {
 
-constexpr std::size_t mostBytes = 4 * 1024 * 1024;
+constexpr std::size_t mostBytes = 4 * mebibyte;
 
 std::string folderOf(pid_t pid) {
   return "/proc/" + std::to_string(pid);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <robotlink/processes/robot_config.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace pitchboard::link {
 namespace {
 
 constexpr std::string_view ourSections = "Pitchboard";
-constexpr std::size_t mostConfigBytes = 1024 * 1024;
+constexpr std::size_t mostConfigBytes = mebibyte;
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank = " \t\r\f\v";

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <robotlink/processes/runtime_profile.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr std::size_t mostProfileBytes = 1024 * 1024;
+constexpr std::size_t mostProfileBytes = mebibyte;
 constexpr std::size_t mostProcesses = 8;  // of a robot
 constexpr std::size_t mostArguments = 100;
 constexpr std::size_t longestText = 4096;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <base/angles.h>
+#include <base/byte_sizes.h>
 #include <base/read_file.h>
 #include <base/short_name.h>
 #include <resources/resources.h>
@@ -25,7 +26,7 @@ constexpr int mostGoals = 1'000'000;
 constexpr std::size_t mostWrites = 100000;
 constexpr std::size_t longestRuntime = 4096;
 constexpr std::size_t longestTeamName = 64;
-constexpr std::size_t mostFileBytes = 1024 * 1024;
+constexpr std::size_t mostFileBytes = mebibyte;
 
 /// The default first, as in choosers.
 const std::vector<std::string_view>& builtInNames() {

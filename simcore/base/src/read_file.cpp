@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <base/read_file.h>
 
 #include <fcntl.h>
@@ -13,7 +14,7 @@ namespace pitchboard {
 namespace {
 
 // Files of the kernel are small and read often; memory for a long file would cost more than they.
-constexpr std::size_t firstStep = 4 * 1024, longestStep = 256 * 1024;
+constexpr std::size_t firstStep = 4 * kibibyte, longestStep = 256 * kibibyte;
 
 std::string sizeText(std::size_t bytes) {
   constexpr std::size_t mebi = std::size_t{1} << 20;

@@ -95,7 +95,7 @@ class RigidBodyModel final : public PhysicsModel {
   void robotAdded(WorldState& world, const Pose& pose) const override {
     RigidRobot robot;
     robot.pose = {pose.position, rigid::wrapped(pose.yaw)};
-    bodiesOf(world).robots.push_back(std::move(robot));
+    bodiesOf(world).robots.push_back(robot);
   }
 
   void robotRemoved(WorldState& world, std::size_t index) const override {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include <base/byte_sizes.h>
 #include <telemetry/mcap/mcap_records.h>
 
 namespace pitchboard::telemetry {
@@ -35,6 +36,6 @@ std::optional<AttachmentHead> parseAttachmentHead(std::string_view beginning,
                                                   std::uint64_t contentLength);
 
 /// Longest beginning that the two functions above need.
-inline constexpr std::size_t longestHead = 64 * 1024;
+inline constexpr std::size_t longestHead = 64 * kibibyte;
 
 }  // namespace pitchboard::telemetry

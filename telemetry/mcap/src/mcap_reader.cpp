@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <telemetry/mcap/mcap_reader.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::size_t mostProblems = 100;
 constexpr std::uint64_t longestSummary = std::uint64_t{512} << 20;
-constexpr std::size_t unpackStep = 256 * 1024;
+constexpr std::size_t unpackStep = 256 * kibibyte;
 
 std::string atOffset(std::uint64_t offset) {
   return "at byte " + std::to_string(offset);

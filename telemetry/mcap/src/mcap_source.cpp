@@ -9,12 +9,13 @@
 #include <cstring>
 #include <utility>
 
+#include <base/byte_sizes.h>
 #include <base/system_reason.h>
 
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr std::size_t windowBytes = 256 * 1024;
+constexpr std::size_t windowBytes = 256 * kibibyte;
 
 }  // namespace
 

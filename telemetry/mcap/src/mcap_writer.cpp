@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <telemetry/mcap/mcap_writer.h>
 
 #include <zstd.h>
@@ -17,7 +18,7 @@ namespace pitchboard::telemetry {
 namespace {
 
 /// Room that is kept behind the file for the summary, beyond what the summary needs so far.
-constexpr std::uint64_t spareRoom = 64 * 1024;
+constexpr std::uint64_t spareRoom = 64 * kibibyte;
 
 /// Chunks after which all definitions are repeated; in the beginning of a file more often.
 constexpr std::uint64_t chunksBetweenRepeats = 64;

@@ -10,6 +10,8 @@
 #include <cstring>
 #include <string>
 
+#include <base/byte_sizes.h>
+
 #include "export_selection.h"
 
 namespace pitchboard::telemetry {
@@ -97,7 +99,7 @@ class TextBuffer {
   std::uint64_t lines() const { return m_lines; }
 
  private:
-  static constexpr std::size_t flushAt = 256 * 1024;
+  static constexpr std::size_t flushAt = 256 * kibibyte;
   const std::function<bool(std::string_view)>& m_sink;
   std::string m_text;
   std::size_t m_used = 0;

@@ -7,11 +7,13 @@
 #include <cstdint>
 #include <limits>
 
+#include <base/byte_sizes.h>
+
 namespace pitchboard::telemetry {
 namespace {
 
 // So that `made` never grows: texts point into it.
-constexpr std::size_t madeBytes = 16 * 1024;
+constexpr std::size_t madeBytes = 16 * kibibyte;
 constexpr std::size_t longestText = ErrorTally::sampleBytes;
 
 ReadNumber readInt(std::string_view token) {

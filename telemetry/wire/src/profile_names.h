@@ -7,6 +7,7 @@
 #include <array>
 #include <string_view>
 
+#include <base/byte_sizes.h>
 #include <telemetry/wire/meanings.h>
 
 namespace pitchboard::telemetry::profile_names {
@@ -33,7 +34,7 @@ static_assert(!formats.back().empty() && !wireTypes.back().empty(),
               "every value of an enumeration of profile.h needs its word here");
 
 inline constexpr std::size_t maxNameBytes = 60;
-inline constexpr std::size_t maxFileBytes = 1024 * 1024;
+inline constexpr std::size_t maxFileBytes = mebibyte;
 inline constexpr std::size_t maxLabels = 64;
 inline constexpr std::size_t maxConditions = 8;
 inline constexpr int maxOffset = 65535;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/byte_sizes.h>
 #include <telemetry/wire/team_setup.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t mostSetupBytes = 256 * 1024, longestText = 60, mostSenders = 64;
+constexpr std::size_t mostSetupBytes = 256 * kibibyte, longestText = 60, mostSenders = 64;
 constexpr int highestTeam = 65535;
 constexpr std::array<std::string_view, 2> directions{"right", "left"};
 constexpr std::array<std::string_view, 9> setupKeys{

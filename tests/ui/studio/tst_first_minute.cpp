@@ -155,7 +155,7 @@ class TestFirstMinute : public QObject {
     const auto marked = [&s] {
       std::vector<double> times;
       for (const link::MatchEvent& event : s.timeline()->events()->events()) {
-        if (s.timeline()->eventFilter().shows(event)) times.push_back(event.time);
+        if (s.timeline()->filter().shows(event)) times.push_back(event.time);
       }
       return times;
     };

@@ -171,7 +171,7 @@ class TestKeyMap : public QObject {
         }
       }
     }
-    QVERIFY2(tried.size() >= 50, qPrintable(QString::number(tried.size())));
+    QVERIFY2(tried.size() >= 40, qPrintable(QString::number(tried.size())));
   }
 
   void textFieldsKeepTheirKeys() {

@@ -318,7 +318,7 @@ class TestSessions : public QObject {
     replay.open(path);
     QTRY_COMPARE(opened.count(), 1);
     QTRY_VERIFY(replay.frame());
-    QCOMPARE(replay.frame()->robots.size(), std::size_t(10));
+    QTRY_COMPARE(replay.frame()->robots.size(), std::size_t(10));
     QVERIFY(replay.frame()->referee);
     QVERIFY(replay.frame()->snapshot.time < 3.0);
   }

@@ -48,7 +48,7 @@ class TestEventList : public QObject {
     QCOMPARE(list.add(at(std::nan(""))), -1);
     list.add({at(1.5), at(0.5), at(3)});
     QCOMPARE(timesOf(list), (std::vector{0.5, 1.0, 1.5, 2.0, 2.0, 3.0}));
-    QCOMPARE(list.event(4).kind, MatchEventKind::Fall);
+    QCOMPARE(list.at(4).kind, MatchEventKind::Fall);
     list.rewind(1.5);
     QCOMPARE(timesOf(list), (std::vector{0.5, 1.0, 1.5}));
     list.removeEvent(0);
@@ -73,13 +73,13 @@ class TestEventList : public QObject {
     for (int i = 1; i <= 250; ++i) list.add(at(i));
     QCOMPARE(list.rowCount(), 100);
     QCOMPARE(list.dropped(), std::size_t(151));
-    QCOMPARE(list.event(0).detail, std::string("mine"));
-    QCOMPARE(list.event(99).time, 250.0);
+    QCOMPARE(list.at(0).detail, std::string("mine"));
+    QCOMPARE(list.at(99).time, 250.0);
     std::vector<MatchEvent> many;
     for (int i = 300; i < 600; ++i) many.push_back(at(i));
     list.add(std::move(many));
     QCOMPARE(list.rowCount(), 100);
-    QCOMPARE(list.event(0).detail, std::string("mine"));
+    QCOMPARE(list.at(0).detail, std::string("mine"));
     // Nothing but bookmarks: the oldest go all the same.
     EventList notes(nullptr, 3);
     for (int i = 0; i < 5; ++i) notes.add(at(double(i), MatchEventKind::Bookmark));
@@ -93,12 +93,12 @@ class TestEventList : public QObject {
     list.add(at(2));
     QSignalSpy changes(&list, &QAbstractItemModel::dataChanged);
     list.setNote(0, QStringLiteral("  a good\n pass "));
-    QCOMPARE(list.event(0).detail, std::string("a good pass"));
+    QCOMPARE(list.at(0).detail, std::string("a good pass"));
     QCOMPARE(changes.size(), 1);
     list.setNote(1, QStringLiteral("no"));
-    QVERIFY(list.event(1).detail.empty());
+    QVERIFY(list.at(1).detail.empty());
     list.setNote(0, QString(1000, QLatin1Char('x')));
-    QCOMPARE(list.event(0).detail.size(), std::size_t(EventList::maxNote));
+    QCOMPARE(list.at(0).detail.size(), std::size_t(EventList::maxNote));
     QVERIFY(list.flags(list.index(0, EventList::Note)) & Qt::ItemIsEditable);
     QVERIFY(!(list.flags(list.index(1, EventList::Note)) & Qt::ItemIsEditable));
   }
@@ -187,7 +187,7 @@ class TestEventList : public QObject {
     QCOMPARE(events, 1001);
     QCOMPARE(std::count_if(marks.begin(), marks.end(),
                            [&list](const EventMark& mark) {
-                             return list.event(mark.row).kind == MatchEventKind::Goal;
+                             return list.at(mark.row).kind == MatchEventKind::Goal;
                            }),
              std::ptrdiff_t(1));
   }

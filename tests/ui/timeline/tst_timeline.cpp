@@ -247,8 +247,8 @@ class TestTimeline : public QObject {
     QTest::keyClicks(note, QStringLiteral("slipped turn"));
     QTest::keyClick(note, Qt::Key_Return);
     const EventList* list = b.timeline.events();
-    QCOMPARE(list->event(0).detail, std::string("slipped turn"));
-    QCOMPARE(list->event(0).time, 50.0);
+    QCOMPARE(list->at(0).detail, std::string("slipped turn"));
+    QCOMPARE(list->at(0).time, 50.0);
     QCOMPARE(reported.last().at(0).value<link::MatchEvent>().detail, std::string("slipped turn"));
     QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
     // Again by double-click; Escape keeps what was.
@@ -257,7 +257,7 @@ class TestTimeline : public QObject {
     QVERIFY(note);
     QTest::keyClicks(note, QStringLiteral("x"));
     QTest::keyClick(note, Qt::Key_Escape);
-    QCOMPARE(list->event(0).detail, std::string("slipped turn"));
+    QCOMPARE(list->at(0).detail, std::string("slipped turn"));
   }
 
   // Also where the focus does not go.
@@ -275,7 +275,7 @@ class TestTimeline : public QObject {
     QVERIFY(note->isVisible());
     QTest::mouseClick(&outside, Qt::LeftButton);
     QVERIFY(!note->isVisible());
-    QCOMPARE(b.timeline.events()->event(0).detail, std::string("odd sock"));
+    QCOMPARE(b.timeline.events()->at(0).detail, std::string("odd sock"));
   }
 
   void aNoteIsReadInACrowd() {

@@ -165,6 +165,19 @@ class TestVariablesDock : public QObject {
     QVERIFY(!wide.isSectionHidden(VariablesModel::Spark));
   }
 
+  void columnsStayWhenTheSourceChanges() {
+    Bench bench;
+    bench.hand.take(twoRobots(), SourceKind::Simulate);
+    QHeaderView* header = bench.view->header();
+    header->setSectionHidden(VariablesModel::Rate, false);
+    header->resizeSection(VariablesModel::Value, 123);
+    header->setSortIndicator(VariablesModel::Value, Qt::DescendingOrder);
+    bench.hand.take(twoRobots(), SourceKind::Replay);
+    QVERIFY(!header->isSectionHidden(VariablesModel::Rate));
+    QCOMPARE(header->sectionSize(VariablesModel::Value), 123);
+    QCOMPARE(header->sortIndicatorSection(), int(VariablesModel::Value));
+  }
+
   void aPastMomentShowsItsOwnValues() {
     VariablesModel model;
     model.setStore(twoRobots(), SourceKind::Replay);

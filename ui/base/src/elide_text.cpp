@@ -82,7 +82,7 @@ QString elideText(const QFontMetricsF& metrics, const QString& text, double widt
   }
   while (parts.size() > 1 && !fits(joined(parts))) parts.removeLast();
   if (parts.isEmpty()) return metrics.elidedText(text, Qt::ElideRight, width);
-  const QString number = parts.first().text;
+  QString number = parts.first().text;
   if (fits(number)) return number;
   const QString bare = number.section(QLatin1Char(' '), 0, 0);
   return fits(bare) ? bare : dots;

@@ -35,7 +35,7 @@ constexpr double usualSeconds = 60.0, longest = 3600.0, metre = 100.0;
 constexpr double headingSpread = 5.0;  // degrees, while starts differ at all
 
 QString usualFolder(const QSettings* settings) {
-  const QString kept = settings == nullptr ? QString() : settings->value(folderKey).toString();
+  QString kept = settings == nullptr ? QString() : settings->value(folderKey).toString();
   if (!kept.isEmpty()) return kept;
   return QDir(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation))
       .filePath(QStringLiteral("pitchboard-tests"));

@@ -42,17 +42,17 @@ class RefereeEvents : public QSortFilterProxyModel {
     connect(timeline, &Timeline::lookingBackChanged, this, &RefereeEvents::look);
     follow();
   }
-  double timeOf(int row) const { return event(mapToSource(index(row, 0)).row()).time; }
+  double timeOf(int row) const { return at(mapToSource(index(row, 0)).row()).time; }
 
  protected:
   bool filterAcceptsRow(int row, const QModelIndex& /*parent*/) const override {
-    const link::MatchEvent& one = event(row);
+    const link::MatchEvent& one = at(row);
     return isOfReferee(one.kind) && (!m_until || one.time <= *m_until);
   }
 
  private:
   const EventList* list() const { return static_cast<const EventList*>(sourceModel()); }
-  const link::MatchEvent& event(int row) const { return list()->event(row); }
+  const link::MatchEvent& at(int row) const { return list()->at(row); }
   void follow() {
     setSourceModel(m_timeline->events());
     look();

@@ -449,15 +449,14 @@ class RefereePanel : public QScrollArea {
     m_who->setText(who.robots.empty()
                        ? QStringLiteral("Choose robots above or on the field to penalise them.")
                        : QStringLiteral("For %1:").arg(who.names.join(QStringLiteral(", "))));
-    const QString chooseFirst =
-        QStringLiteral("Choose robots in the tables or on the field first.");
+    QString chooseFirst = QStringLiteral("Choose robots in the tables or on the field first.");
     const FramePtr frame = m_context.controller->frame();
     const auto reason = [&](RefereeCall call) {
       if (!why.isEmpty()) return why;
       if (who.robots.empty()) return chooseFirst;
       for (const RobotId robot : who.robots) {
         call.robot = robot;
-        const QString refusal = whyRefused(frame.get(), call);
+        QString refusal = whyRefused(frame.get(), call);
         if (!refusal.isEmpty()) return refusal;
       }
       return QString();

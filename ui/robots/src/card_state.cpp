@@ -197,8 +197,8 @@ QString ageText(double milliseconds) {
 }  // namespace
 
 QString CardState::process(std::size_t lamp) const {
-  const auto name = QString::fromUtf8(telemetry::processNames[lamp]);
-  return name == QStringLiteral("IMU") ? name : name.toLower();
+  const auto written = QString::fromUtf8(telemetry::processNames[lamp]);
+  return written == QStringLiteral("IMU") ? written : written.toLower();
 }
 
 QString subtitleOf(const link::RobotFrame& robot) {

@@ -123,7 +123,7 @@ void EventList::removeEvent(int row) {
 
 void EventList::removeCause(std::uint32_t cause) {
   for (int row = rowCount() - 1; row >= 0; --row) {
-    if (cause != 0 && event(row).cause == cause) removeEvent(row);
+    if (cause != 0 && at(row).cause == cause) removeEvent(row);
   }
 }
 
@@ -169,7 +169,7 @@ int EventList::columnCount(const QModelIndex& parent) const {
 
 QVariant EventList::data(const QModelIndex& index, int role) const {
   if (!index.isValid() || index.row() >= rowCount()) return {};
-  const link::MatchEvent& e = event(index.row());
+  const link::MatchEvent& e = at(index.row());
   if (role == Qt::ToolTipRole) return QString::fromStdString(sentenceOf(e));
   if (role != Qt::DisplayRole && role != Qt::EditRole) return {};
   switch (index.column()) {
@@ -202,7 +202,7 @@ bool EventList::setData(const QModelIndex& index, const QVariant& value, int rol
 
 Qt::ItemFlags EventList::flags(const QModelIndex& index) const {
   Qt::ItemFlags all = QAbstractTableModel::flags(index);
-  if (index.isValid() && index.column() == Note && isBookmark(event(index.row()))) {
+  if (index.isValid() && index.column() == Note && isBookmark(at(index.row()))) {
     all |= Qt::ItemIsEditable;
   }
   return all;

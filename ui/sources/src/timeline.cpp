@@ -171,7 +171,7 @@ constexpr double sameMoment = 1e-6;
 
 bool Timeline::goToEvent(std::optional<int> row) {
   if (!row) return false;
-  const double time = events()->event(*row).time;
+  const double time = events()->at(*row).time;
   const auto range = available();
   // What has left memory cannot be shown any more.
   if (!range || time < range->begin - sameMoment) return false;
@@ -196,7 +196,7 @@ bool Timeline::goToPreviousEvent() {
   return goToEvent(events()->previous(from - sameMoment, m_filter));
 }
 
-void Timeline::setEventFilter(const EventFilter& filter) {
+void Timeline::setFilter(const EventFilter& filter) {
   if (filter == m_filter) return;
   m_filter = filter;
   emit eventFilterChanged();
@@ -216,12 +216,12 @@ int Timeline::addBookmark(const QString& note) {
 void Timeline::setNote(double time, const QString& note) {
   EventList* list = events();
   for (int row = list->previous(time).value_or(-1) + 1;
-       row < list->rowCount() && list->event(row).time <= time; ++row) {
-    const link::MatchEvent& event = list->event(row);
+       row < list->rowCount() && list->at(row).time <= time; ++row) {
+    const link::MatchEvent& event = list->at(row);
     if (event.kind != link::MatchEventKind::Bookmark || event.time != time) continue;
     if (event.detail == note.toStdString()) continue;
     list->setNote(row, note);
-    emit bookmarked(list->event(row));
+    emit bookmarked(list->at(row));
     return;
   }
 }

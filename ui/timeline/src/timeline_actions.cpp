@@ -131,14 +131,14 @@ void TimelineActions::askForTime(const QString& typed, const QString& problem) {
 }
 
 void TimelineActions::change(const std::function<void(EventFilter&)>& how) {
-  EventFilter filter = m_timeline->eventFilter();
+  EventFilter filter = m_timeline->filter();
   how(filter);
-  m_timeline->setEventFilter(filter);
+  m_timeline->setFilter(filter);
 }
 
 void TimelineActions::fillFilter(QMenu* menu) {
   menu->clear();
-  const EventFilter& now = m_timeline->eventFilter();
+  const EventFilter& now = m_timeline->filter();
   std::map<link::MatchEventKind, int> kinds;
   const FramePtr frame = m_timeline->frame();
   std::set<std::string> names = now.robots;
@@ -153,7 +153,7 @@ void TimelineActions::fillFilter(QMenu* menu) {
   }
   for (const std::string& name : names) robots.emplace(RobotOrder(), name);
   QAction* all =
-      menu->addAction(QStringLiteral("&All"), this, [this] { m_timeline->setEventFilter({}); });
+      menu->addAction(QStringLiteral("&All"), this, [this] { m_timeline->setFilter({}); });
   all->setEnabled(now.isOn());
   menu->addSeparator();
   for (const auto& [kind, count] : kinds) {

@@ -79,7 +79,7 @@ void TimelineStrip::paintBranch(QPainter& painter) const {
   painter.drawRoundedRect(row.adjusted(0.5, 0.5, -0.5, -0.5), 2, 2);
   painter.setOpacity(0.5);
   for (const link::MatchEvent& event : m_future->events().events()) {
-    if (!m_timeline->eventFilter().shows(event)) continue;
+    if (!m_timeline->filter().shows(event)) continue;
     const double x = m_axis.pixel(event.time);
     if (x < row.left() || x > row.right()) continue;
     stem(painter, x, row.top() + 2, row.bottom() - 2, markColor(link::info(event.kind).shape), 1.4);
@@ -223,8 +223,8 @@ void TimelineStrip::editNote(int row) {
   finishNote(true);
   const EventList* list = m_timeline->events();
   if (row < 0 || row >= list->rowCount()) return;
-  m_noteTime = list->event(row).time;
-  m_note = new QLineEdit(QString::fromStdString(list->event(row).detail), this);
+  m_noteTime = list->at(row).time;
+  m_note = new QLineEdit(QString::fromStdString(list->at(row).detail), this);
   m_note->setObjectName(QStringLiteral("bookmarkNote"));
   m_note->setFont(themeFont(TypeRole::Secondary));
   m_note->setMaxLength(EventList::maxNote);

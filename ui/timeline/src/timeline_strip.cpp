@@ -222,7 +222,7 @@ const std::vector<EventMark>& TimelineStrip::marks() {
     m_marksRevision = list->revision();
     m_marksAxis = m_axis;
     m_marks = layOutMarks(list->events(), m_axis, markSizes(),
-                          QFontMetrics(themeFont(TypeRole::Small)), m_timeline->eventFilter());
+                          QFontMetrics(themeFont(TypeRole::Small)), m_timeline->filter());
   }
   return m_marks;
 }
@@ -232,7 +232,7 @@ std::vector<EventMark> TimelineStrip::comparedMarks() const {
   TimeAxis moved = m_axis;
   moved.shown = {m_axis.shown.begin - m_comparedOffset, m_axis.shown.end - m_comparedOffset};
   return layOutMarks(m_compared->events(), moved, markSizes(),
-                     QFontMetrics(themeFont(TypeRole::Small)), m_timeline->eventFilter());
+                     QFontMetrics(themeFont(TypeRole::Small)), m_timeline->filter());
 }
 
 const EventMark* TimelineStrip::nearest(const std::vector<EventMark>& marks, double x) const {
@@ -263,8 +263,8 @@ QString TimelineStrip::tipAt(QPointF at) {
   QStringList lines;
   constexpr int most = 8;
   for (int row = mark->first; row <= mark->last && lines.size() < most; ++row) {
-    const link::MatchEvent& e = m_timeline->events()->event(row);
-    if (!m_timeline->eventFilter().shows(e)) continue;
+    const link::MatchEvent& e = m_timeline->events()->at(row);
+    if (!m_timeline->filter().shows(e)) continue;
     lines << momentText(e.time, 2, m_timeline->clock()) + QStringLiteral("  ") +
                  QString::fromStdString(sentenceOf(e)).toHtmlEscaped();
   }
@@ -344,7 +344,7 @@ void TimelineStrip::mousePressEvent(QMouseEvent* event) {
   m_grab = grabAt(m_pressedAt, event->modifiers());
   if (m_grab == Grab::Moment) {
     const EventMark* mark = markAt(m_pressedAt);
-    m_timeline->seek(mark != nullptr ? m_timeline->events()->event(mark->row).time : m_grabTime);
+    m_timeline->seek(mark != nullptr ? m_timeline->events()->at(mark->row).time : m_grabTime);
   } else if (m_grab == Grab::Compared) {
     m_grabOffset = m_comparedOffset;
   } else if (m_grab != Grab::Range) {
@@ -413,7 +413,7 @@ void TimelineStrip::mouseReleaseEvent(QMouseEvent* event) {
 void TimelineStrip::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
   if (const EventMark* mark = markAt(event->position())) {
-    if (m_timeline->events()->event(mark->row).kind == link::MatchEventKind::Bookmark)
+    if (m_timeline->events()->at(mark->row).kind == link::MatchEventKind::Bookmark)
       editNote(mark->row);
     return;
   }
@@ -438,13 +438,13 @@ void TimelineStrip::wheelEvent(QWheelEvent* event) {
 void TimelineStrip::contextMenuEvent(QContextMenuEvent* event) {
   const QPointF at = event->pos();
   if (const EventMark* mark = markAt(at)) {
-    emit menuRequested(event->globalPos(), &m_timeline->events()->event(mark->row), false);
+    emit menuRequested(event->globalPos(), &m_timeline->events()->at(mark->row), false);
     return;
   }
   if (comparedRect().contains(event->pos())) {
     const std::vector<EventMark> all = comparedMarks();
     if (const EventMark* mark = nearest(all, at.x())) {
-      emit menuRequested(event->globalPos(), &m_compared->event(mark->row), true);
+      emit menuRequested(event->globalPos(), &m_compared->at(mark->row), true);
       return;
     }
   }

@@ -67,7 +67,7 @@ QString exactText(const ColumnInfo& column, double value) {
       constexpr int longest = std::numeric_limits<float>::max_digits10;
       const float single = static_cast<float>(value);
       for (int digits = std::numeric_limits<float>::digits10; digits < longest; ++digits) {
-        const QString text = QString::number(value, 'g', digits);
+        QString text = QString::number(value, 'g', digits);
         if (text.toFloat() == single) return text;
       }
       return QString::number(value, 'g', longest);

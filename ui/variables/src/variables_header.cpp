@@ -32,7 +32,7 @@ VariablesHeader::VariablesHeader(QWidget* parent) : QHeaderView(Qt::Horizontal, 
   });
 }
 
-void VariablesHeader::reset() {
+void VariablesHeader::setUpColumns() {
   setMinimumSectionSize(scaled(this, 24));
   setSectionResizeMode(VariablesModel::Name, QHeaderView::Stretch);
   const std::pair<int, int> widths[] = {{VariablesModel::Value, 52},

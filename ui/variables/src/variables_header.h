@@ -15,7 +15,7 @@ class VariablesHeader : public QHeaderView {
   explicit VariablesHeader(QWidget* parent);
 
   /// To call once the header has its model: first widths, and the order of the catalog.
-  void reset();
+  void setUpColumns();
   /// One entry for each column that may be hidden, in place of what the menu had.
   void fillColumns(QMenu* menu);
   /// For the next start, without what is hidden for want of room. At the end.

@@ -55,7 +55,7 @@ VariablesView::VariablesView(VariablesModel* model, VariablesFilter* filter, QWi
   connect(filter, &QAbstractItemModel::rowsAboutToBeRemoved, this, rest);
   setHeader(m_header);
   setModel(filter);
-  m_header->reset();
+  m_header->setUpColumns();
   setSortingEnabled(true);
   connect(filter, &QAbstractItemModel::modelReset, this, &VariablesView::restoreSoon);
   connect(filter, &QAbstractItemModel::rowsRemoved, this, &VariablesView::restoreSoon);

@@ -179,7 +179,7 @@ void TransportBar::addSkip() {
   connect(make("skipToEvent", "Skip to next &event",
                "Plays at full speed until the next event on the timeline"),
           &QAction::triggered, this,
-          [this] { m_context.controller->skipToEvent(m_context.timeline->eventFilter()); });
+          [this] { m_context.controller->skipToEvent(m_context.timeline->filter()); });
   auto* button = new QToolButton(this);
   button->setObjectName(QStringLiteral("skip"));
   button->setIcon(themedIcon(QStringLiteral("media-seek-forward")));

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include <base/byte_sizes.h>
 #include <robotlink/blackboard/variable_catalog.h>
 
 namespace pitchboard::link {
@@ -22,7 +23,7 @@ struct CatalogEntry {
   std::string where;
 };
 
-inline constexpr std::size_t maxCatalogBytes = 1024 * 1024;
+inline constexpr std::size_t maxCatalogBytes = mebibyte;
 /// What a number of more digits than any index is read as: out of every range.
 inline constexpr long long absurdIndex = 1'000'000'000'000LL;
 

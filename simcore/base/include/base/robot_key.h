@@ -15,7 +15,7 @@ struct RobotKey {
   int team = 0;    ///< index in the source's table of teams, from 1; 0: unknown
   int number = 0;  ///< number on the shirt; 0: no robot
   int sender = 0;  ///< 0: the first program with that number; 1, 2, ...: others
-  auto operator<=>(const RobotKey&) const = default;
+  auto operator<=>(const RobotKey&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// The order in which robots are listed, on the screen and in files: our team before the others,
@@ -23,7 +23,7 @@ struct RobotKey {
 struct RobotOrder {
   bool isTheirs = true;
   RobotKey robot;
-  auto operator<=>(const RobotOrder&) const = default;
+  auto operator<=>(const RobotOrder&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// A robot continues under another key.

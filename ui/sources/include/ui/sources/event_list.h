@@ -43,7 +43,7 @@ class EventList : public QAbstractTableModel {
   void setNote(int row, const QString& note);
 
   const std::deque<link::MatchEvent>& events() const { return m_events; }
-  const link::MatchEvent& event(int row) const { return m_events[static_cast<std::size_t>(row)]; }
+  const link::MatchEvent& at(int row) const { return m_events[static_cast<std::size_t>(row)]; }
   // Return the row of the first event after, or the last event before, this time that passes the
   // filter.
   std::optional<int> next(double time, const EventFilter& filter = {}) const;

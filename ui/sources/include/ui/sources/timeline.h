@@ -66,8 +66,8 @@ class Timeline : public QObject {
   /// Sets the note of the bookmark at exactly this time.
   void setNote(double time, const QString& note);
 
-  const EventFilter& eventFilter() const { return m_filter; }
-  void setEventFilter(const EventFilter& filter);
+  const EventFilter& filter() const { return m_filter; }
+  void setFilter(const EventFilter& filter);
 
   std::optional<telemetry::TimeRange> selection() const { return m_selection; }
   /// A range of less than a tick clears the selection.
