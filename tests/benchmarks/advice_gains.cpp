@@ -3,8 +3,8 @@
 // played in rollouts, and in the match itself, where the robot is told it for three seconds; eight
 // seconds later goals count, or what the position is worth. Prints the table of docs/advisor.md:
 // the gain over what the behaviour does anyway. `advice_gains [situations] [runs] [rollouts] [seed]
-// [1: only what the advisor suggests; 2: kicks and dribbles in every direction, in the match
-// alone]`.
+// [1: only what the advisor suggests; 2: at the ball, kicks and dribbles in directions up to 60°
+// beside the goal's; 3: up to 120°]`.
 
 #include <cstdio>
 #include <cstdlib>
@@ -78,6 +78,40 @@ double valueNow(const SimulatedMatch& match, const Thinking& who) {
   return positionValue(who.options.field, end);
 }
 
+/// The same belief, but everybody and the ball are known to a few centimetres.
+rollout::Belief knowingPlaces(const SimulatedMatch& match, const Thinking& who,
+                              rollout::Belief belief) {
+  constexpr double surely = 0.02;  // m, rad
+  const bool attacksLeft = who.reader.attacksLeft();
+  const auto& bodies = std::get<sim::RigidBodyState>(match.simulation().state().physics);
+  for (rollout::RobotBelief& robot : belief.robots) robot.absent = true;
+  std::size_t nextMate = link::firstMate, nextTheirs = link::firstTheirs;
+  for (std::size_t i = 0; i < bodies.robots.size(); ++i) {
+    const auto& slot = *match.robots().all()[i];
+    const sim::RigidRobot& body = bodies.robots[i];
+    const bool isOwn = slot.facesLeft == attacksLeft, isKeeper = slot.behaviour == "keeper";
+    const std::size_t place = slot.id == who.options.robot ? link::ownPlayer
+                              : isKeeper ? (isOwn ? link::mateKeeper : link::theirKeeper)
+                                         : (isOwn ? nextMate++ : nextTheirs++);
+    rollout::RobotBelief& robot = belief.robots[place];
+    robot.absent = false;
+    robot.pose = {turned(body.pose.position, attacksLeft),
+                  wrapToPi(body.pose.yaw + (attacksLeft ? std::numbers::pi : 0.0))};
+    robot.sigma = robot.yawSigma = surely;
+    robot.forward = body.forwardSpeed;
+    robot.left = body.sidewaysSpeed;
+    robot.turn = body.yawRate;
+    robot.down = body.posture != sim::Posture::Upright;
+    robot.getsUpIn = body.getUpRemaining;
+  }
+  belief.ball.place = turned(bodies.ball.position, attacksLeft);
+  belief.ball.velocity = {attacksLeft ? -bodies.ball.velocity.x : bodies.ball.velocity.x,
+                          attacksLeft ? -bodies.ball.velocity.y : bodies.ball.velocity.y};
+  belief.ball.sigma = belief.ball.velocitySigma = surely;
+  belief.ball.age = 0.0;
+  return belief;
+}
+
 /// How the match goes on when the robot is told this, with other random numbers.
 double playOn(SimulatedMatch& match, const link::Moment& moment, const Thinking& who,
               Advice advice) {
@@ -136,6 +170,41 @@ struct Choice {
   }
 };
 
+double meanOf(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+/// Chooses what gains most in rollouts, if anything gains; the match tells what that is worth.
+struct ChoiceByRollouts {
+  rollout::Belief belief;
+  double usual = 0.0;  // value
+  double most = 0.0;   // gain in rollouts
+  double worth = 0.0;  // of the same in the match
+  void take(double gain, double real) {
+    if (gain <= most) return;
+    most = gain;
+    worth = real;
+  }
+};
+
+/// Pairs of gains: in rollouts, in the match.
+struct Agreement {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  void add(double rollouts, double match) {
+    n += 1.0;
+    x += rollouts;
+    y += match;
+    xx += rollouts * rollouts;
+    xy += rollouts * match;
+    yy += match * match;
+  }
+  double correlation() const {
+    return (n * xy - x * y) / std::sqrt((n * xx - x * x) * (n * yy - y * y));
+  }
+};
+
 class Comparison {
  public:
   Comparison(int runs, int many, bool onlySuggested)
@@ -146,26 +215,10 @@ class Comparison {
     const link::LookaheadPlan plan =
         link::planFor(question, link::AdvisorOptions{}.rollouts, horizon);
     const auto fast = [&](std::size_t candidate) {
-      std::vector<double> values;
-      rollout::PlayOptions play;
-      play.seconds = plan.horizon;
-      play.advice = candidates[candidate];
-      play.advised = link::ownPlayer;
-      for (int j = 0; j < m_many; ++j) {
-        std::array<double, rollout::columnCount> row{};
-        const std::uint64_t one = seed + static_cast<std::uint64_t>(j);
-        if (!who.rollouts.play(belief, {&one, 1}, play, row)) std::abort();
-        values.push_back(link::valueOfRow(row, who.options.field));
-      }
-      return values;
+      return inRollouts(who, belief, candidates[candidate], plan.horizon, seed);
     };
     const auto whole = [&](std::size_t candidate) {
       return continued(match, moment, who, candidates[candidate], seed);
-    };
-    const auto meanOf = [](const std::vector<double>& values) {
-      double sum = 0.0;
-      for (const double value : values) sum += value;
-      return sum / static_cast<double>(values.size());
     };
     link::Lookahead lookahead(belief, candidates, seed + 500000, plan);
     while (!lookahead.isDone()) lookahead.playOne(who.rollouts, who.options.field);
@@ -173,14 +226,14 @@ class Comparison {
     const std::size_t best = result.best;
     ++m_questions;
     if (best == 0 && m_onlySuggested) return;
-    const double usualFast = meanOf(fast(0));
+    const double usualFast = fast(0);
     const std::vector<double> usual = whole(0);
     const double usualWhole = meanOf(usual);
     Choice possible;
     for (std::size_t i = 1; i < candidates.size(); ++i) {
       if (m_onlySuggested && i != best) continue;
       const std::vector<double> played = whole(i);
-      const double gain = meanOf(fast(i)) - usualFast, real = meanOf(played) - usualWhole;
+      const double gain = fast(i) - usualFast, real = meanOf(played) - usualWhole;
       possible.take(gainIn(played, usual), candidates[i].kind);
       Row* const suggested = i == best ? &m_suggested : nullptr;
       Row* const surely = suggested && result.gainLow > 0.0 ? &m_surely : nullptr;
@@ -193,25 +246,44 @@ class Comparison {
     add(possible);
   }
 
-  /// What somebody at the ball could gain who knew how the match goes on.
-  void compareDirections(SimulatedMatch& match, link::Moment moment, const Thinking& who,
-                         const Point& ball, std::uint64_t seed) {
+  /// What somebody at the ball could gain who knew how the match goes on; and who chooses by
+  /// rollouts, from what the robot believes and from where everybody is.
+  void compareDirections(SimulatedMatch& match, link::Moment moment, Thinking& who,
+                         const Point& ball, const rollout::Belief& belief,
+                         const rollout::Belief& places, int farthest, std::uint64_t seed) {
     const std::vector<double> usual = continued(match, moment, who, {}, seed);
+    const double usualWhole = meanOf(usual);
     Choice best;
-    for (int eighth = -3; eighth <= 4; ++eighth) {
-      const double yaw = eighth * std::numbers::pi / 4.0;
+    std::array<ChoiceByRollouts, 2> choosers{{{belief}, {places}}};
+    for (ChoiceByRollouts& one : choosers)
+      one.usual = inRollouts(who, one.belief, {}, horizon, seed);
+    const double goal = direction(ball, {who.options.field.halfLength(), 0.0});
+    for (int degrees = -farthest; degrees <= farthest; degrees += 30) {
+      const double yaw = goal + radiansFromDegrees(degrees);
       const auto tryOne = [&](AdviceKind kind, double metres) {
         const Advice advice{
             kind, {{ball.x + metres * std::cos(yaw), ball.y + metres * std::sin(yaw)}, yaw}};
-        const Halves gain = gainIn(continued(match, moment, who, advice, seed), usual);
-        Row& row = m_halves[std::string(nameOf(kind)) + " to " + std::to_string(45 * eighth) + "°"];
+        const std::vector<double> played = continued(match, moment, who, advice, seed);
+        const double real = meanOf(played) - usualWhole;
+        const Halves gain = gainIn(played, usual);
+        Row& row = m_halves[std::string(nameOf(kind)) + " to " + std::to_string(degrees) + "°"];
         row.first.add(gain.first);
         row.second.add(gain.second);
         best.take(gain, kind);
+        for (std::size_t i = 0; i < choosers.size(); ++i) {
+          ChoiceByRollouts& one = choosers[i];
+          const double expected = inRollouts(who, one.belief, advice, horizon, seed) - one.usual;
+          one.take(expected, real);
+          m_agreements[i].add(expected, real);
+        }
       };
       tryOne(AdviceKind::StrongKick, 3.0);
       tryOne(AdviceKind::WeakKick, 1.2);
-      if (std::abs(eighth) <= 2) tryOne(AdviceKind::Dribble, 2.0);
+      tryOne(AdviceKind::Dribble, 2.0);
+    }
+    for (std::size_t i = 0; i < choosers.size(); ++i) {
+      m_byRollouts[i].first.add(choosers[i].most);
+      m_byRollouts[i].second.add(choosers[i].worth);
     }
     ++m_questions;
     add(best);
@@ -232,11 +304,34 @@ class Comparison {
     std::printf("| candidate | times | gain in half of the continuations | gain in the others |\n");
     for (const auto& [name, row] : m_halves) print(name.c_str(), row);
     print("the best in half of the continuations", m_possible);
+    if (m_agreements[0].n > 0.0) {
+      std::printf("| who chooses | questions | gain in rollouts | gain in whole matches |\n");
+      print("rollouts of what the robot believes", m_byRollouts[0]);
+      print("rollouts of where everybody is", m_byRollouts[1]);
+      std::printf("correlation of gains in rollouts and matches: %.2f and %.2f\n",
+                  m_agreements[0].correlation(), m_agreements[1].correlation());
+    }
     for (const auto& [name, times] : m_chosen) std::printf("of these, %s: %d\n", name, times);
     std::printf("%d questions\n", m_questions);
   }
 
  private:
+  /// Mean value of the rollouts with this advice.
+  double inRollouts(Thinking& who, const rollout::Belief& belief, const Advice& advice,
+                    double seconds, std::uint64_t seed) const {
+    std::vector<double> values;
+    rollout::PlayOptions play;
+    play.seconds = seconds;
+    play.advice = advice;
+    play.advised = link::ownPlayer;
+    for (int j = 0; j < m_many; ++j) {
+      std::array<double, rollout::columnCount> row{};
+      const std::uint64_t one = seed + static_cast<std::uint64_t>(j);
+      if (!who.rollouts.play(belief, {&one, 1}, play, row)) std::abort();
+      values.push_back(link::valueOfRow(row, who.options.field));
+    }
+    return meanOf(values);
+  }
   std::vector<double> continued(SimulatedMatch& match, link::Moment& moment, const Thinking& who,
                                 const Advice& advice, std::uint64_t seed) const {
     std::vector<double> values;
@@ -257,11 +352,14 @@ class Comparison {
   int m_questions = 0;
   std::map<std::string, Row> m_rows, m_halves;
   Row m_suggested, m_surely, m_possible;
+  std::array<Row, 2> m_byRollouts;
+  std::array<Agreement, 2> m_agreements;
   std::map<const char*, int> m_chosen;
 };
 
 /// Asks the robots of one match; returns how often.
-int askMatch(std::uint64_t seed, int most, bool everyDirection, Comparison& comparison) {
+/// `farthest`: of directions at the ball, beside the goal's, degrees; 0: the advisor's candidates.
+int askMatch(std::uint64_t seed, int most, int farthest, Comparison& comparison) {
   link::Scenario scenario = link::loadScenario("match").value();
   scenario.settings.seed = seed;
   auto match = SimulatedMatch::create(scenario, {}).value();
@@ -292,16 +390,18 @@ int askMatch(std::uint64_t seed, int most, bool everyDirection, Comparison& comp
                                   who.options.behaviour == "keeper", who.options.parameters};
       const Question question = questionOf(situation, thinker);
       const Candidates candidates = candidatesFor(question, situation, thinker, {});
-      if (candidates.size() < 2 || (everyDirection && question != Question::AtBall)) continue;
+      if (candidates.size() < 2 || (farthest > 0 && question != Question::AtBall)) continue;
       who.asked = now;
       ++asked;
       const std::uint64_t first = 1000 * (1000 * seed + static_cast<std::uint64_t>(asked));
-      if (everyDirection) {
-        comparison.compareDirections(other, situationOf(match).moment, who, *situation.ball, first);
-        continue;
+      const rollout::Belief belief = beliefOf(situation, who.opponents, now, who.options);
+      const link::Moment moment = situationOf(match).moment;
+      if (farthest > 0) {
+        comparison.compareDirections(other, moment, who, *situation.ball, belief,
+                                     knowingPlaces(match, who, belief), farthest, first);
+      } else {
+        comparison.compare(other, moment, who, question, belief, candidates, first);
       }
-      comparison.compare(other, situationOf(match).moment, who, question,
-                         beliefOf(situation, who.opponents, now, who.options), candidates, first);
     }
   }
   return asked;
@@ -313,10 +413,11 @@ int askMatch(std::uint64_t seed, int most, bool everyDirection, Comparison& comp
 int main(int argc, char** argv) {
   const auto number = [&](int i, int usual) { return argc > i ? std::atoi(argv[i]) : usual; };
   pitchboard::tests::Comparison comparison(number(2, 16), number(3, 36), number(5, 0) == 1);
+  const int farthest = number(5, 0) == 2 ? 60 : number(5, 0) == 3 ? 120 : 0;
   int left = number(1, 300);
   for (auto seed = static_cast<std::uint64_t>(number(4, 1000)); left > 0; ++seed) {
-    left -= pitchboard::tests::askMatch(seed, std::min(left, pitchboard::tests::ofMatch),
-                                        number(5, 0) == 2, comparison);
+    left -= pitchboard::tests::askMatch(seed, std::min(left, pitchboard::tests::ofMatch), farthest,
+                                        comparison);
   }
   comparison.print();
 }

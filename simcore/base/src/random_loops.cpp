@@ -35,19 +35,17 @@ namespace avx512 {
 #include "random_loops.inc"
 }  // namespace avx512
 #pragma GCC pop_options
+constexpr SimdLoops<Loops> levels{&baseline::all, &avx2::all, &avx512::all};
+#else
+constexpr SimdLoops<Loops> levels{&baseline::all};
 #endif
 
 const Loops* loopsOf(SimdLevel level) {
-  if (!supports(level)) return nullptr;
-#ifdef PITCHBOARD_SIMD_LEVELS
-  if (level == SimdLevel::Avx2) return &avx2::all;
-  if (level == SimdLevel::Avx512) return &avx512::all;
-#endif
-  return &baseline::all;
+  return levels.at(level);
 }
 
 const Loops& loops() {
-  static const Loops& best = fastestLoops(loopsOf);
+  static const Loops& best = levels.fastest();
   return best;
 }
 

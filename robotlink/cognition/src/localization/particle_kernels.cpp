@@ -31,19 +31,17 @@ inline constexpr int registerLanes = 16;
 #include "localization/particle_loops.inc"
 }  // namespace avx512
 #pragma GCC pop_options
+constexpr SimdLoops<Kernels> levels{&baseline::all, &avx2::all, &avx512::all};
+#else
+constexpr SimdLoops<Kernels> levels{&baseline::all};
 #endif
 
 const Kernels* kernelsOf(SimdLevel level) {
-  if (!supports(level)) return nullptr;
-#ifdef PITCHBOARD_SIMD_LEVELS
-  if (level == SimdLevel::Avx2) return &avx2::all;
-  if (level == SimdLevel::Avx512) return &avx512::all;
-#endif
-  return &baseline::all;
+  return levels.at(level);
 }
 
 const Kernels& kernels() {
-  static const Kernels& best = fastestLoops(kernelsOf);
+  static const Kernels& best = levels.fastest();
   return best;
 }
 

@@ -26,14 +26,26 @@ enum class SimdLevel {
 /// Returns whether the compiler can use this level and the processor runs it without slowing down.
 bool supports(SimdLevel level);
 
-/// Returns the loops of the highest supported level. `loopsOf` returns null for levels that it has
-/// no loops for; it must have some for Baseline.
+/// The same loops, compiled for each level; null where a level has none of its own.
 template <class Loops>
-const Loops& fastestLoops(const Loops* (*loopsOf)(SimdLevel)) {
-  for (const SimdLevel level : {SimdLevel::Avx512, SimdLevel::Avx2}) {
-    if (const Loops* found = loopsOf(level)) return *found;
+struct SimdLoops {
+  const Loops* baseline;
+  const Loops* avx2 = nullptr;
+  const Loops* avx512 = nullptr;
+
+  /// Returns null if the level is not supported.
+  const Loops* at(SimdLevel level) const {
+    if (!supports(level)) return nullptr;
+    if (level == SimdLevel::Avx2) return avx2;
+    return level == SimdLevel::Avx512 ? avx512 : baseline;
   }
-  return *loopsOf(SimdLevel::Baseline);
-}
+  /// Returns those of the highest supported level.
+  const Loops& fastest() const {
+    for (const SimdLevel level : {SimdLevel::Avx512, SimdLevel::Avx2}) {
+      if (const Loops* found = at(level)) return *found;
+    }
+    return *baseline;
+  }
+};
 
 }  // namespace pitchboard
