@@ -122,13 +122,13 @@ class Printer : public link::LiveObserver {
 void reportEnd(const link::LiveDetails& details, std::uint64_t left) {
   const telemetry::TeamStatus& team = details.team;
   const telemetry::ReceiverStatus& network = details.network;
+  const std::uint64_t here = network.queueDrops + left;
   const std::uint64_t bad = team.errors.messages() + details.unknownReferee + details.badVariables;
-  std::fprintf(stderr,
-               "%llu datagrams from %zu robots; lost: %llu in the kernel, %llu here; bad: %llu%s",
-               static_cast<unsigned long long>(network.datagrams()), team.robots.size(),
-               static_cast<unsigned long long>(network.kernelDrops()),
-               static_cast<unsigned long long>(network.queueDrops + left),
-               static_cast<unsigned long long>(bad), refusedText(details).c_str());
+  std::fprintf(
+      stderr, "%llu datagrams from %zu robots; lost: %llu in the kernel, %llu here; bad: %llu%s",
+      static_cast<unsigned long long>(network.datagrams()), team.robots.size(),
+      static_cast<unsigned long long>(network.kernelDrops()), static_cast<unsigned long long>(here),
+      static_cast<unsigned long long>(bad), refusedText(details).c_str());
   for (const telemetry::RobotStatus& robot : team.robots) {
     std::fprintf(stderr, "\n  %s", healthLine(robot, nameOf(robot.key, details.teams)).c_str());
   }
