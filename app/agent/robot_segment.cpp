@@ -13,7 +13,8 @@ std::string RobotSegment::look(std::chrono::microseconds now) {
   auto view = link::SegmentView::attach(m_key, m_layout.bytes);
   const std::string name = "blackboard " + std::to_string(m_key);
   std::string text;
-  if (view) {
+  const bool found = view.has_value();
+  if (found) {
     text = m_view ? name + " was created again; reading the new one" : "reading " + name;
     m_view = *std::move(view);
   } else if (m_view && m_view->isShared()) {
@@ -22,7 +23,7 @@ std::string RobotSegment::look(std::chrono::microseconds now) {
     m_view.reset();
     text = view.error().code == ErrorCode::NotFound ? "waiting for " + name : view.error().text();
   }
-  if (text == m_reported && !view) return {};
+  if (text == m_reported && !found) return {};
   return m_reported = std::move(text);
 }
 
@@ -32,7 +33,7 @@ void RobotSegment::read(std::span<const link::Variable> variables,
   if (!m_view) return;
   for (const link::Variable& variable : variables) {
     const int offset = variable.type == link::VariableType::Float ? m_layout.floatOffset : 0;
-    words.push_back(m_view->word(static_cast<std::size_t>(offset + variable.index)));
+    words.push_back(m_view->word(static_cast<std::size_t>(offset) + static_cast<std::size_t>(variable.index)));
   }
 }
 

@@ -151,7 +151,7 @@ Result<int> playInto(const link::Experiment& experiment, const PlayInto& options
   {
     Progress progress(experiment.name, options.progress);
     played = link::playRuns(
-        experiment, numbers, jobs, settings, [&](link::PlayedRun one) -> Result<void> {
+        experiment, numbers, jobs, settings, [&](const link::PlayedRun& one) -> Result<void> {
           ++done;
           busy += one.wallSeconds;
           simulated += one.simulatedSeconds;

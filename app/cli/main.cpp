@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
+#include <cstdio>
+#include <exception>
 
 #include "commands.h"
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   using namespace pitchboard::cli;
   CLI::App app{
       "Pitchboard on the command line: simulate matches, listen to robots, read blackboards, "
-      "record "
-      "and export.\n"
+      "record and export.\n"
       "Examples: pitchboard-cli simulate --scenario match-3v3 --duration 60\n"
       "          pitchboard-cli record --live -o training.mcap\n"
       "          pitchboard-cli export training.mcap --to csv-wide -o training.csv"};
@@ -26,4 +27,7 @@ int main(int argc, char** argv) {
 
   if (const auto ended = pitchboard::shared::parse(app, argc, argv)) return *ended;
   return exitCode;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "error: %s\n", error.what());
+  return pitchboard::shared::exitRefused;
 }

@@ -79,7 +79,7 @@ Result<double> momentIn(const telemetry::SessionReader& session, const Arguments
     return failure(ErrorCode::NotFound, "The recording is empty.", arguments.session);
   }
   using telemetry::TimeForms;
-  const auto time = telemetry::sessionTime(arguments.at, session.info().start, *range,
+  auto time = telemetry::sessionTime(arguments.at, session.info().start, *range,
                                            arguments.clock ? TimeForms::Clock : TimeForms::Session);
   if (!time) return failure(time.error().code, "--at: " + time.error().message);
   return time;

@@ -10,6 +10,7 @@
 #include <QTableView>
 #include <QToolButton>
 #include <QtTest>
+#include <algorithm>
 #include <set>
 
 #include <ui/base/theme.h>
@@ -139,6 +140,10 @@ class TestKeyMap : public QObject {
                                "previousEvent", "addBookmark", "escape",      "nudgeLeft",
                                "faster",        "flipSides",   "fitField",    "removeSelected"};
     for (const char* id : ids) k.action(id)->disconnect();
+    // A card is there once a frame was shown, and visible once its panel was laid out.
+    const auto isVisible = [](const QWidget* widget) { return widget->isVisible(); };
+    QTRY_COMPARE(std::size_t(std::ranges::count_if(k.window.findChildren<RobotCard*>(), isVisible)),
+                 k.controller.frame()->robots.size());
     QSet<QWidget*> tried;
     for (auto* dock : k.window.findChildren<QDockWidget*>(Qt::FindDirectChildrenOnly)) {
       dock->raise();
@@ -171,7 +176,7 @@ class TestKeyMap : public QObject {
         }
       }
     }
-    QVERIFY2(tried.size() >= 40, qPrintable(QString::number(tried.size())));
+    QVERIFY2(tried.size() >= 50, qPrintable(QString::number(tried.size())));
   }
 
   void textFieldsKeepTheirKeys() {

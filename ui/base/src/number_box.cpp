@@ -28,7 +28,7 @@ NumberBox::NumberBox(QWidget* parent) : QDoubleSpinBox(parent) {
   setLocale(locale);
 }
 
-QString NumberBox::withPoint(QString text) const {
+QString NumberBox::withPoint(const QString& text) const {
   const qsizetype unit = text.endsWith(suffix()) ? suffix().size() : 0;
   return plain(text.chopped(unit)) + text.right(unit);
 }

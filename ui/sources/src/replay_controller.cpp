@@ -273,8 +273,9 @@ void ReplayController::take(std::shared_ptr<File> file) {
   m_playback->setLoop({});
   m_playback->setRange({});
   m_playback->setTickRate(m_file->tickRate);
-  m_playback->setRange(m_file->range);
+  // In this order: a new range would first move to its begin and show that moment.
   m_playback->seek(m_file->start);
+  m_playback->setRange(m_file->range);
   emit restarted();
   emit frameReceived(m_frame);
   if (!m_file->paged) reportRecorded();

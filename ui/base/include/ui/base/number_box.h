@@ -26,7 +26,7 @@ class NumberBox : public QDoubleSpinBox {
   QString textFromValue(double value) const override;
 
  private:
-  QString withPoint(QString text) const;
+  QString withPoint(const QString& text) const;
   std::optional<double> beyondRange(const QString& input) const;
 };
 
