@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <robotlink/rollout/summary.h>
+
 #include "game_belief.h"
 #include "position_value.h"
 
@@ -65,15 +67,6 @@ double valueOfRow(const Row& row, const sim::FieldSpec& field) {
 
 namespace {
 
-std::size_t heatCell(const Point& ball, const sim::FieldSpec& field) {
-  const auto cell = [](double place, double half, int count) {
-    const double share = (place + half) / (2.0 * half);
-    return std::clamp(static_cast<int>(share * count), 0, count - 1);
-  };
-  return static_cast<std::size_t>(cell(ball.y, field.halfWidth(), heatRows) * heatColumns +
-                                  cell(ball.x, field.halfLength(), heatColumns));
-}
-
 double meanOf(const std::vector<double>& values) {
   if (values.empty()) return 0.0;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -133,7 +126,8 @@ void Lookahead::playOne(rollout::Rollouts& rollouts, const sim::FieldSpec& field
     value = valueOfRow(row, field);
     of.goals += in(row, Column::GoalsLeft) > 0.0;
     of.goalsAgainst += in(row, Column::GoalsRight) > 0.0;
-    ++of.heat[heatCell({in(row, Column::LookX), in(row, Column::LookY)}, field)];
+    ++of.heat[rollout::heatCell({in(row, Column::LookX), in(row, Column::LookY)}, field,
+                                heatColumns, heatRows)];
   }
   of.values.push_back(value);
   ++m_played;

@@ -107,15 +107,12 @@ void OpponentWatch::watchBall(const Situation& now, double time, const sim::Fiel
                       distance(roll.last, ball) > jump || isOurs;
     roll.last = ball;
     roll.seen = time;
-    if (lost) {
-      m_roll.reset();
-    } else if (distance(roll.from, ball) >= leastRoll) {
+    if (!lost && distance(roll.from, ball) >= leastRoll) {
       learnAim(learned, field, theirs(roll.from), theirs(ball));
       m_roll.reset();
       return;
-    } else if (age > waits && distance(roll.from, ball) < rests) {
-      m_roll.reset();
     }
+    if (lost || (age > waits && distance(roll.from, ball) < rests)) m_roll.reset();
   }
   if (!m_roll && !isOurs) m_roll = Roll{ball, ball, time, time};
 }

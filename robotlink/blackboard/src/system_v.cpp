@@ -216,10 +216,10 @@ Result<Blackboard> SystemVSegments::open(int key, AttachMode mode) {
 
 std::vector<SegmentInfo> SystemVSegments::list(int keyBase) {
   std::vector<SegmentInfo> found = segmentsOfThisComputer();
+  constexpr long long last = static_cast<long long>(keysPerRobot) * robotNumbers;
   std::erase_if(found, [keyBase](const SegmentInfo& info) {
     const long long offset = static_cast<long long>(info.key) - keyBase;
-    return offset < keysPerRobot || offset > keysPerRobot * robotNumbers ||
-           offset % keysPerRobot != 0;
+    return offset < keysPerRobot || offset > last || offset % keysPerRobot != 0;
   });
   return found;
 }

@@ -230,7 +230,7 @@ pb_status initialized(Options* options, size_t size, const Options& usual, const
 constexpr std::int32_t firstFloat = Blackboard::intVariables;
 
 Result<std::vector<Variable>> variablesOf(const std::int32_t* numbers, std::size_t count) {
-  if (numbers == nullptr || count == 0 || count > 2 * Blackboard::words) {
+  if (numbers == nullptr || count == 0 || count > std::size_t{2} * Blackboard::words) {
     return failure(ErrorCode::InvalidArgument,
                    "variables must be 1 to 1024 numbers that pb_find_variable() gave");
   }

@@ -278,7 +278,7 @@ void WorldRequest::read() {
 }
 
 std::optional<std::vector<Variable>> WorldRequest::variables() {
-  const auto* list = m_request.array("variables", 2 * Blackboard::words);
+  const auto* list = m_request.array("variables", std::size_t{2} * Blackboard::words);
   if (!list) return {};
   std::vector<Variable> found;
   for (std::size_t i = 0; i < list->size(); ++i) {

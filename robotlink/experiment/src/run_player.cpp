@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -49,10 +50,11 @@ class Hand {
     for (; m_next < m_placed.size() && m_placed[m_next].time <= now + 1e-9; ++m_next) {
       const PlacedByHand& one = m_placed[m_next];
       const sim::RobotIdentity* robot = robotNamed(simulation.state(), one.who);
-      const auto done = one.who == "ball" ? simulation.placeBall(one.pose.position, one.velocity)
-                        : robot           ? simulation.placeRobot(robot->id, one.pose)
-                                          : Result<void>();
-      if (!done) return done;
+      if (one.who == "ball") {
+        TRY(simulation.placeBall(one.pose.position, one.velocity));
+      } else if (robot) {
+        TRY(simulation.placeRobot(robot->id, one.pose));
+      }
       acted = true;
     }
     if (acted) m_player.worldChanged();
@@ -124,7 +126,7 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   const auto rows = std::make_shared<LatestRows>();
   const double rate = scenario.settings.tickRate;
   const auto sampler = std::make_shared<MatchSampler>(
-      rows, MatchSamplerOptions{std::max(1, static_cast<int>(e.sampleEvery * rate + 0.5))});
+      rows, MatchSamplerOptions{std::max(1, static_cast<int>(std::lround(e.sampleEvery * rate)))});
   const auto measure = std::make_shared<RunMeasure>(e, run, rows);
   player.observe(sampler);
   player.observe(measure);

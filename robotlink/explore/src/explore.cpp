@@ -8,6 +8,7 @@
 
 #include <base/try.h>
 #include <robotlink/rollout/rollouts.h>
+#include <robotlink/rollout/summary.h>
 #include <simcore/world/field.h>
 
 namespace pitchboard::link {
@@ -261,12 +262,7 @@ class Exploration {
 
   void addPoint(const TracePoint& point, TimeCounts& counts) const {
     const sim::FieldSpec& field = m_start.setup.field;
-    const auto cellOf = [](double place, double half, int cells) {
-      return std::clamp(static_cast<int>((place + half) / (2.0 * half) * cells), 0, cells - 1);
-    };
-    const int x = cellOf(point.ball.x, field.halfLength(), m_columns);
-    const int y = cellOf(point.ball.y, field.halfWidth(), m_rows);
-    ++counts.cells[static_cast<std::size_t>(y * m_columns + x)];
+    ++counts.cells[rollout::heatCell(point.ball, field, m_columns, m_rows)];
     counts.goalsLeft += point.goalsLeft > 0 ? 1 : 0;
     counts.goalsRight += point.goalsRight > 0 ? 1 : 0;
   }

@@ -79,8 +79,10 @@ class AdviceMaker {
       if (!kind) continue;
       AdviceCandidate& one = view.candidates.emplace_back();
       one.kind = *kind;
-      const double x = packed % packedKind / packedX, y = packed % packedX;
-      one.place = sim::published_frame::studioFromLocalization(m_field, {x, y, 0.0}).position;
+      const int column = packed % packedKind / packedX, row = packed % packedX;
+      one.place = sim::published_frame::studioFromLocalization(
+                      m_field, {static_cast<double>(column), static_cast<double>(row), 0.0})
+                      .position;
       one.value = number(firstAdviceValue + i);
     }
     // The value says which of several kicks it is.

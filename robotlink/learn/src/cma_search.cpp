@@ -143,9 +143,10 @@ Result<void> CmaSearch::tell(std::span<const double> values) {
   std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return values[i]; });
   std::vector<double> mean(m_state->mean.size(), 0.0);
   double sum = 0.0;
-  for (std::size_t rank = 0; rank < count / 2; ++rank) {
+  const std::size_t better = count / 2;
+  for (std::size_t rank = 0; rank < better; ++rank) {
     const double weight =
-        std::log(static_cast<double>(count / 2) + 0.5) - std::log(static_cast<double>(rank) + 1.0);
+        std::log(static_cast<double>(better) + 0.5) - std::log(static_cast<double>(rank) + 1.0);
     const auto& point = m_state->exchange.asked[order[rank]];
     for (std::size_t d = 0; d < mean.size(); ++d) mean[d] += weight * point[d];
     sum += weight;

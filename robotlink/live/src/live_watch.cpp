@@ -62,7 +62,7 @@ Result<std::vector<std::uint16_t>> portsOf(const LiveOptions& options) {
 Result<void> validate(const LiveOptions& options) {
   TRY(portsOf(options));
   for (const std::string& file : options.catalogs) TRY(VariableCatalog::fromFile(file));
-  if (const auto good = telemetry::validate(options.profile); !good) return good;
+  TRY(telemetry::validate(options.profile));
   for (const telemetry::TeamSetup& team : options.team.teams) {
     if (team.model.empty()) continue;
     if (auto model = loadRobotModel(team.model); !model) {
@@ -71,7 +71,7 @@ Result<void> validate(const LiveOptions& options) {
       return tl::unexpected(std::move(error));
     }
   }
-  if (const auto good = validate(options.boards); !good) return good;
+  TRY(validate(options.boards));
   return sim::validate(options.field);
 }
 

@@ -86,7 +86,7 @@ struct SentBoards::Robot {
     counts.newest.reset();
     sequence = SequenceStats(counts);
     newest = next - 1;
-    for (auto& [name, value] : values) value.sequence = next - 1;
+    for (auto& [key, value] : values) value.sequence = next - 1;
   }
 };
 

@@ -56,7 +56,7 @@ std::string inPath(const std::string& program) {
   while (true) {
     const std::size_t colon = rest.find(':');
     const std::string_view folder = rest.substr(0, colon);
-    const std::string path = (folder.empty() ? "." : std::string(folder)) + "/" + program;
+    std::string path = (folder.empty() ? "." : std::string(folder)) + "/" + program;
     if (executable(path)) return path;
     if (colon == std::string_view::npos) return {};
     rest.remove_prefix(colon + 1);

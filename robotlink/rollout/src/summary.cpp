@@ -62,20 +62,24 @@ OutcomeSummary summaryOf(std::span<const double> outcomes) {
   return out;
 }
 
+std::size_t heatCell(const Point& ball, const sim::FieldSpec& field, int columns, int rows) {
+  const auto cellOf = [](double place, double half, int count) {
+    const double share = (place + half) / (2.0 * half);
+    return static_cast<std::size_t>(std::clamp(static_cast<int>(share * count), 0, count - 1));
+  };
+  return cellOf(ball.y, field.halfWidth(), rows) * static_cast<std::size_t>(columns) +
+         cellOf(ball.x, field.halfLength(), columns);
+}
+
 std::vector<double> heatMap(std::span<const double> outcomes, const sim::FieldSpec& field,
                             int columnsX, int rowsY) {
   columnsX = std::max(1, columnsX);
   rowsY = std::max(1, rowsY);
   std::vector<double> cells(static_cast<std::size_t>(columnsX) * static_cast<std::size_t>(rowsY));
   double n = 0.0;
-  const auto cellOf = [](double place, double half, int count) {
-    const double share = (place + half) / (2.0 * half);
-    return std::clamp(static_cast<int>(share * count), 0, count - 1);
-  };
   forEachRow(outcomes, [&](std::span<const double> row) {
-    const int x = cellOf(cell(row, Column::LookX), field.halfLength(), columnsX);
-    const int y = cellOf(cell(row, Column::LookY), field.halfWidth(), rowsY);
-    cells[static_cast<std::size_t>(y * columnsX + x)] += 1.0;
+    const Point ball{cell(row, Column::LookX), cell(row, Column::LookY)};
+    cells[heatCell(ball, field, columnsX, rowsY)] += 1.0;
     n += 1.0;
   });
   if (n > 0.0) {

@@ -82,9 +82,9 @@ Result<Simulation> Simulation::create(const SimulationSettings& settings) {
   simulation.m_state.robots.reserve(maxRobots);
   simulation.m_state.models.reserve(maxRobots);
   simulation.m_state.statistics.reserve(maxRobots);
-  simulation.m_events.reserve(4 * maxRobots);
-  simulation.m_called.reserve(4 * maxRobots);
-  simulation.m_placements.robots.reserve(2 * maxRobots);
+  simulation.m_events.reserve(std::size_t{4} * maxRobots);
+  simulation.m_called.reserve(std::size_t{4} * maxRobots);
+  simulation.m_placements.robots.reserve(std::size_t{2} * maxRobots);
   simulation.m_seen.robots.reserve(maxRobots);
   return simulation;
 }

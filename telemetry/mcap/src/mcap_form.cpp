@@ -38,7 +38,7 @@ struct Form {
   std::uint8_t step = 1;   ///< what the first text's length is a multiple of
 
   constexpr std::uint64_t least() const {
-    return std::uint64_t{fixed} + 4U * texts + (body ? 8U : 0U) + behind;
+    return std::uint64_t{fixed} + std::uint64_t{4} * texts + (body ? 8U : 0U) + behind;
   }
 };
 

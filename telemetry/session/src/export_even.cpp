@@ -83,9 +83,8 @@ void EvenRows::fill(double time) {
     const bool between =
         holds && rows.size() > 1 && rows[1].time - rows[0].time <= Resampling::longestHold;
     for (std::size_t i = 0; i < group.held.size(); ++i) {
-      if (!holds) {
-        m_line.push_back(nothing);
-      } else if (group.held[i] || rows[0].time == time) {
+      const bool asItIs = holds && (group.held[i] || rows[0].time == time);
+      if (asItIs) {
         m_line.push_back(rows[0].values[i]);
       } else if (!between) {
         m_line.push_back(nothing);

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include <base/time_text.h>
+#include <base/try.h>
 
 namespace pitchboard::telemetry {
 namespace {
@@ -178,9 +179,7 @@ Result<double> sessionTime(std::string_view text, WallTime start, TimeRange rang
                      quoted(text) + " is not a time. Write " + sessionTimeForms + '.');
     }
     const double first = std::max(range.begin, after.value_or(range.begin));
-    const auto found = momentOf(*moment, start, {first, range.end});
-    if (!found) return found;
-    time = *found;
+    time = TRY(momentOf(*moment, start, {first, range.end}));
   }
   if (*time >= range.begin - edge && *time <= range.end + edge) {
     return std::clamp(*time, range.begin, range.end);

@@ -132,10 +132,10 @@ std::unique_ptr<SessionWriter> SessionWriter::on(McapWriter file, std::string pa
                                                  const SessionInfo& info,
                                                  const SessionWriterOptions& options) {
   auto impl = std::make_unique<Impl>();
-  impl->path = path;
   impl->info = info;
   impl->options = options;
   if (!options.freeSpace) impl->options.freeSpace = [path] { return freeSpaceBeside(path); };
+  impl->path = std::move(path);
   impl->state.bytes = file.bytes();
   impl->state.freeBytes = impl->options.freeSpace();
   impl->file = std::move(file);

@@ -314,8 +314,8 @@ int MonteCarloLocalization::wantedParticles() {
   particles::kernels().cellsOf(poses(), grid(), m_cells.data());
   for (int i = 0; i < m_count; ++i) {
     if (m_weight[i] < least) continue;
-    const auto cell = static_cast<std::size_t>(m_cells[static_cast<std::size_t>(i)] * headingCells +
-                                               headingCell(m_now.c[i], m_now.s[i]));
+    const int place = m_cells[static_cast<std::size_t>(i)] * headingCells;
+    const auto cell = static_cast<std::size_t>(place + headingCell(m_now.c[i], m_now.s[i]));
     occupied += m_cellStamp[cell] != m_stamp;
     m_cellStamp[cell] = m_stamp;
   }
@@ -380,8 +380,9 @@ void MonteCarloLocalization::strongestCluster(particles::Mean& mean) {
   }
   const int best = firstLargest(m_cellWeight);
   const double cell_m = m_parameters.kldCell;
-  const double x = (best % m_columns + 0.5) * cell_m - m_halfLength - m_border;
-  const double y = (best / m_columns + 0.5) * cell_m - m_halfWidth - m_border;
+  const int column = best % m_columns, row = best / m_columns;
+  const double x = (column + 0.5) * cell_m - m_halfLength - m_border;
+  const double y = (row + 0.5) * cell_m - m_halfWidth - m_border;
   mean = particles::kernels().meanNear(poses(), m_weight.data(), m_a.data(), static_cast<float>(x),
                                        static_cast<float>(y), static_cast<float>(clusterRadius));
 }

@@ -31,9 +31,12 @@ struct OutcomeSummary {
 /// Rows of rollouts that were not played (NaN) are ignored.
 OutcomeSummary summaryOf(std::span<const double> outcomes);
 
-/// Returns in which share of rollouts the ball was in each cell at PlayOptions::look. Cells are
-/// listed row by row from the bottom, each row from left to right. A ball outside the lines counts
-/// in the nearest cell.
+/// Returns the cell of a heat map of the field in which a ball counts. Cells are numbered row by
+/// row from the bottom, each row from left to right. A ball outside the lines counts in the
+/// nearest.
+std::size_t heatCell(const Point& ball, const sim::FieldSpec& field, int columns, int rows);
+
+/// Returns in which share of rollouts the ball was in each cell (heatCell) at PlayOptions::look.
 std::vector<double> heatMap(std::span<const double> outcomes, const sim::FieldSpec& field,
                             int columnsX, int rowsY);
 
