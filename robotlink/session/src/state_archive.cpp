@@ -63,8 +63,7 @@ void StateArchive::keep(std::optional<StateSegment> ended) {
   }
 }
 
-void StateArchive::dropMemory(
-    std::deque<std::shared_ptr<const RobotsMemory>>::const_iterator memory) {
+void StateArchive::dropMemory(std::deque<std::shared_ptr<const RobotsMemory>>::iterator memory) {
   m_memoriesBytes -= (*memory)->bytes;
   m_memories.erase(memory);
 }

@@ -23,7 +23,7 @@ link::PlaySettings settingsWith(const std::atomic<bool>& cancelled) {
 /// "name-1", the first that is free.
 QString newFolder(const QString& folders, const QString& name) {
   for (int i = 1; i < mostFolders; ++i) {
-    const QString path = QStringLiteral("%1/%2-%3").arg(folders, name).arg(i);
+    QString path = QStringLiteral("%1/%2-%3").arg(folders, name).arg(i);
     if (!QDir(path).exists()) return path;
   }
   return folders + QLatin1Char('/') + name;

@@ -24,9 +24,10 @@ void HeatItem::setHeat(std::shared_ptr<const link::BallHeat> heat, const QColor&
       std::ssize(m_heat->cells) == std::ptrdiff_t{m_heat->columns} * m_heat->rows) {
     const float most = *std::ranges::max_element(m_heat->cells);
     m_picture = QImage(m_heat->columns, m_heat->rows, QImage::Format_ARGB32);
+    auto next = m_heat->cells.begin();  // row by row
     for (int y = 0; y < m_heat->rows; ++y) {
       for (int x = 0; x < m_heat->columns; ++x) {
-        const float share = m_heat->cells[static_cast<std::size_t>(y * m_heat->columns + x)];
+        const float share = *next++;
         QColor cell = m_color;
         // By the root: a ball that scatters widely shows as well.
         cell.setAlphaF(most > 0.0F ? static_cast<float>(strongest) * std::sqrt(share / most)

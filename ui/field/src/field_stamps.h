@@ -9,6 +9,7 @@
 #include <QPointF>
 #include <QSizeF>
 #include <QString>
+#include <cmath>
 #include <functional>
 
 namespace pitchboard::ui {
@@ -26,7 +27,7 @@ struct Stamp {
 
 /// A length in pixels as the `size` of a stamp.
 inline int stampSize(double pixels) {
-  return static_cast<int>(pixels * 16 + 0.5);
+  return static_cast<int>(std::lround(pixels * 16));
 }
 
 /// Puts the stamp down with its origin at `centre`, to a quarter of a device pixel. The painter's

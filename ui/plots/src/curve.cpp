@@ -10,7 +10,7 @@
 
 namespace pitchboard::ui {
 
-Curve::Curve(CurveSpec spec) {
+Curve::Curve(const CurveSpec& spec) {
   setSpec(spec);
 }
 Curve::~Curve() = default;

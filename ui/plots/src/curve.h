@@ -20,7 +20,7 @@ class DerivedSeries;
 
 class Curve {
  public:
-  explicit Curve(CurveSpec spec);
+  explicit Curve(const CurveSpec& spec);
   ~Curve();
   Curve(Curve&&) noexcept;
   Curve& operator=(Curve&&) noexcept;

@@ -71,7 +71,7 @@ int MarksModel::columnCount(const QModelIndex& parent) const {
 }
 
 QString MarksModel::cell(const MarksRow& row, int column) const {
-  const QString none = QStringLiteral("–");
+  QString none = QStringLiteral("–");
   const bool coded = !row.aText.isEmpty() || !row.bText.isEmpty();
   const auto number = [&none](std::optional<double> value) {
     return value ? valueText(*value) : none;

@@ -39,7 +39,7 @@ QString csv(const QString& text) {
 }
 
 /// The desktop's "Sans Serif" is a name that only this computer knows.
-QByteArray withKnownFonts(QByteArray svg) {
+QByteArray withKnownFonts(const QByteArray& svg) {
   static const QRegularExpression family(QStringLiteral("font-family=\"([^\"]*)\""));
   QString text = QString::fromUtf8(svg);
   text.replace(family,

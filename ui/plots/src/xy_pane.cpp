@@ -46,7 +46,7 @@ void equalize(ValueLimits& x, ValueLimits& y, QSizeF size) {
 /// The title of an axis that also shows this variable: of several robots without their names, of
 /// different variables none of them alone ("TRUE_X, BELIEF_X").
 QString commonTitle(const QString& before, const QString& variable) {
-  const QString whole = curveName(variableCurve(variable));
+  QString whole = curveName(variableCurve(variable));
   const QString column = variable.section(QLatin1Char('/'), 1);
   if (before.isEmpty() || before == whole) return whole;
   QStringList columns;

@@ -108,7 +108,8 @@ FormationPlaces placesOf(std::size_t index, const link::MatchFrame& frame, bool 
     const double sign = side == link::Side::Left ? 1.0 : -1.0;
     for (std::size_t i = 0; i < own.size(); ++i) {
       const Share& share = line[i % line.size()];
-      const double row = static_cast<double>(i / line.size()) * 0.35;
+      const std::size_t rank = i / line.size();
+      const double row = static_cast<double>(rank) * 0.35;
       Point place{share.x * field.halfLength() - row, share.y * field.halfWidth()};
       double yaw = 0.0;
       if (attacks && i == 1 && kind != KickOff && kind != GoalKick) {

@@ -108,13 +108,13 @@ QVariant RefereeModel::data(const QModelIndex& index, int role) const {
   const Row& row = m_rows[static_cast<std::size_t>(index.row())];
   switch (role) {
     case Qt::DisplayRole:
-      return row.texts[index.column()];
+      return row.texts[static_cast<std::size_t>(index.column())];
     case numberRole:
       return row.number;
     case Qt::ToolTipRole:
       return index.column() == Robot   ? row.tip
              : index.column() == State ? row.stateTip
-                                       : row.texts[index.column()];
+                                       : row.texts[static_cast<std::size_t>(index.column())];
     case Qt::ForegroundRole:
       if (index.column() == Robot && row.offline) return theme().errorText;
       if (index.column() == Robot && row.texts[Robot] != QStringLiteral("good")) {

@@ -5,6 +5,7 @@
 // table. UI thread only; owned by its view.
 
 #include <QAbstractTableModel>
+#include <array>
 #include <vector>
 
 #include <robotlink/frame/live_values.h>
@@ -38,7 +39,7 @@ class RefereeModel : public QAbstractTableModel {
   struct Row {
     int number = 0;
     bool penalised = false, offline = false;
-    QString texts[columns];
+    std::array<QString, columns> texts;
     QString tip, stateTip;
     bool operator==(const Row&) const = default;
   };

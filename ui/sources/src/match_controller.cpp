@@ -116,9 +116,9 @@ FramePtr MatchController::frameAt(double time) const {
   return m_memory->frameAt(time);
 }
 
-bool MatchController::observe(std::shared_ptr<link::TickObserver> observer) {
+bool MatchController::observe(const std::shared_ptr<link::TickObserver>& observer) {
   if (!m_runner) return false;
-  m_runner->observe(std::move(observer));
+  m_runner->observe(observer);
   return true;
 }
 

@@ -151,7 +151,7 @@ void MatchEdits::performOrder(const QString& text, const QString& whatFailed,
   MatchOrder redo{whatFailed, [all](link::SimulatedMatch& match) -> Result<void> {
                     all->carriedOut = false;
                     for (auto step = all->steps.begin(); step != all->steps.end(); ++step) {
-                      const auto done = step->redo(match);
+                      auto done = step->redo(match);
                       if (done) continue;
                       while (step != all->steps.begin()) (void)(--step)->undo(match);
                       return done;

@@ -104,7 +104,7 @@ void SessionRecording::end() {
 }
 
 QString SessionRecording::folder() const {
-  const QString chosen = m_settings->value(folderKey).toString();
+  QString chosen = m_settings->value(folderKey).toString();
   if (!chosen.isEmpty()) return chosen;
   const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
   return QDir(documents).filePath(QStringLiteral("Pitchboard"));

@@ -84,7 +84,7 @@ QString VariablesModel::whyNotEditable(SourceKind source) {
 QString VariablesModel::whyNotEditable(const QModelIndex& index) const {
   const telemetry::ColumnInfo* column = columnOf(index);
   if (column == nullptr) return QStringLiteral("Only values of variables can be edited.");
-  if (const QString why = whyNotEditable(m_kind); !why.isEmpty()) return why;
+  if (QString why = whyNotEditable(m_kind); !why.isEmpty()) return why;
   if (m_moment) {
     return QStringLiteral("You can't edit the past. Press Now to return to the match.");
   }

@@ -80,7 +80,7 @@ class StateArchive : public TickObserver {
   void keep(std::optional<StateSegment> ended);
   std::shared_ptr<const StateSegment> segmentAt(std::uint64_t tick) const;
   void remember(const SimulatedMatch& match);
-  void dropMemory(std::deque<std::shared_ptr<const RobotsMemory>>::const_iterator memory);
+  void dropMemory(std::deque<std::shared_ptr<const RobotsMemory>>::iterator memory);
   bool remembersRobotsOf(const SimulatedMatch& match) const;
   const ArchiveOptions m_options;
   mutable std::mutex m_mutex;  // guards everything below

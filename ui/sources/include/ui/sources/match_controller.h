@@ -131,7 +131,7 @@ class MatchController : public FrameSource {
   void post(MatchOrder order);
   /// Adds an observer of all ticks until stopObserving() or `ending`. Returns false without a
   /// match.
-  bool observe(std::shared_ptr<link::TickObserver> observer);
+  bool observe(const std::shared_ptr<link::TickObserver>& observer);
   /// Waits for the tick in progress.
   void stopObserving(const std::shared_ptr<link::TickObserver>& observer);
 
