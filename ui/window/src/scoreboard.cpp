@@ -99,8 +99,8 @@ void Scoreboard::paintEvent(QPaintEvent*) {
   if (m_state.state.isEmpty()) return;
   const QFont tagFont = themeFont(TypeRole::Secondary, true);
   const QRect place = take(w.tag, 0);
-  const QRectF tag(place.left() + 0.5, (height() - px(20)) / 2 + 0.5, place.width() - 1,
-                   px(20) - 1);
+  const int top = (height() - px(20)) / 2;
+  const QRectF tag(place.left() + 0.5, top + 0.5, place.width() - 1, px(20) - 1);
   painter.setPen(theme().innerLine);
   painter.setBrush(theme().button);
   painter.drawRoundedRect(tag, 3, 3);

@@ -8,6 +8,7 @@
 #include <QMenu>
 #include <QPainter>
 #include <algorithm>
+#include <cmath>
 
 #include <base/angles.h>
 #include <ui/base/elide_text.h>
@@ -227,12 +228,13 @@ void StudioStatusBar::showLive(const link::MatchFrame* frame) {
 }
 
 void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
-  m_pace->setText(frame.finished ? QStringLiteral("Simulation finished")
-                  : frame.paused
-                      ? QStringLiteral("Simulation paused")
-                      : QStringLiteral("Simulation %1/s, ×%2")
-                            .arg(countText(static_cast<qulonglong>(frame.ticksPerSecond + 0.5)),
-                                 numberText(frame.speed, 2)));
+  m_pace->setText(
+      frame.finished ? QStringLiteral("Simulation finished")
+      : frame.paused
+          ? QStringLiteral("Simulation paused")
+          : QStringLiteral("Simulation %1/s, ×%2")
+                .arg(countText(static_cast<qulonglong>(std::llround(frame.ticksPerSecond))),
+                     numberText(frame.speed, 2)));
   const auto robots = frame.robots.size();
   m_world->setText(teamsText(frame) + QStringLiteral("%1, tick %2, seed %3")
                                           .arg(robots == 1
