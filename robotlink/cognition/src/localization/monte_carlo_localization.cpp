@@ -314,8 +314,9 @@ int MonteCarloLocalization::wantedParticles() {
   particles::kernels().cellsOf(poses(), grid(), m_cells.data());
   for (int i = 0; i < m_count; ++i) {
     if (m_weight[i] < least) continue;
-    const int place = m_cells[static_cast<std::size_t>(i)] * headingCells;
-    const auto cell = static_cast<std::size_t>(place + headingCell(m_now.c[i], m_now.s[i]));
+    const auto place = static_cast<std::size_t>(m_cells[static_cast<std::size_t>(i)]);
+    const auto heading = static_cast<std::size_t>(headingCell(m_now.c[i], m_now.s[i]));
+    const std::size_t cell = place * headingCells + heading;
     occupied += m_cellStamp[cell] != m_stamp;
     m_cellStamp[cell] = m_stamp;
   }
