@@ -20,7 +20,7 @@ Checks, in this order (default: all of them):
 --full adds, or takes as names:
   asan       all tests with address, leak and undefined-behaviour sanitizers
   threads    the tests in which threads work at the same time, with the thread sanitizer
-  no-pch     everything builds without precompiled headers
+  no-pch     the programs build file by file, without precompiled headers (tests never have any)
   clang      everything builds with clang, too
 Every check runs whatever the others say; the last line counts them, and the exit code is 1 when one
 failed. Missing packages (scripts/packages-*.txt) are installed.
