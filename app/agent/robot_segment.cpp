@@ -33,7 +33,8 @@ void RobotSegment::read(std::span<const link::Variable> variables,
   if (!m_view) return;
   for (const link::Variable& variable : variables) {
     const int offset = variable.type == link::VariableType::Float ? m_layout.floatOffset : 0;
-    words.push_back(m_view->word(static_cast<std::size_t>(offset) + static_cast<std::size_t>(variable.index)));
+    words.push_back(
+        m_view->word(static_cast<std::size_t>(offset) + static_cast<std::size_t>(variable.index)));
   }
 }
 

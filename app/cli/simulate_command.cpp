@@ -80,7 +80,7 @@ Result<double> momentIn(const telemetry::SessionReader& session, const Arguments
   }
   using telemetry::TimeForms;
   auto time = telemetry::sessionTime(arguments.at, session.info().start, *range,
-                                           arguments.clock ? TimeForms::Clock : TimeForms::Session);
+                                     arguments.clock ? TimeForms::Clock : TimeForms::Session);
   if (!time) return failure(time.error().code, "--at: " + time.error().message);
   return time;
 }
