@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include <base/angles.h>
@@ -26,6 +27,12 @@ constexpr double worstFit = 6.0;          // sigmas of the mean square; beyond, 
 constexpr double border = 0.3;            // m before a goal line, and beyond a touch line
 constexpr double surfacePrior = 0.35;     // of the logarithm of the rolling deceleration
 constexpr double surfaceMedian = 0.3;     // m/s^2, grass (simcore/world/field.h)
+
+// A ball that was touched before the foot hit it seems to begin to roll some ticks earlier. As
+// measured over recordings of robots whose contact is known (calibration_proof, from seed 10001
+// on).
+constexpr double touchedShare = 0.1;
+constexpr double touchedSpread = 2.0 * kickTick;
 
 enum KickKind : std::size_t { StrongKick, WeakKick, PassKick, kickKinds };
 
@@ -415,6 +422,34 @@ void fitDirections(const std::vector<Kick>& kicks, Calibration& out) {
              "kicks"});
 }
 
+/// Each candidate with each likely delay between an image and its percepts: the shorter the delay,
+/// the later the kicks began.
+std::vector<KicksAt> withDelays(std::span<const KicksAt> candidates, const MotionFit& motion) {
+  constexpr double unlikely = 1e-4;
+  std::vector<KicksAt> out;
+  for (std::size_t ticks = 0; ticks < motion.delayOfTicks.size(); ++ticks) {
+    const double share = motion.delayOfTicks[ticks];
+    if (share < unlikely) continue;
+    const double later = motion.delay - static_cast<double>(ticks) * kickTick;
+    for (const KicksAt& candidate : candidates) {
+      KicksAt& one = out.emplace_back(candidate);
+      one.logWeight += std::log(share);
+      for (double& begin : one.begins) begin += later;
+    }
+  }
+  return out;
+}
+
+/// log P(a ball is seen to begin to roll at `begin` | the foot hits it at `contact`), for one that
+/// may have been touched before.
+double logBeginLikelihood(double begin, double variance, double contact) {
+  const double square = (begin - contact) * (begin - contact);
+  const auto density = [&](double v) { return std::exp(-0.5 * square / v) / std::sqrt(v); };
+  const double untouched = density(variance);
+  const double touched = density(variance + touchedSpread * touchedSpread);
+  return std::log(1e-300 + (1.0 - touchedShare) * untouched + touchedShare * touched);
+}
+
 /// The moment of the contact: the ball begins to roll with a tick, so that all numbers of one tick
 /// look the same. A ball that loses its speed faster began later: mixed over the decelerations that
 /// are likely.
@@ -426,22 +461,28 @@ void fitContact(std::span<const KicksAt> candidates, Calibration& out) {
     return;
   }
   std::vector<double> sums(candidates.size());
+  const auto logLikelihood = [&](double starts) {
+    double most = -1e300;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const auto& [logWeight, begins, variances] = candidates[i];
+      sums[i] = logWeight;
+      for (std::size_t k = 0; k < kicks; ++k) {
+        sums[i] += logBeginLikelihood(begins[k], variances[k] + 1e-6, starts);
+      }
+      most = std::max(most, sums[i]);
+    }
+    double all = 0.0;
+    for (const double sum : sums) all += std::exp(sum - most);
+    return most + std::log(all);
+  };
+  std::map<double, double> known;  // of each tick
   const auto posterior = positivePosterior(
       out.base.kickContact, speedPrior,
       [&](double contact) {
         const double starts = std::floor(contact / kickTick + 1e-6) * kickTick;
-        double most = -1e300;
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-          sums[i] = candidates[i].logWeight;
-          for (std::size_t k = 0; k < kicks; ++k) {
-            const double off = candidates[i].begins[k] - starts;
-            sums[i] -= 0.5 * off * off / (candidates[i].variances[k] + 1e-6);
-          }
-          most = std::max(most, sums[i]);
-        }
-        double all = 0.0;
-        for (const double sum : sums) all += std::exp(sum - most);
-        return most + std::log(all);
+        const auto [found, isNew] = known.try_emplace(starts);
+        if (isNew) found->second = logLikelihood(starts);
+        return found->second;
       },
       6001);
   take(out, {key, posterior.median, posterior.low, posterior.high, kicks, "kicks"});
@@ -554,7 +595,7 @@ void fitKicks(std::span<const MotionFilter> filters, std::span<const Calibration
   for (Kick& kick : kicks) kick.covariance *= scatter;
   fitSpeeds(kicks, out);
   fitDirections(kicks, out);
-  fitContact(candidates, out);
+  fitContact(withDelays(candidates, motion), out);
   fitTimes(filters, logs, out);
 }
 

@@ -254,6 +254,7 @@ class Scoring {
 /// one tick has the same likelihood.
 struct DelayPosterior {
   GridPosterior grid;
+  std::vector<double> ofTicks;  ///< probability of 0, 1, 2… whole ticks
   int best = 0;
   double share = 1.0;  ///< deviation as a share of the prior's
 };
@@ -279,15 +280,24 @@ DelayPosterior delayPosterior(Scoring& scoring, double prior, int reach) {
   constexpr double cell = tick / perTick;
   const auto place = [](int i) { return (i + 0.5) * cell; };
   const int cells = longestDelayTicks * perTick;
+  const auto tickOf = [&](int i) { return static_cast<std::size_t>(std::lround(place(i) / tick)); };
   const auto weight = [&](int i, bool data) {
     const double value = place(i);
     const double z = std::log(value / prior) / sigmaPrior;
-    const auto d = static_cast<std::size_t>(std::lround(value / tick));
-    return -0.5 * z * z - std::log(value) + (data ? likelihood[d] : 0.0);
+    return -0.5 * z * z - std::log(value) + (data ? likelihood[tickOf(i)] : 0.0);
   };
   out.grid = posteriorOn(cells, place, [&](int i) { return weight(i, true); });
   const GridPosterior before = posteriorOn(cells, place, [&](int i) { return weight(i, false); });
   out.share = out.grid.deviation / before.deviation;
+  out.ofTicks.assign(likelihood.size(), 0.0);
+  const double most = likelihood[static_cast<std::size_t>(out.best)];
+  double all = 0.0;
+  for (int i = 0; i < cells; ++i) {
+    const double share = std::exp(weight(i, true) - most);
+    out.ofTicks[tickOf(i)] += share;
+    all += share;
+  }
+  for (double& share : out.ofTicks) share /= all;
   return out;
 }
 
@@ -454,6 +464,7 @@ MotionFit fitMotion(std::span<MotionFilter> filters, std::span<const Calibration
 
   fit.delay = scoring.delay;
   fit.delayPosterior = delay.grid;
+  fit.delayOfTicks = delay.ofTicks;
   fit.delayKnown = delay.share < 0.7;
   const auto atMode = scoring.derivativesAt(scoring.logs);
   fit.covariance = atMode.precision.ldlt().solve(Matrix::Identity(count, count));

@@ -27,7 +27,8 @@ struct MotionFit {
   MotionLogs information{};    ///< 1 - (posterior / prior)^2 of the deviation: 0 learned nothing
   std::array<GridPosterior, motionParameterCount> marginals;  ///< of the logarithms
   double delay = 0.0;                                         ///< s, whole ticks
-  GridPosterior delayPosterior;  ///< of the number in the model, which is no whole tick
+  GridPosterior delayPosterior;      ///< of the number in the model, which is no whole tick
+  std::vector<double> delayOfTicks;  ///< probability that the delay is 0, 1, 2… whole ticks
   bool delayKnown = false;
   sim::RobotModel model;  ///< the base with these values
   struct OfLog {
