@@ -213,7 +213,7 @@ class Comparison {
   void compare(SimulatedMatch& match, link::Moment moment, Thinking& who, Question question,
                const rollout::Belief& belief, const Candidates& candidates, std::uint64_t seed) {
     const link::LookaheadPlan plan =
-        link::planFor(question, link::AdvisorOptions{}.rollouts, horizon);
+        link::planFor(question, link::AdvisorOptions{}.rollouts, horizon, {});
     const auto fast = [&](std::size_t candidate) {
       return inRollouts(who, belief, candidates[candidate], plan.horizon, seed);
     };

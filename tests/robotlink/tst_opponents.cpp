@@ -16,6 +16,7 @@
 
 #include "../support/match_moment.h"
 #include "game_belief.h"
+#include "lookahead.h"
 #include "opponent_file.h"
 #include "opponent_watch.h"
 
@@ -144,6 +145,25 @@ class TestOpponents : public QObject {
     OpponentModel back;
     learnAim(back, field(), {1.5, 0.0}, {0.0, 0.5});  // backwards says nothing
     QVERIFY(back == OpponentModel{});
+  }
+
+  /// Then a keeper expects more of another place; nothing else is decided differently.
+  void theSurerThatTheyAimElsewhereTheMoreAKeeperMayGain() {
+    OpponentModel model;
+    QCOMPARE(model.aimsUnusually(), 0.0);
+    const LookaheadPlan usual = planFor(Question::Keeper, 36, 5.0, model);
+    QCOMPARE(usual.usualGain, LookaheadPlan{}.usualGain);
+    QCOMPARE(usual.gainSpread, LookaheadPlan{}.gainSpread);
+    model.aim.behind[3] = 2303;  // 0.05 of 0.55 for the usual aim, where the prior is a half
+    const double surely = 1.0 - 0.05 / 0.55 / 0.5;
+    QVERIFY(std::abs(model.aimsUnusually() - surely) < 1e-4);
+    const LookaheadPlan plan = planFor(Question::Keeper, 36, 5.0, model);
+    QVERIFY(std::abs(plan.usualGain - (1.0 - surely) * LookaheadPlan{}.usualGain) < 1e-5);
+    QVERIFY(plan.gainSpread > 3 * LookaheadPlan{}.gainSpread);
+    QCOMPARE(planFor(Question::AtBall, 36, 5.0, model).gainSpread, LookaheadPlan{}.gainSpread);
+    OpponentModel straight;
+    for (int i = 0; i < 5; ++i) learnAim(straight, field(), {1.5, 0.0}, {3.0, 0.0});
+    QCOMPARE(straight.aimsUnusually(), 0.0);
   }
 
   void walksShowThePace() {

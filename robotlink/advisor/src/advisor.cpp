@@ -149,8 +149,9 @@ class Advisor final : public CognitiveProcess {
     const Candidates candidates = candidatesFor(question, situation, thinker(), m_state.last);
     if (candidates.size() < 2) return;
     m_state.next = now + lookaheadPeriod;
-    const LookaheadPlan plan = planFor(
-        question, isFree() ? affordable() : m_options.advisor.rollouts, m_options.advisor.horizon);
+    const LookaheadPlan plan =
+        planFor(question, isFree() ? affordable() : m_options.advisor.rollouts,
+                m_options.advisor.horizon, m_state.learned);
     // Other numbers for each robot and lookahead.
     const std::uint64_t seed =
         (m_options.seed * 1000003U + static_cast<std::uint64_t>(m_options.robot.value)) * 1000003U +

@@ -40,12 +40,20 @@ void putBack(const sim::FieldSpec& field, bool oursTouchedIt, Position& end) {
 
 }  // namespace
 
-LookaheadPlan planFor(Question question, int rollouts, double horizon) {
+LookaheadPlan planFor(Question question, int rollouts, double horizon,
+                      const OpponentModel& learned) {
   // A keeper walks for seconds to where it must be when the ball is kicked, and most of its
   // rollouts end alike.
   constexpr int far = 2, looksFar = 12;
-  if (question == Question::Keeper) return {far * rollouts, far * horizon, looksFar};
-  return {rollouts, horizon};
+  if (question != Question::Keeper) return {rollouts, horizon};
+  LookaheadPlan plan{far * rollouts, far * horizon, looksFar};
+  // The behaviour is made for opponents that aim anywhere. The surer it is that these do not, the
+  // more another place may gain.
+  constexpr double spreadThen = 0.15;  // goals
+  const double surely = learned.aimsUnusually();
+  plan.usualGain *= 1.0 - surely;
+  plan.gainSpread += surely * (spreadThen - plan.gainSpread);
+  return plan;
 }
 
 double valueOfRow(const Row& row, const sim::FieldSpec& field) {
@@ -156,12 +164,11 @@ Lookahead::Gain Lookahead::gainOf(std::size_t candidate) const {
 }
 
 /// What a gain is worth that was measured so: the best of a few measured ones looks better than it
-/// is. Shrunk towards the usual gain of a candidate; both numbers are those with which advice lost
-/// least in 1 600 questions (advice_gains in tests/benchmarks).
-double Lookahead::expectedGain(const Gain& gain) {
-  constexpr double usual = -0.02, spread = 0.03;  // goals
-  const double share = spread * spread / (spread * spread + gain.error * gain.error);
-  return share * gain.mean + (1.0 - share) * usual;
+/// is. Shrunk towards the usual gain of a candidate.
+double Lookahead::expectedGain(const Gain& gain) const {
+  const double variance = m_plan.gainSpread * m_plan.gainSpread;
+  const double share = variance / (variance + gain.error * gain.error);
+  return share * gain.mean + (1.0 - share) * m_plan.usualGain;
 }
 
 /// The best is suggested if it is expected to gain.

@@ -127,6 +127,10 @@ std::vector<double> OpponentModel::paceShares() const {
   return sharesOf(pace, usualPace);
 }
 
+double OpponentModel::aimsUnusually() const {
+  return std::max(0.0, 1.0 - aimShares()[usualAim] / usualShare);
+}
+
 int OpponentModel::summary() const {
   if (*this == OpponentModel{}) return 0;
   return 100 * (mostLikely(keeperShares()) + 1) + 10 * (mostLikely(aimShares()) + 1) +

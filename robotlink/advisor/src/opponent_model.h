@@ -61,6 +61,9 @@ struct OpponentModel {
   std::vector<double> keeperShares() const;
   std::vector<double> aimShares() const;
   std::vector<double> paceShares() const;
+  /// How sure it is that they aim at a part of the goal of their own: 0 as before anything was
+  /// learned, or less sure; 1 certainly.
+  double aimsUnusually() const;
   /// 0: nothing was learned; else 100 k + 10 a + p, the most likely keeper, aim and pace, from 1
   /// (the keeper from 1 to 10).
   int summary() const;
