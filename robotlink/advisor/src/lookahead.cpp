@@ -47,7 +47,7 @@ LookaheadPlan planFor(Question question, int rollouts, double horizon,
   constexpr int far = 2, looksFar = 12;
   if (question != Question::Keeper) return {rollouts, horizon};
   LookaheadPlan plan{far * rollouts, far * horizon, looksFar};
-  // The behaviour is made for opponents that aim anywhere. The surer it is that these do not, the
+  // The behaviour is made for the usual opponents. The surer it is that these aim elsewhere, the
   // more another place may gain.
   constexpr double spreadThen = 0.15;  // goals
   const double surely = learned.aimsUnusually();
