@@ -260,10 +260,7 @@ double logLikelihood(const std::vector<Crossing>& all, double threshold, double 
     const auto& [z, weight] = shared[i];
     logs[i] = std::log(weight) + given(std::sqrt(common) * z);
   }
-  const double most = *std::ranges::max_element(logs);
-  double sum = 0.0;
-  for (const double one : logs) sum += std::exp(one - most);
-  return most + std::log(sum);
+  return logSumExp(logs);
 }
 
 struct Crossings {

@@ -8,9 +8,18 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace pitchboard::link {
+
+/// log(sum(exp(one))) without overflow; `logs` is not empty.
+inline double logSumExp(std::span<const double> logs) {
+  const double most = *std::ranges::max_element(logs);
+  double sum = 0.0;
+  for (const double one : logs) sum += std::exp(one - most);
+  return most + std::log(sum);
+}
 
 struct GridPosterior {
   double median = 0.0, low = 0.0, high = 0.0;  ///< 50, 2.5 and 97.5 %
