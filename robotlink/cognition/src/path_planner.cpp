@@ -32,17 +32,14 @@ const std::array<Point, corners>& cornerDirections() {
   return all;
 }
 
-/// The open disc is crossed by the segment.
-bool crosses(const Obstacle& o, const Point& a, const Point& b) {
-  // Most are nowhere near; the margin is far above what the exact way rounds.
-  const double far = o.radius + 1e-6;
-  if (std::max(a.x, b.x) < o.centre.x - far || std::min(a.x, b.x) > o.centre.x + far ||
-      std::max(a.y, b.y) < o.centre.y - far || std::min(a.y, b.y) > o.centre.y + far) {
-    return false;
-  }
+/// The open disc is crossed by the segment from a to b, which is `length` long.
+bool crosses(const Obstacle& o, const Point& a, const Point& b, double length) {
   const double dx = b.x - a.x, dy = b.y - a.y;
+  const double cx = o.centre.x - a.x, cy = o.centre.y - a.y;
+  // Most are beside it; the margin is far above what the exact way rounds.
+  if (std::abs(cx * dy - cy * dx) > (o.radius + 1e-6) * length) return false;
   const double length2 = dx * dx + dy * dy;
-  const double along = (o.centre.x - a.x) * dx + (o.centre.y - a.y) * dy;
+  const double along = cx * dx + cy * dy;
   const double t = length2 > 0.0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
   return distance({a.x + t * dx, a.y + t * dy}, o.centre) < o.radius;
 }
@@ -56,12 +53,17 @@ class PathSearch {
  private:
   struct Node {
     Point point;
-    double cost;
-    int parent;
-    bool open, closed;
+    double toTarget = 0.0, cost = 0.0;  // m
+    int parent = -1;
+    bool open = false, closed = false;
+  };
+  struct Near {
+    double distance;  // of its centre, m
+    int obstacle;
   };
   bool within(const Point& p) const;
-  int firstHit(const Point& from, const Point& to) const;
+  void sortObstacles(const Point& from);
+  int firstHit(const Point& from, const Point& to, double length) const;
   void activate(std::size_t obstacle);
   Point freeTarget(const Point& target, const Point& start, bool& free) const;
   bool search();
@@ -69,6 +71,8 @@ class PathSearch {
 
   double m_halfLength = 0.0, m_halfWidth = 0.0;
   std::vector<Obstacle> m_obstacles;
+  double m_largest = 0.0;    // radius of an obstacle
+  std::vector<Near> m_near;  // all of them, the nearest to the node that is expanded first
   std::vector<char> m_active;
   std::vector<Node> m_nodes;     // 0 start, 1 target, then corners
   std::vector<int> m_hit;        // obstacles that stood in the way of the last search
@@ -80,19 +84,24 @@ bool PathSearch::within(const Point& p) const {
   return std::abs(p.x) <= m_halfLength && std::abs(p.y) <= m_halfWidth;
 }
 
-/// The obstacle nearest to `from` that the segment crosses, or -1.
-int PathSearch::firstHit(const Point& from, const Point& to) const {
-  int hit = -1;
-  double nearest = std::numeric_limits<double>::infinity();
+void PathSearch::sortObstacles(const Point& from) {
+  m_near.clear();
   for (std::size_t i = 0; i < m_obstacles.size(); ++i) {
-    if (!crosses(m_obstacles[i], from, to)) continue;
-    const double d = distance(from, m_obstacles[i].centre);
-    if (d < nearest) {
-      nearest = d;
-      hit = static_cast<int>(i);
-    }
+    m_near.push_back({distance(from, m_obstacles[i].centre), static_cast<int>(i)});
   }
-  return hit;
+  std::ranges::sort(m_near, [](const Near& a, const Near& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.obstacle < b.obstacle;
+  });
+}
+
+/// The obstacle nearest to `from` that the segment crosses, or -1.
+int PathSearch::firstHit(const Point& from, const Point& to, double length) const {
+  const double reach = length + m_largest + 1e-6;
+  for (const auto& [centre, obstacle] : m_near) {
+    if (centre > reach) break;
+    if (crosses(m_obstacles[static_cast<std::size_t>(obstacle)], from, to, length)) return obstacle;
+  }
+  return -1;
 }
 
 void PathSearch::activate(std::size_t obstacle) {
@@ -110,7 +119,7 @@ void PathSearch::activate(std::size_t obstacle) {
       // The two overlap: who goes round one has to go round the other.
       activate(static_cast<std::size_t>(covering - m_obstacles.begin()));
     } else if (within(p)) {
-      m_nodes.push_back({p, 0.0, -1, false, false});
+      m_nodes.push_back({.point = p});
     }
   }
 }
@@ -137,16 +146,18 @@ Point PathSearch::freeTarget(const Point& target, const Point& start, bool& free
 
 /// A* over the present corners. Notes the obstacles that stood in the way.
 bool PathSearch::search() {
-  for (Node& node : m_nodes) node = {node.point, 0.0, -1, false, false};
-  m_nodes[0].open = true;
   const Point target = m_nodes[1].point;
+  for (Node& node : m_nodes) {
+    node = {.point = node.point, .toTarget = distance(node.point, target)};
+  }
+  m_nodes[0].open = true;
   int nearest = 0;
   for (;;) {
     int best = -1;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < m_nodes.size(); ++i) {
       if (!m_nodes[i].open) continue;
-      const double estimate = m_nodes[i].cost + distance(m_nodes[i].point, target);
+      const double estimate = m_nodes[i].cost + m_nodes[i].toTarget;
       if (estimate < least) {
         least = estimate;
         best = static_cast<int>(i);
@@ -156,20 +167,19 @@ bool PathSearch::search() {
     Node& node = m_nodes[static_cast<std::size_t>(best)];
     node.open = false;
     node.closed = true;
-    if (distance(node.point, target) <
-        distance(m_nodes[static_cast<std::size_t>(nearest)].point, target)) {
-      nearest = best;
-    }
+    if (node.toTarget < m_nodes[static_cast<std::size_t>(nearest)].toTarget) nearest = best;
     if (best == 1) {
       m_end = 1;
       return true;
     }
+    sortObstacles(node.point);
     for (std::size_t i = 1; i < m_nodes.size(); ++i) {
       Node& other = m_nodes[i];
       if (other.closed) continue;
-      const double cost = node.cost + distance(node.point, other.point);
+      const double length = distance(node.point, other.point);
+      const double cost = node.cost + length;
       if (other.open && other.cost <= cost) continue;
-      const int blocker = firstHit(node.point, other.point);
+      const int blocker = firstHit(node.point, other.point, length);
       if (blocker >= 0) {
         m_hit.push_back(blocker);
         continue;
@@ -190,15 +200,18 @@ Path PathSearch::plan(const Point& start, const Point& target, std::span<const O
   Path path;
   if (!finite(start) || !finite(target)) return path;
   m_obstacles.clear();
+  m_largest = 0.0;
   for (Obstacle o : obstacles) {
     if (!finite(o.centre) || !std::isfinite(o.radius)) continue;
     o.radius = std::min(o.radius, distance(o.centre, start) - rim);
-    if (o.radius > 0.0) m_obstacles.push_back(o);
+    if (o.radius <= 0.0) continue;
+    m_obstacles.push_back(o);
+    m_largest = std::max(m_largest, o.radius);
   }
   m_active.assign(m_obstacles.size(), 0);
   m_nodes.clear();
-  m_nodes.push_back({start, 0.0, -1, false, false});
-  m_nodes.push_back({freeTarget(target, start, path.targetFree), 0.0, -1, false, false});
+  m_nodes.push_back({.point = start});
+  m_nodes.push_back({.point = freeTarget(target, start, path.targetFree)});
 
   for (;;) {
     m_hit.clear();
